@@ -1,0 +1,41 @@
+// The text header of an ENVI raster.
+#pragma once
+
+#include "Formats/SampleType.h"
+#include "Formats/SpectralImageFile.h"
+#include "Formats/SpectralImageWriter.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace msi
+{
+
+struct EnviHeader
+{
+  SpectralImageInfo info; // in the order of the file; everything but 'format'
+  Interleave interleave = Interleave::BSQ;
+  SampleType type = SampleType::UInt8;
+  ByteOrder byteOrder = ByteOrder::Little;
+  std::int64_t headerOffset = 0;
+
+  // headerOffset and all samples; the parser made sure that it fits.
+  std::int64_t expectedFileSize() const noexcept;
+};
+
+// True for a text that begins with the word ENVI.
+bool looksLikeEnviHeader(std::string_view beginning) noexcept;
+
+// Keys in upper or lower case with any spacing; values in braces over several lines; comments with ;
+// Wavelengths in nm, um, mm, cm, m, Angstrom or as wavenumber become nm. Without units they are nm from
+// 100 up and um below 100.
+// Errors: FormatError naming line and key: a missing key, a value that is none, complex or unknown data
+//         types, lists whose length is not the number of bands, compressed files, frame offsets.
+EnviHeader parseEnviHeader(const std::string& file, const std::string& text);
+
+// The text for a header. Errors: std::invalid_argument for Int8, which ENVI does not have.
+std::string enviHeaderText(const EnviHeader& header);
+
+} // namespace msi

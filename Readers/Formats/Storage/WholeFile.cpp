@@ -1,0 +1,89 @@
+#include "Formats/Storage/WholeFile.h"
+
+#include "Formats/FormatError.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace msi
+{
+
+namespace
+{
+[[noreturn]] void throwUnreadable(const std::string& path, const std::string& reason)
+{
+  throw FormatError(path, "cannot be read (" + reason + ")", "a readable file",
+    "check the name and the access rights");
+}
+}
+
+void requireReadableFile(const std::string& path)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::directory)
+  {
+    throw FormatError(path, "is a folder", "a file", "name a file in it");
+  }
+  if (!std::filesystem::exists(status))
+  {
+    throwUnreadable(path, "No such file or directory");
+  }
+  if (!std::filesystem::is_regular_file(status))
+  {
+    throw FormatError(path, "is no ordinary file", "a file", "copy its content into a file");
+  }
+  errno = 0;
+  if (!std::ifstream(path, std::ios::binary))
+  {
+    throwUnreadable(path, std::strerror(errno));
+  }
+}
+
+std::string readFileBeginning(const std::string& path, std::size_t count)
+{
+  requireReadableFile(path);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  std::string bytes(error ? 0 : std::min<std::size_t>(size, count), '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream)
+  {
+    throwUnreadable(path, "input/output error");
+  }
+  return bytes;
+}
+
+std::string readWholeFile(const std::string& path)
+{
+  return readFileBeginning(path, std::string::npos);
+}
+
+std::string readTextFile(const std::string& path, const std::string& expected)
+{
+  std::string text = readWholeFile(path);
+  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+  {
+    text.erase(0, 3);
+  }
+  if (text.compare(0, 2, "\xFF\xFE") == 0 || text.compare(0, 2, "\xFE\xFF") == 0)
+  {
+    throw FormatError(path, "is UTF-16 text", expected + " in UTF-8", "save it as UTF-8");
+  }
+  if (std::memchr(text.data(), '\0', text.size()) != nullptr)
+  {
+    throw FormatError(path, "is a binary file", expected, "name another file");
+  }
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+  {
+    throw FormatError(path, "is empty", expected, "check how it was written");
+  }
+  return text;
+}
+
+} // namespace msi

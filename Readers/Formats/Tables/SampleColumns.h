@@ -1,0 +1,24 @@
+// From a table of text with a header to samples.
+#pragma once
+
+#include "Formats/SampleTable.h"
+#include "Formats/Text/TextTable.h"
+
+namespace msi
+{
+
+// table.rows[0] is the header. Every reflectance and response cell must be a finite number.
+// Errors: FormatError naming line, column and the column's name.
+SampleTable samplesFromText(const TextTable& table, ReflectanceUnit unit);
+
+// Throws FormatError naming the first row whose cells are not as many as the header's.
+void requireRectangular(const TextTable& table);
+
+// The finite number in a cell, or FormatError naming the cell's column.
+double requireNumber(
+  const TextTable& table, const TextCell& cell, std::string_view columnName, const char* kind);
+
+// True when the first row holds numbers only, and they are not wavelengths of columns.
+bool isHeaderless(const TextTable& table);
+
+} // namespace msi

@@ -1,0 +1,130 @@
+#include "SampleTableConversion.h"
+
+#include "SampleColumns.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+#include "vtkVariant.h"
+
+#include <charconv>
+#include <set>
+
+namespace msi
+{
+
+namespace
+{
+void addMetadata(const MetadataColumn& metadata, vtkTable* table)
+{
+  const auto numbers = metadata.numbers();
+  if (!numbers.empty())
+  {
+    vtkNew<vtkDoubleArray> column;
+    column->SetName(metadata.name.c_str());
+    for (const double number : numbers)
+    {
+      column->InsertNextValue(number);
+    }
+    table->AddColumn(column);
+    return;
+  }
+  vtkNew<vtkStringArray> column;
+  column->SetName(metadata.name.c_str());
+  for (const auto& text : metadata.text)
+  {
+    column->InsertNextValue(text);
+  }
+  table->AddColumn(column);
+}
+
+SpectralAxis channelAxis(const SampleTable& samples)
+{
+  if (samples.channelWavelengths)
+  {
+    return axisOf(*samples.channelWavelengths);
+  }
+  SpectralAxis axis;
+  for (Eigen::Index i = 0; i < samples.responses.rows(); ++i)
+  {
+    axis.names.push_back("C" + std::to_string(i + 1));
+  }
+  return axis;
+}
+
+std::string cellText(vtkAbstractArray* column, vtkIdType row)
+{
+  if (auto* numbers = vtkDataArray::SafeDownCast(column))
+  {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof(text), numbers->GetComponent(row, 0));
+    return std::string(text, end.ptr);
+  }
+  return column->GetVariantValue(row).ToString();
+}
+}
+
+void toVTK(const SampleTable& samples, vtkTable* table)
+{
+  for (const auto& metadata : samples.metadata)
+  {
+    addMetadata(metadata, table);
+  }
+  if (samples.hasReflectance())
+  {
+    setSpectra(
+      table, SampleQuantity::Reflectance, axisOf(*samples.wavelengths), samples.reflectance);
+  }
+  if (samples.hasResponses())
+  {
+    setSpectra(table, SampleQuantity::Response, channelAxis(samples), samples.responses);
+  }
+}
+
+SampleTable fromVTK(vtkTable* table)
+{
+  SampleTable samples;
+  std::set<std::string> spectral;
+  const auto take = [&](SampleQuantity quantity)
+  {
+    auto spectra = findSpectra(table, quantity);
+    if (spectra)
+    {
+      spectral.insert(spectra->columns.begin(), spectra->columns.end());
+    }
+    return spectra;
+  };
+  if (auto reflectance = take(SampleQuantity::Reflectance))
+  {
+    samples.wavelengths = reflectance->axis.wavelengths;
+    samples.reflectance = std::move(reflectance->values);
+  }
+  if (auto responses = take(SampleQuantity::Response))
+  {
+    samples.channelWavelengths = responses->axis.wavelengths;
+    for (const auto& name : responses->axis.names)
+    {
+      samples.channelNames.push_back(responses->axis.wavelengths ? "C" + name : name);
+    }
+    samples.responses = std::move(responses->values);
+  }
+  for (vtkIdType i = 0; i < table->GetNumberOfColumns(); ++i)
+  {
+    auto* column = table->GetColumn(i);
+    const std::string name = column->GetName() ? column->GetName() : "";
+    if (spectral.count(name) > 0)
+    {
+      continue;
+    }
+    MetadataColumn metadata{ name, {} };
+    for (vtkIdType row = 0; row < column->GetNumberOfTuples(); ++row)
+    {
+      metadata.text.push_back(cellText(column, row));
+    }
+    samples.metadata.push_back(std::move(metadata));
+  }
+  return samples;
+}
+
+} // namespace msi

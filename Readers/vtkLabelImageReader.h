@@ -1,0 +1,57 @@
+/**
+ * @class   vtkLabelImageReader
+ * @brief   Reads an image whose values name regions: 0 for none, 1, 2, ... for the patches of a chart
+ *
+ * PNG or TIFF with one integer channel, unscaled. The output has the point array "Label" (int). The top
+ * row of the file is the last row of the image, as in the Spectral Image Reader.
+ */
+#ifndef vtkLabelImageReader_h
+#define vtkLabelImageReader_h
+
+#include "MultispectralReadersModule.h"
+#include "vtkImageAlgorithm.h"
+
+#include <memory>
+#include <string>
+
+namespace msi
+{
+struct LabelImage;
+}
+
+class MULTISPECTRALREADERS_EXPORT vtkLabelImageReader : public vtkImageAlgorithm
+{
+public:
+  static vtkLabelImageReader* New();
+  vtkTypeMacro(vtkLabelImageReader, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The label image.
+   */
+  vtkSetStdStringFromCharMacro(FileName);
+  vtkGetCharFromStdStringMacro(FileName);
+  ///@}
+
+protected:
+  vtkLabelImageReader();
+  ~vtkLabelImageReader() override;
+
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkLabelImageReader(const vtkLabelImageReader&) = delete;
+  void operator=(const vtkLabelImageReader&) = delete;
+
+  void Open();
+
+  std::string FileName;
+  std::unique_ptr<msi::LabelImage> Image;
+  vtkMTimeType OpenTime = 0;
+};
+
+#endif

@@ -1,0 +1,67 @@
+#include "vtkSampleTableWriter.h"
+
+#include "SampleTableConversion.h"
+
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkTable.h"
+
+#include "Formats/SampleTable.h"
+
+#include <exception>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkSampleTableWriter);
+
+namespace
+{
+bool endsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+}
+
+void vtkSampleTableWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+}
+
+int vtkSampleTableWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+  return 1;
+}
+
+void vtkSampleTableWriter::WriteData()
+{
+  auto* table = vtkTable::SafeDownCast(this->GetInput());
+  auto* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller && controller->GetLocalProcessId() > 0)
+  {
+    return; // small tables stand whole on the first rank
+  }
+  try
+  {
+    if (this->FileName.empty())
+    {
+      throw std::invalid_argument("no file is given; set FileName");
+    }
+    const auto samples = msi::fromVTK(table);
+    if (endsWith(this->FileName, ".ti3") || endsWith(this->FileName, ".cie"))
+    {
+      msi::writeSampleTableCgats(this->FileName, samples);
+    }
+    else
+    {
+      msi::writeSampleTableCsv(this->FileName, samples);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+    vtkErrorMacro(<< error.what());
+  }
+}

@@ -1,0 +1,75 @@
+// How well a method's estimates of held-out samples do, and the figures of all draws.
+#ifndef HeldOutFigures_h
+#define HeldOutFigures_h
+
+#include "NameList.h"
+
+#include "Kernels/Colorimetry/CIELAB.h"
+#include "Kernels/Colorimetry/TristimulusTransform.h"
+#include "Kernels/Estimation/MethodComparison.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+class vtkMultiProcessController;
+
+namespace msi
+{
+
+// mean, median, p95, max
+constexpr std::size_t FigureCount = 4;
+using Figures = std::array<double, FigureCount>;
+
+// Immutable. The constructor throws std::invalid_argument for an illuminant or observer not known.
+class HeldOutJudge
+{
+public:
+  // 'target' is the measured reflectance of all samples, bands x samples.
+  HeldOutJudge(const WavelengthGrid& bands, const std::vector<std::string>& illuminants,
+    const std::string& observer, const Eigen::MatrixXd& target);
+
+  // rms, dE00 of each illuminant, coverage95.
+  const std::vector<ErrorName>& metrics() const { return Metrics; }
+
+  // In the order of metrics(); coverage is NaN for a method that does not know its uncertainty.
+  std::vector<Figures> operator()(
+    const MethodEstimate& estimate, const std::vector<Eigen::Index>& heldOut) const;
+
+private:
+  struct Color
+  {
+    TristimulusTransform tristimulus;
+    CIELAB space;
+    Eigen::Matrix3Xd targetLab;
+  };
+
+  Eigen::MatrixXd Target;
+  std::vector<Color> Colors;
+  std::vector<ErrorName> Metrics;
+};
+
+// All figures of all draws: [tuning count][draw][method][metric][figure].
+class FigureStore
+{
+public:
+  FigureStore(std::size_t counts, std::size_t draws, std::size_t methods, std::size_t metrics);
+
+  double* at(std::size_t count, std::size_t draw, std::size_t method, std::size_t metric);
+
+  // Every figure was computed on one rank and is zero on the others. Null: this process has all.
+  void sumOverRanks(vtkMultiProcessController* controller);
+
+private:
+  std::size_t Draws;
+  std::size_t Methods;
+  std::size_t Metrics;
+  std::vector<double> Values;
+};
+
+} // namespace msi
+
+#endif

@@ -1,0 +1,108 @@
+/**
+ * @class   vtkMethodComparison
+ * @brief   How well each estimation method does on a target medium, on samples held out
+ *
+ * Input 0 is the calibration table (a chart), input 1 the table of the target medium, both with measured
+ * reflectance and responses. For every number of tuning samples, and for each of Draws random choices of
+ * that many samples of the target, every method is fitted and judged on the target samples left over.
+ *
+ * Output 0, results: method, channels, tuning, metric, illuminant, mean, median, p95, max; each figure is
+ * the mean over draws of that statistic over the held-out samples. Metrics: rms (reflectance factor), dE00
+ * per illuminant, and coverage95 of methods that know their uncertainty (the share of held-out values
+ * within 1.96 standard deviations; in mean).
+ * Output 1, draws: the same per draw. Output 2, spectra: wavelength, measured and one column per method,
+ * for a typical held-out sample (median rms of the first method) of draw 1; with "transfer -2s" and
+ * "transfer +2s". Output 3, curves: one row per number of tuning samples, "tuning" and the mean rms of each
+ * method.
+ *
+ * Draws run in threads and are spread over ranks; the numbers do not depend on how many there are.
+ */
+#ifndef vtkMethodComparison_h
+#define vtkMethodComparison_h
+
+#include "MultispectralFiltersCalibrationModule.h"
+#include "vtkTableAlgorithm.h"
+
+#include <string>
+
+class MULTISPECTRALFILTERSCALIBRATION_EXPORT vtkMethodComparison : public vtkTableAlgorithm
+{
+public:
+  static vtkMethodComparison* New();
+  vtkTypeMacro(vtkMethodComparison, vtkTableAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Methods by name, separated by commas or spaces: direct, pinv, pooled, r-model, banded, transfer.
+   * Default all of them.
+   */
+  vtkSetStdStringFromCharMacro(Methods);
+  vtkGetCharFromStdStringMacro(Methods);
+  ///@}
+
+  ///@{
+  /**
+   * Numbers of tuning samples, separated by commas or spaces. Default "16".
+   */
+  vtkSetStdStringFromCharMacro(TuningSamples);
+  vtkGetCharFromStdStringMacro(TuningSamples);
+  ///@}
+
+  ///@{
+  /**
+   * Random choices of tuning samples. Range 1 .. 100000, default 10.
+   */
+  vtkSetClampMacro(Draws, int, 1, 100000);
+  vtkGetMacro(Draws, int);
+  ///@}
+
+  ///@{
+  /**
+   * Seed of the choices; the same seed gives the same choices on every machine. Default 1.
+   */
+  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /**
+   * CIE illuminants of the color difference, separated by commas or spaces; default "D65, F2".
+   */
+  vtkSetStdStringFromCharMacro(Illuminants);
+  vtkGetCharFromStdStringMacro(Illuminants);
+  ///@}
+
+  ///@{
+  /**
+   * "CIE 1931 2 degree" (default) or "CIE 1964 10 degree".
+   */
+  vtkSetStdStringFromCharMacro(Observer);
+  vtkGetCharFromStdStringMacro(Observer);
+  ///@}
+
+protected:
+  vtkMethodComparison();
+  ~vtkMethodComparison() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkMethodComparison(const vtkMethodComparison&) = delete;
+  void operator=(const vtkMethodComparison&) = delete;
+
+  std::string Methods = "direct, pinv, pooled, r-model, banded, transfer";
+  std::string TuningSamples = "16";
+  int Draws = 10;
+  int Seed = 1;
+  std::string Illuminants = "D65, F2";
+  std::string Observer = "CIE 1931 2 degree";
+};
+
+#endif

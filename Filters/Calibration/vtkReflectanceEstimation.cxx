@@ -1,0 +1,212 @@
+#include "vtkReflectanceEstimation.h"
+
+#include "AlgorithmSupport.h"
+#include "SampleColumns.h"
+#include "SpectralImage.h"
+#include "TransformTable.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkTable.h"
+
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkReflectanceEstimation);
+
+namespace
+{
+// Either kind of estimator behind one call.
+struct Estimator
+{
+  msi::SpectralAxis bands;
+  msi::SpectralAxis channels;
+  std::variant<msi::AffineTransform, msi::TransferEstimator> kernel;
+
+  bool knowsUncertainty() const { return std::holds_alternative<msi::TransferEstimator>(kernel); }
+
+  template <typename T>
+  void apply(const T* response, T* reflectance, T* uncertainty, vtkIdType pixels) const noexcept
+  {
+    if (const auto* affine = std::get_if<msi::AffineTransform>(&kernel))
+    {
+      affine->apply(response, reflectance, pixels);
+    }
+    else if (const auto* transfer = std::get_if<msi::TransferEstimator>(&kernel))
+    {
+      transfer->apply(response, reflectance, uncertainty, pixels);
+    }
+  }
+};
+
+Estimator readEstimator(vtkTable* transformTable, vtkTable* metamerismTable)
+{
+  const std::string name = "the reflectance transform";
+  auto transform = msi::readTransform(transformTable, name);
+  if (std::holds_alternative<msi::MetamerismTransform>(transform))
+  {
+    throw std::invalid_argument(
+      name + " is a metamerism transform; connect it to the third input instead");
+  }
+  if (auto* model = std::get_if<msi::TransferModel>(&transform))
+  {
+    return { model->bands, model->channels, model->estimator };
+  }
+  auto& reflectance = std::get<msi::ReflectanceTransform>(transform);
+  if (!metamerismTable)
+  {
+    return { reflectance.bands, reflectance.channels, reflectance.transform };
+  }
+  const std::string nameOfD = "the metamerism transform";
+  const auto second = msi::readTransform(metamerismTable, nameOfD);
+  const auto* metamerism = std::get_if<msi::MetamerismTransform>(&second);
+  if (!metamerism)
+  {
+    throw std::invalid_argument(nameOfD + " has no column 'channel'; it is something else");
+  }
+  msi::requireSameChannels(metamerism->channels, nameOfD, reflectance.channels, name);
+  return { reflectance.bands, metamerism->channels,
+    msi::AffineTransform::compose(reflectance.transform, metamerism->transform) };
+}
+
+template <typename ArrayType>
+vtkSmartPointer<ArrayType> newArray(const char* name, std::size_t components, vtkIdType tuples)
+{
+  auto array = vtkSmartPointer<ArrayType>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(components));
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+template <typename ArrayType>
+void estimateImage(vtkAlgorithm* self, const Estimator& estimator, vtkDataArray* responses,
+  bool withUncertainty, vtkImageData* output)
+{
+  auto input = vtkSmartPointer<ArrayType>(ArrayType::FastDownCast(responses));
+  if (!input)
+  {
+    input = newArray<ArrayType>("", estimator.channels.size(), 0);
+    input->DeepCopy(responses);
+  }
+  const vtkIdType pixels = input->GetNumberOfTuples();
+  auto reflectance = newArray<ArrayType>(msi::ReflectanceArray, estimator.bands.size(), pixels);
+  vtkSmartPointer<ArrayType> uncertainty;
+  if (withUncertainty)
+  {
+    uncertainty = newArray<ArrayType>(msi::UncertaintyArray, estimator.bands.size(), pixels);
+  }
+  const auto channels = static_cast<vtkIdType>(estimator.channels.size());
+  const auto bands = static_cast<vtkIdType>(estimator.bands.size());
+  const auto* in = input->GetPointer(0);
+  auto* out = reflectance->GetPointer(0);
+  auto* deviation = uncertainty ? uncertainty->GetPointer(0) : nullptr;
+  msi::forBlocks(self, pixels,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      estimator.apply(in + begin * channels, out + begin * bands,
+        deviation ? deviation + begin * bands : nullptr, end - begin);
+    });
+  msi::setAxis(output, reflectance, estimator.bands);
+  msi::replaceArray(output, responses, reflectance);
+  if (uncertainty)
+  {
+    msi::setAxis(output, uncertainty, estimator.bands);
+    output->GetPointData()->AddArray(uncertainty);
+  }
+}
+}
+
+vtkReflectanceEstimation::vtkReflectanceEstimation()
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(1);
+}
+
+void vtkReflectanceEstimation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ResponseArray: " << this->ResponseArray << "\n"
+     << indent << "Uncertainty: " << this->Uncertainty << "\n";
+}
+
+int vtkReflectanceEstimation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+  if (port == 0)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  }
+  else if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkReflectanceEstimation::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+  msi::requestWhole(inputs, 1);
+  msi::requestWhole(inputs, 2);
+  return 1;
+}
+
+int vtkReflectanceEstimation::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return msi::runAlgorithm(this, outputs,
+    [&]
+    {
+      const auto estimator =
+        readEstimator(vtkTable::GetData(inputs[1]), vtkTable::GetData(inputs[2]));
+      const bool uncertainty = estimator.knowsUncertainty() && this->Uncertainty != 1;
+
+      if (auto* table = vtkTable::GetData(inputs[0]))
+      {
+        const auto responses =
+          msi::requireSpectra(table, msi::SampleQuantity::Response, "the sample table");
+        msi::requireSameChannels(
+          responses.axis, "the sample table", estimator.channels, "the reflectance transform");
+        Eigen::MatrixXd reflectance(estimator.bands.size(), responses.values.cols());
+        Eigen::MatrixXd deviation(uncertainty ? reflectance.rows() : 0, reflectance.cols());
+        estimator.apply(responses.values.data(), reflectance.data(),
+          uncertainty ? deviation.data() : nullptr, responses.values.cols());
+        auto* output = vtkTable::GetData(outputs, 0);
+        output->ShallowCopy(table);
+        msi::setSpectra(output, msi::SampleQuantity::Estimate, estimator.bands, reflectance);
+        if (uncertainty)
+        {
+          msi::setSpectra(output, msi::SampleQuantity::Uncertainty, estimator.bands, deviation);
+        }
+        return;
+      }
+      auto* image = vtkImageData::GetData(inputs[0]);
+      if (!image)
+      {
+        throw std::invalid_argument(
+          "the first input is neither an image of camera responses nor a sample table");
+      }
+      auto* responses = msi::requireSpectralArray(image, "the image", this->ResponseArray.c_str());
+      msi::requireSameChannels(msi::axisOf(image, responses), "the image", estimator.channels,
+        "the reflectance transform");
+      auto* output = vtkImageData::GetData(outputs, 0);
+      output->ShallowCopy(image);
+      if (responses->GetDataType() == VTK_DOUBLE)
+      {
+        estimateImage<vtkDoubleArray>(
+          this, estimator, responses, uncertainty && this->Uncertainty == 2, output);
+      }
+      else
+      {
+        estimateImage<vtkFloatArray>(
+          this, estimator, responses, uncertainty && this->Uncertainty == 2, output);
+      }
+    });
+}

@@ -1,0 +1,65 @@
+/**
+ * @class   vtkReflectanceEstimation
+ * @brief   Spectral reflectance from camera responses
+ *
+ * Input 0 is an image of camera responses or a sample table with responses (C400, ..). Input 1 is a
+ * reflectance transform or transfer model, input 2 (optional) a metamerism transform, as Reflectance
+ * Calibration and Metamerism Correction make them.
+ *
+ * An image gets the point array "Reflectance" in place of its responses, one component a band, with
+ * the wavelengths as field data; a table gets the columns E400, E410, .. . With a transfer model and
+ * EstimateUncertainty also "Uncertainty" or U400, U410, ..: one standard deviation of the error.
+ * A NaN stays in its pixel. Float images are computed in float, all else in double.
+ */
+#ifndef vtkReflectanceEstimation_h
+#define vtkReflectanceEstimation_h
+
+#include "MultispectralFiltersCalibrationModule.h"
+#include "vtkPassInputTypeAlgorithm.h"
+
+#include <string>
+
+class MULTISPECTRALFILTERSCALIBRATION_EXPORT vtkReflectanceEstimation
+  : public vtkPassInputTypeAlgorithm
+{
+public:
+  static vtkReflectanceEstimation* New();
+  vtkTypeMacro(vtkReflectanceEstimation, vtkPassInputTypeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The point array that holds the responses. Empty (default): the active scalars.
+   */
+  vtkSetStdStringFromCharMacro(ResponseArray);
+  vtkGetCharFromStdStringMacro(ResponseArray);
+  ///@}
+
+  ///@{
+  /**
+   * Also give the standard uncertainty of each band where the transform knows it. Default on for
+   * tables and off for images, where it doubles the memory: AUTOMATIC (0), OFF (1), ON (2).
+   */
+  vtkSetClampMacro(Uncertainty, int, 0, 2);
+  vtkGetMacro(Uncertainty, int);
+  ///@}
+
+protected:
+  vtkReflectanceEstimation();
+  ~vtkReflectanceEstimation() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkReflectanceEstimation(const vtkReflectanceEstimation&) = delete;
+  void operator=(const vtkReflectanceEstimation&) = delete;
+
+  std::string ResponseArray;
+  int Uncertainty = 0;
+};
+
+#endif

@@ -1,0 +1,19 @@
+// Error statistics of arrays that are spread over the pieces of several ranks.
+#ifndef ErrorStatisticsReduction_h
+#define ErrorStatisticsReduction_h
+
+#include "Kernels/Difference/ErrorSummary.h"
+
+class vtkFloatArray;
+class vtkMultiProcessController;
+
+namespace msi
+{
+
+// The summary of all values of all ranks; the same bytes for any number of ranks and any split.
+// 'controller' null: this process holds everything. Collective otherwise.
+ErrorSummary summarize(vtkFloatArray* values, vtkMultiProcessController* controller);
+
+} // namespace msi
+
+#endif

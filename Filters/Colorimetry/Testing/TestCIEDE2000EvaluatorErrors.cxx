@@ -1,0 +1,115 @@
+#include "vtkCIEDE2000Evaluator.h"
+
+#include "GraySpectra.h"
+#include "Support/vtk/Runs.h"
+
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using namespace msi;
+using namespace msi::testing;
+
+std::string errorWith(vtkDataObject* estimate, vtkDataObject* reference)
+{
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, estimate);
+  if (reference)
+  {
+    evaluator->SetInputData(1, reference);
+  }
+  return errorOf(evaluator);
+}
+
+vtkSmartPointer<vtkTable> grayTable(char letter, const std::vector<double>& factors)
+{
+  auto table = vtkSmartPointer<vtkTable>::New();
+  addSpectra(table, letter, GrayGrid, grays(factors));
+  return table;
+}
+
+TEST(CIEDE2000EvaluatorErrors, AskForTheReferenceOfAnImage)
+{
+  const std::string expected =
+    "an estimated image needs a reference image of the same region as second "
+    "input (see Patch Reference Image)";
+  EXPECT_EQ(errorWith(grayImage({ 0.5 }), nullptr), expected);
+  EXPECT_EQ(errorWith(grayImage({ 0.5 }), grayTable('R', { 0.5 })), expected);
+}
+
+TEST(CIEDE2000EvaluatorErrors, NameTheSizesThatDiffer)
+{
+  EXPECT_EQ(errorWith(grayImage({ 0.1, 0.2, 0.3 }), grayImage({ 0.1, 0.2 })),
+    "the estimate has 3 x 1 pixels, but the reference has 2 x 1; both must show the same region");
+  EXPECT_EQ(errorWith(grayImage({ 0.1 }), grayImage({ 0.1, 0.2 })),
+    "the estimate has 1 x 1 pixels, but the reference has 2 x 1; both must show the same region");
+}
+
+TEST(CIEDE2000EvaluatorErrors, NameTheBandsThatDiffer)
+{
+  const auto coarse = WavelengthGrid::uniform(400, 700, 20);
+  EXPECT_EQ(errorWith(grayImage({ 0.5 }),
+              newImage(1, 1, ReflectanceArray, patternValues(coarse.size(), 1), coarse)),
+    "the estimate has 31 bands (400, 410, .., 700 nm), but the reference has 16 bands (400, 420, "
+    ".., 700 "
+    "nm); resample one of them first");
+}
+
+TEST(CIEDE2000EvaluatorErrors, NameTheNumbersOfSamplesThatDiffer)
+{
+  EXPECT_EQ(errorWith(grayTable('E', { 0.1, 0.2, 0.3 }), grayTable('R', { 0.1, 0.2 })),
+    "the estimate has 3 samples, but the reference has 2; both must list the same samples in the "
+    "same "
+    "order");
+}
+
+TEST(CIEDE2000EvaluatorErrors, NameTheColumnsThatAreMissing)
+{
+  EXPECT_EQ(errorWith(grayTable('R', { 0.1 }), nullptr),
+    "the estimate has no columns of estimated reflectance (E400, E410, ..); it has 31 other "
+    "columns");
+  EXPECT_EQ(errorWith(grayTable('E', { 0.1 }), nullptr),
+    "the estimate's own table has no columns of measured reflectance (R400, R410, ..); it has 31 "
+    "other "
+    "columns");
+  EXPECT_EQ(errorWith(grayTable('E', { 0.1 }), grayTable('E', { 0.1 })),
+    "the reference has no columns of measured reflectance (R400, R410, ..); it has 31 other "
+    "columns");
+  EXPECT_EQ(errorWith(newTable({}), nullptr), "the estimate is empty; expected a table of samples");
+}
+
+TEST(CIEDE2000EvaluatorErrors, AskForWavelengths)
+{
+  EXPECT_EQ(errorWith(newImage(1, 1, ReflectanceArray, patternValues(3, 1)),
+              newImage(1, 1, ReflectanceArray, patternValues(3, 1))),
+    "the estimate has no wavelengths (field data 'Wavelength'); color difference needs reflectance "
+    "whose "
+    "wavelengths are known");
+}
+
+TEST(CIEDE2000EvaluatorErrors, NameWhatIsNotKnown)
+{
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, grayImage({ 0.5 }));
+  evaluator->SetInputData(1, grayImage({ 0.5 }));
+  evaluator->SetIlluminants("D65, X1");
+  EXPECT_NE(errorOf(evaluator).find("'X1'"), std::string::npos);
+  evaluator->SetIlluminants("D65");
+  evaluator->SetObserver("2006");
+  EXPECT_NE(errorOf(evaluator).find("'2006'"), std::string::npos);
+  evaluator->SetObserver("10");
+  evaluator->SetReferenceArray("truth");
+  EXPECT_EQ(errorOf(evaluator), "the reference has no point array 'truth'; it has 'Reflectance'");
+}
+
+TEST(CIEDE2000EvaluatorErrors, RefuseFactorsThatAreNotPositive)
+{
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, grayImage({ 0.5 }));
+  evaluator->SetInputData(1, grayImage({ 0.5 }));
+  evaluator->SetKC(0.0);
+  EXPECT_NE(errorOf(evaluator).find("kC"), std::string::npos);
+}
+}

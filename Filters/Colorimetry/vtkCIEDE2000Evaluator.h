@@ -1,0 +1,101 @@
+/**
+ * @class   vtkCIEDE2000Evaluator
+ * @brief   Where an estimated reflectance is wrong: spectral rms and CIEDE2000
+ *
+ * Input 0 is the estimate: a spectral image, or a sample table with E400, E410, .. . Input 1 is the
+ * reference: a spectral image of the same extent and bands (NaN where nothing is known), or a table
+ * with R400, R410, .. and as many rows; it may be left out where the first table has the measured
+ * reflectance (R400, ..) too.
+ *
+ * Output 0 is input 0 with the arrays or columns "rms" (sqrt of the mean squared difference over
+ * bands, in reflectance factor) and "dE00 D65", "dE00 F2", .. (one per illuminant). Output 1 is the
+ * summary table: metric, illuminant, mean, median, p95, max, count, left_out (not finite).
+ *
+ * Where ranks hold pieces of the image, the summary covers the whole, with the same bytes for any
+ * number of ranks.
+ */
+#ifndef vtkCIEDE2000Evaluator_h
+#define vtkCIEDE2000Evaluator_h
+
+#include "MultispectralFiltersColorimetryModule.h"
+#include "vtkPassInputTypeAlgorithm.h"
+
+#include <string>
+
+class vtkMultiProcessController;
+
+class MULTISPECTRALFILTERSCOLORIMETRY_EXPORT vtkCIEDE2000Evaluator
+  : public vtkPassInputTypeAlgorithm
+{
+public:
+  static vtkCIEDE2000Evaluator* New();
+  vtkTypeMacro(vtkCIEDE2000Evaluator, vtkPassInputTypeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * CIE illuminants by name, separated by commas or spaces; default "D65, F2".
+   */
+  vtkSetStdStringFromCharMacro(Illuminants);
+  vtkGetCharFromStdStringMacro(Illuminants);
+  ///@}
+
+  ///@{
+  /**
+   * "CIE 1931 2 degree" (default) or "CIE 1964 10 degree".
+   */
+  vtkSetStdStringFromCharMacro(Observer);
+  vtkGetCharFromStdStringMacro(Observer);
+  ///@}
+
+  ///@{
+  /**
+   * The point arrays with the spectra of the two images. Empty (default): the active scalars.
+   */
+  vtkSetStdStringFromCharMacro(EstimateArray);
+  vtkGetCharFromStdStringMacro(EstimateArray);
+  vtkSetStdStringFromCharMacro(ReferenceArray);
+  vtkGetCharFromStdStringMacro(ReferenceArray);
+  ///@}
+
+  ///@{
+  /**
+   * Parametric factors of CIEDE2000; each positive, default 1. Textile work often sets KL to 2.
+   */
+  vtkSetMacro(KL, double);
+  vtkGetMacro(KL, double);
+  vtkSetMacro(KC, double);
+  vtkGetMacro(KC, double);
+  vtkSetMacro(KH, double);
+  vtkGetMacro(KH, double);
+  ///@}
+
+protected:
+  vtkCIEDE2000Evaluator();
+  ~vtkCIEDE2000Evaluator() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkCIEDE2000Evaluator(const vtkCIEDE2000Evaluator&) = delete;
+  void operator=(const vtkCIEDE2000Evaluator&) = delete;
+
+  std::string Illuminants = "D65, F2";
+  std::string Observer = "CIE 1931 2 degree";
+  std::string EstimateArray;
+  std::string ReferenceArray;
+  double KL = 1.0;
+  double KC = 1.0;
+  double KH = 1.0;
+};
+
+#endif

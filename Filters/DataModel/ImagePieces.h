@@ -1,0 +1,29 @@
+// Images whose pixels are spread over pieces and ranks.
+#ifndef ImagePieces_h
+#define ImagePieces_h
+
+#include <array>
+#include <string>
+
+class vtkImageData;
+class vtkInformation;
+
+namespace msi
+{
+
+// Two image inputs have the same size. For RequestInformation: a request for pixels that one of them
+// does not have is then never made. Throws std::invalid_argument naming both sizes, then 'remedy'.
+void requireSameSize(vtkInformation* a, const std::string& nameOfA, vtkInformation* b,
+  const std::string& nameOfB, const std::string& remedy);
+
+// An extent as VTK counts it: x, y, z, each first and last index.
+using Extent = std::array<int, 6>;
+
+// The pixels of a piece that no other piece has. Neighbouring pieces of an image share a layer of points;
+// whatever is counted over all pieces counts such a layer once, in the piece that starts with it.
+// 'input' is the information of the input port that the image came through.
+Extent ownedExtent(vtkInformation* input, vtkImageData* image);
+
+} // namespace msi
+
+#endif

@@ -1,0 +1,201 @@
+#include "SampleColumns.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+namespace msi
+{
+
+namespace
+{
+// A camera channel numbered below this is an index, from it on a wavelength in nm.
+constexpr double FirstWavelength = 100.0;
+
+struct Column
+{
+  double number;
+  vtkDataArray* values;
+};
+
+std::optional<double> numberInName(const std::string& name, char letter)
+{
+  if (name.size() < 2 || name[0] != letter)
+  {
+    return std::nullopt;
+  }
+  double number = 0.0;
+  const char* end = name.data() + name.size();
+  const auto parsed = std::from_chars(name.data() + 1, end, number, std::chars_format::fixed);
+  if (parsed.ec != std::errc() || parsed.ptr != end)
+  {
+    return std::nullopt;
+  }
+  return number;
+}
+
+const char* wordFor(SampleQuantity quantity)
+{
+  switch (quantity)
+  {
+    case SampleQuantity::Reflectance:
+      return "measured reflectance (R400, R410, ..)";
+    case SampleQuantity::Response:
+      return "camera responses (C400, C420, .. or C1, C2, ..)";
+    case SampleQuantity::Estimate:
+      return "estimated reflectance (E400, E410, ..)";
+    case SampleQuantity::Uncertainty:
+      return "uncertainty (U400, U410, ..)";
+  }
+  return "";
+}
+
+std::vector<Column> columnsOf(vtkTable* table, char letter)
+{
+  std::vector<Column> columns;
+  for (vtkIdType i = 0; i < table->GetNumberOfColumns(); ++i)
+  {
+    const char* name = table->GetColumnName(i);
+    const auto number = name ? numberInName(name, letter) : std::nullopt;
+    if (!number)
+    {
+      continue;
+    }
+    auto* values = vtkDataArray::SafeDownCast(table->GetColumn(i));
+    if (!values || values->GetNumberOfComponents() != 1)
+    {
+      throw std::invalid_argument(
+        std::string("column '") + name + "' is not a column of numbers, one per sample");
+    }
+    columns.push_back({ *number, values });
+  }
+  std::sort(columns.begin(), columns.end(),
+    [](const Column& a, const Column& b) { return a.number < b.number; });
+  for (std::size_t i = 1; i < columns.size(); ++i)
+  {
+    if (columns[i].number == columns[i - 1].number)
+    {
+      throw std::invalid_argument(std::string("columns '") + columns[i - 1].values->GetName() +
+        "' and '" + columns[i].values->GetName() + "' name the same wavelength");
+    }
+  }
+  return columns;
+}
+}
+
+std::optional<SampleSpectra> findSpectra(vtkTable* table, SampleQuantity quantity)
+{
+  const auto columns = columnsOf(table, static_cast<char>(quantity));
+  if (columns.empty())
+  {
+    return std::nullopt;
+  }
+  SampleSpectra spectra;
+  if (columns.front().number >= FirstWavelength)
+  {
+    std::vector<double> wavelengths;
+    for (const auto& column : columns)
+    {
+      wavelengths.push_back(column.number);
+    }
+    spectra.axis = axisOf(WavelengthGrid(std::move(wavelengths)));
+  }
+  else if (quantity != SampleQuantity::Response)
+  {
+    throw std::invalid_argument(std::string("column '") + columns.front().values->GetName() +
+      "' is no wavelength; expected " + wordFor(quantity) + " from 100 nm on");
+  }
+  else
+  {
+    for (const auto& column : columns)
+    {
+      spectra.axis.names.emplace_back(column.values->GetName());
+    }
+  }
+  for (const auto& column : columns)
+  {
+    spectra.columns.emplace_back(column.values->GetName());
+  }
+  const auto rows = table->GetNumberOfRows();
+  spectra.values.resize(static_cast<Eigen::Index>(columns.size()), rows);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    for (vtkIdType row = 0; row < rows; ++row)
+    {
+      spectra.values(static_cast<Eigen::Index>(i), row) = columns[i].values->GetComponent(row, 0);
+    }
+  }
+  return spectra;
+}
+
+SampleSpectra requireSpectra(
+  vtkTable* table, SampleQuantity quantity, const std::string& nameOfTable)
+{
+  if (!table || table->GetNumberOfRows() == 0)
+  {
+    throw std::invalid_argument(nameOfTable + " is empty; expected a table of samples");
+  }
+  auto spectra = findSpectra(table, quantity);
+  if (!spectra)
+  {
+    throw std::invalid_argument(nameOfTable + " has no columns of " + wordFor(quantity) +
+      "; it has " + std::to_string(table->GetNumberOfColumns()) + " other columns");
+  }
+  return std::move(*spectra);
+}
+
+void setNumbers(
+  vtkTable* table, const std::string& name, const Eigen::Ref<const Eigen::VectorXd>& values)
+{
+  vtkNew<vtkDoubleArray> column;
+  column->SetName(name.c_str());
+  column->SetNumberOfValues(values.size());
+  std::copy(values.begin(), values.end(), column->GetPointer(0));
+  table->RemoveColumnByName(name.c_str());
+  table->AddColumn(column);
+}
+
+void setSpectra(vtkTable* table, SampleQuantity quantity, const SpectralAxis& axis,
+  const Eigen::Ref<const Eigen::MatrixXd>& values)
+{
+  for (std::size_t i = 0; i < axis.size(); ++i)
+  {
+    setNumbers(table,
+      axis.wavelengths ? static_cast<char>(quantity) + axis.names[i] : axis.names[i],
+      values.row(static_cast<Eigen::Index>(i)).transpose());
+  }
+}
+
+MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameOfTable)
+{
+  auto reflectance = requireSpectra(table, SampleQuantity::Reflectance, nameOfTable);
+  auto response = requireSpectra(table, SampleQuantity::Response, nameOfTable);
+  MeasuredSamples measured{ std::move(reflectance.axis), std::move(response.axis),
+    { std::move(reflectance.values), std::move(response.values) } };
+  requireValid(measured.samples, nameOfTable);
+  return measured;
+}
+
+void copyRows(vtkTable* from, const std::vector<Eigen::Index>& rows, vtkTable* to)
+{
+  auto* source = from->GetRowData();
+  auto* target = to->GetRowData();
+  target->CopyAllOn();
+  target->CopyAllocate(source, static_cast<vtkIdType>(rows.size()));
+  vtkIdType next = 0;
+  for (const auto row : rows)
+  {
+    target->CopyData(source, row, next++);
+  }
+  // An empty choice still has the columns.
+  target->SetNumberOfTuples(next);
+  to->GetFieldData()->PassData(from->GetFieldData());
+}
+
+} // namespace msi

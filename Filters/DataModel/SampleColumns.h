@@ -1,0 +1,72 @@
+// Spectra in the columns of a vtkTable: one sample a row, one wavelength or channel a column.
+//
+// A column is named by a letter and a wavelength in nm (or, for camera channels, a number):
+//   R400  measured reflectance factor (1 = perfect white)
+//   C400  camera response (1 = perfect white); C1, C2, ... where wavelengths are not known
+//   E400  estimated reflectance factor
+//   U400  standard uncertainty of the estimate (one standard deviation)
+// All other columns are metadata (sample, medium, scene, x, y, order, label, ...) and pass through.
+#ifndef SampleColumns_h
+#define SampleColumns_h
+
+#include "SpectralAxis.h"
+
+#include "Kernels/Estimation/SampleSet.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkTable;
+
+namespace msi
+{
+
+enum class SampleQuantity : char
+{
+  Reflectance = 'R',
+  Response = 'C',
+  Estimate = 'E',
+  Uncertainty = 'U'
+};
+
+struct SampleSpectra
+{
+  SpectralAxis axis;
+  Eigen::MatrixXd values;           // axis.size() x rows
+  std::vector<std::string> columns; // the columns they came from, in the axis' order
+};
+
+// The columns of one quantity, ordered by wavelength; empty where the table has none.
+// Throws std::invalid_argument for a column that is not numeric or stands twice.
+std::optional<SampleSpectra> findSpectra(vtkTable* table, SampleQuantity quantity);
+
+// The same, but a table without such columns is an error that names them and the table.
+SampleSpectra requireSpectra(
+  vtkTable* table, SampleQuantity quantity, const std::string& nameOfTable);
+
+// Adds (or replaces) one column per component. values: axis.size() x rows.
+void setSpectra(vtkTable* table, SampleQuantity quantity, const SpectralAxis& axis,
+  const Eigen::Ref<const Eigen::MatrixXd>& values);
+
+// Adds (or replaces) one column of numbers.
+void setNumbers(
+  vtkTable* table, const std::string& name, const Eigen::Ref<const Eigen::VectorXd>& values);
+
+// A table's reflectance and response together, as the estimation kernels take them.
+struct MeasuredSamples
+{
+  SpectralAxis bands;
+  SpectralAxis channels;
+  SampleSet samples;
+};
+MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameOfTable);
+
+// Copies the chosen rows, all columns, in the given order.
+void copyRows(vtkTable* from, const std::vector<Eigen::Index>& rows, vtkTable* to);
+
+} // namespace msi
+
+#endif

@@ -1,0 +1,51 @@
+// A spectral image: vtkImageData with one point array of one component per wavelength or channel.
+//
+// The array is named "Reflectance" (1 = perfect white), "Responses" (camera responses, 1 = perfect
+// white) or, behind a reader that was told nothing, anything else. The field data carry "Wavelength"
+// (nm, one value per component). Other point arrays may stand beside it.
+#ifndef SpectralImage_h
+#define SpectralImage_h
+
+#include "SpectralAxis.h"
+
+#include "vtkSmartPointer.h"
+
+class vtkDataArray;
+class vtkDataObject;
+class vtkFloatArray;
+class vtkImageData;
+
+namespace msi
+{
+
+inline constexpr const char* ReflectanceArray = "Reflectance";
+inline constexpr const char* ResponsesArray = "Responses";
+inline constexpr const char* UncertaintyArray = "Uncertainty";
+inline constexpr const char* LabelArray = "Label";
+inline constexpr const char* WavelengthArray = "Wavelength";
+
+// The spectral array of an image: the named one, else the active scalars, else the only point array.
+// Throws std::invalid_argument, naming what the image holds, where there is none.
+vtkDataArray* requireSpectralArray(
+  vtkImageData* image, const std::string& nameOfImage, const char* arrayName = nullptr);
+
+// Throws std::invalid_argument where an array of labels has several components.
+void requireOneLabelPerPixel(vtkDataArray* labels, const std::string& nameOfImage);
+
+// The axis of that array: wavelengths from the field data where their number fits, else names from
+// the component names, else C1, C2, ...
+SpectralAxis axisOf(vtkImageData* image, vtkDataArray* array);
+
+// The array itself where it is of floats, else a copy in floats with the same names.
+vtkSmartPointer<vtkFloatArray> asFloats(vtkDataArray* array);
+
+// Puts an array in the place of another one (null: of none) and makes it the active scalars. All other arrays
+// stay; vtkPointData::SetScalars would drop the ones that were active before.
+void replaceArray(vtkImageData* image, vtkDataArray* old, vtkDataArray* array);
+
+// Names the array's components and stores the wavelengths as field data.
+void setAxis(vtkDataObject* data, vtkDataArray* array, const SpectralAxis& axis);
+
+} // namespace msi
+
+#endif

@@ -1,0 +1,93 @@
+// The names, parameters and places of the effects that make a real camera differ from its model.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace msi
+{
+
+// Where physics puts an effect. Effects act in this order; within a stage in the order of the library.
+enum class EffectStage
+{
+  Reflectance,  // the light that one medium sends to the camera
+  Responsivity, // lamp and filters: the matrix M
+  Irradiance,   // geometry and stray light: what falls on the detector
+  Detector,     // gains, coupling, curve, offset
+  Noise,        // variance only
+  Image         // needs the pixels of an image; does nothing on tables
+};
+
+// What an effect must be told beyond the samples' reflectance.
+enum class EffectNeed
+{
+  Nothing,
+  Medium,   // acts on the medium named in CameraEffect::medium
+  Position, // SceneSamples::x, y
+  Order     // SceneSamples::order
+};
+
+// One number of an effect, or one number for every channel.
+struct EffectParameter
+{
+  std::string name;
+  std::string unit;    // "1" for a plain ratio
+  double neutral;      // with all its primary parameters at neutral an effect changes no bit
+  double lower, upper; // bounds of a fit
+  double typical;      // size of a clearly visible departure from neutral: the scale of a fit
+  std::string meaning;
+  bool perChannel = false;
+  bool secondary =
+    false; // shapes an effect that another parameter turns on; a fit may hold it at neutral
+};
+
+// One way to write an effect down: "common" (one number for all channels), "per_channel", ...
+struct EffectForm
+{
+  std::string name;
+  std::string meaning; // formula
+  std::vector<EffectParameter> parameters;
+  // Further starting points of a fit, one number a parameter (the same for every channel); for forms whose
+  // error has more than one valley. May be empty.
+  std::vector<std::vector<double>> starts = {};
+};
+
+struct EffectDefinition
+{
+  std::string name;
+  std::string title;
+  std::string meaning; // physics
+  EffectStage stage;
+  EffectNeed need;
+  std::vector<EffectForm> forms; // the first is the default, the one with the fewest parameters
+};
+
+// Every effect the simulator knows, in the order in which they act.
+const std::vector<EffectDefinition>& effectLibrary();
+
+// nullptr where the name is not known. An empty form is the default form.
+const EffectDefinition* findEffect(std::string_view name) noexcept;
+const EffectForm* findForm(const EffectDefinition& effect, std::string_view form) noexcept;
+
+// One effect at work, as data.
+struct CameraEffect
+{
+  std::string name;
+  std::string form;               // empty: the default form
+  std::string medium;             // for effects that need a medium
+  std::vector<double> parameters; // as effectParameters() lists them
+};
+
+// The single numbers of an effect: in the order of its form, a parameter that is per channel spread out
+// and named "gain[550nm]". `parameters` of the effect is not looked at.
+// Errors: std::invalid_argument for an unknown effect or form, listing those known.
+std::vector<EffectParameter> effectParameters(
+  const CameraEffect& effect, const std::vector<std::string>& channels);
+
+// The effect with every parameter at its neutral value; errors as above.
+CameraEffect neutralEffect(std::string_view name, const std::vector<std::string>& channels,
+  std::string_view form = {}, std::string_view medium = {});
+
+} // namespace msi

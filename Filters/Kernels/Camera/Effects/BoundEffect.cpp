@@ -1,0 +1,95 @@
+#include "Kernels/Camera/Effects/BoundEffect.h"
+
+#include <cassert>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double BoundTolerance = 0.01;
+
+template <typename... Parts>
+[[noreturn]] void reject(const Parts&... parts)
+{
+  std::ostringstream message;
+  (message << ... << parts);
+  throw std::invalid_argument(message.str());
+}
+}
+
+BoundEffect::BoundEffect(const CameraEffect& effect, const CameraModel& camera, int medium)
+  : Definition(nullptr)
+  , Form(nullptr)
+  , Camera(&camera)
+  , Values(effect.parameters)
+  , Medium(medium)
+  , Neutral(true)
+{
+  const std::vector<EffectParameter> expected = effectParameters(effect, camera.channels());
+  Definition = findEffect(effect.name);
+  Form = findForm(*Definition, effect.form);
+  const bool needsMedium = Definition->need == EffectNeed::Medium;
+  if (needsMedium && effect.medium.empty())
+  {
+    reject("the camera effect ", effect.name, " acts on one medium; name it");
+  }
+  if (!needsMedium && !effect.medium.empty())
+  {
+    reject("the camera effect ", effect.name, " acts on all media; '", effect.medium,
+      "' cannot be its medium");
+  }
+  if (Values.size() != expected.size())
+  {
+    reject("the camera effect ", effect.name, " in the form ", Form->name, " has ", expected.size(),
+      " parameters but ", Values.size(), " are given");
+  }
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    const EffectParameter& parameter = expected[i];
+    const double margin = BoundTolerance * (parameter.upper - parameter.lower);
+    if (!(Values[i] >= parameter.lower - margin && Values[i] <= parameter.upper + margin))
+    {
+      reject("the parameter ", parameter.name, " of the camera effect ", effect.name, " is ",
+        Values[i], "; expected a value from ", parameter.lower, " to ", parameter.upper);
+    }
+    Neutral = Neutral && (parameter.secondary || Values[i] == parameter.neutral);
+  }
+}
+
+std::size_t BoundEffect::offsetOf(std::string_view parameter, bool& perChannel) const
+{
+  std::size_t offset = 0;
+  for (const EffectParameter& candidate : Form->parameters)
+  {
+    if (candidate.name == parameter)
+    {
+      perChannel = candidate.perChannel;
+      return offset;
+    }
+    offset += candidate.perChannel ? Camera->channels().size() : 1;
+  }
+  reject("the form ", Form->name, " of ", Definition->name, " has no parameter ", parameter);
+}
+
+double BoundEffect::value(std::string_view parameter) const
+{
+  bool spread = false;
+  return Values[offsetOf(parameter, spread)];
+}
+
+Eigen::ArrayXd BoundEffect::perChannel(std::string_view parameter) const
+{
+  bool spread = false;
+  const std::size_t offset = offsetOf(parameter, spread);
+  if (!spread)
+  {
+    return Eigen::ArrayXd::Constant(Camera->channelCount(), Values[offset]);
+  }
+  return Eigen::Map<const Eigen::ArrayXd>(Values.data() + offset, Camera->channelCount());
+}
+
+} // namespace msi

@@ -1,0 +1,166 @@
+// The detector's curve, offset and end.
+#include "Kernels/Camera/Effects/EffectEntry.h"
+
+#include <cmath>
+
+namespace msi
+{
+
+namespace
+{
+class DetectorNonlinearity : public BlockOperatorOf<DetectorNonlinearity>
+{
+public:
+  explicit DetectorNonlinearity(const BoundEffect& effect)
+  {
+    const std::string& form = effect.form().name;
+    if (form == "gamma")
+    {
+      Kind = Gamma;
+      Linear = effect.value("exponent");
+    }
+    else if (form == "compressive")
+    {
+      Kind = Compressive;
+      Linear = effect.value("compression");
+    }
+    else
+    {
+      // linear u + square u^2 + cube u^3
+      Square = effect.value("square");
+      Linear = form == "anchored" ? 1.0 - Square : 1.0;
+      Cube = form == "cubic" ? effect.value("cube") : 0.0;
+    }
+  }
+  template <typename Scalar>
+  void run(Block<Scalar> signal, const ColumnContext&) const noexcept
+  {
+    auto u = signal.array();
+    const auto linear = static_cast<Scalar>(Linear);
+    switch (Kind)
+    {
+      case Polynomial:
+        u *= linear + u * (static_cast<Scalar>(Square) + static_cast<Scalar>(Cube) * u);
+        break;
+      case Compressive:
+        u /= Scalar(1) + linear * u;
+        break;
+      case Gamma:
+        // One value at a time: packets of pow() and their remainders round differently.
+        signal = signal.unaryExpr(
+          [linear](Scalar value) { return value > Scalar(0) ? std::pow(value, linear) : value; });
+        break;
+    }
+  }
+
+private:
+  enum
+  {
+    Polynomial,
+    Gamma,
+    Compressive
+  } Kind = Polynomial;
+  double Linear = 1.0;
+  double Square = 0.0;
+  double Cube = 0.0;
+};
+
+class DarkOffset : public BlockOperatorOf<DarkOffset>
+{
+public:
+  explicit DarkOffset(const BoundEffect& effect)
+    : Offset(effect.perChannel("offset"))
+  {
+  }
+  template <typename Scalar>
+  void run(Block<Scalar> response, const ColumnContext&) const noexcept
+  {
+    response.array().colwise() += Offset.as<Scalar>();
+  }
+
+private:
+  ChannelValues Offset;
+};
+
+// The lower branch of a hyperbola around the corner of min(u, level).
+class Saturation : public BlockOperatorOf<Saturation>
+{
+public:
+  explicit Saturation(const BoundEffect& effect)
+    : Level(effect.value("level"))
+    , Softness(effect.value("softness"))
+  {
+  }
+  template <typename Scalar>
+  void run(Block<Scalar> response, const ColumnContext&) const noexcept
+  {
+    const auto level = static_cast<Scalar>(Level);
+    const auto width2 = static_cast<Scalar>(Softness * Softness);
+    // One value at a time: Eigen's packets of sqrt() and their remainders round differently.
+    response = response.unaryExpr(
+      [level, width2](Scalar u)
+      {
+        const Scalar beyond = u - level;
+        return Scalar(0.5) * (u + level - std::sqrt(beyond * beyond + width2));
+      });
+  }
+
+private:
+  double Level;
+  double Softness;
+};
+
+EffectParameter offset(bool perChannel)
+{
+  return { "offset", "white", 0.0, -0.2, 0.2, 0.005, "dark response beyond the model's",
+    perChannel };
+}
+}
+
+std::vector<EffectEntry> detectorEffects()
+{
+  const EffectParameter square{ "square", "1", 0.0, -0.45, 0.9, 0.05, "weight of u^2" };
+  const EffectParameter cube{ "cube", "1", 0.0, -0.45, 0.9, 0.05, "weight of u^3" };
+  return {
+    { { "detector_nonlinearity", "Detector nonlinearity",
+        "One curve for all channels between light and response.", EffectStage::Detector,
+        EffectNeed::Nothing,
+        { { "quadratic", "u + square u^2", { square } },
+          { "anchored", "(1 - square) u + square u^2: white keeps its response", { square } },
+          { "gamma", "u^exponent: white keeps its response",
+            { { "exponent", "1", 1.0, 0.4, 2.5, 0.05, "exponent" } } },
+          { "compressive", "u / (1 + compression u)",
+            { { "compression", "1", 0.0, -0.4, 2.0, 0.05, "loss at white" } } },
+          { "cubic", "u + square u^2 + cube u^3", { square, cube } } } },
+      nullptr, makeBlockOperator<DetectorNonlinearity> },
+    { { "dark_offset", "Dark offset",
+        "Dark current, bias or ambient light that the dark frame did not take away.",
+        EffectStage::Detector, EffectNeed::Nothing,
+        { { "common", "u + offset", { offset(false) } },
+          { "per_channel", "u_k + offset_k", { offset(true) } } } },
+      nullptr, makeBlockOperator<DarkOffset>, nullptr, true },
+    { { "saturation", "Saturation", "Full wells or the end of the converter.",
+        EffectStage::Detector, EffectNeed::Nothing,
+        { { "soft", "(u + level - sqrt((u - level)^2 + softness^2)) / 2, a rounded min(u, level)",
+          { { "level", "white", 8.0, 0.1, 8.0, 0.1, "largest response" },
+            { "softness", "white", 0.01, 0.001, 0.2, 0.02, "width of the rounded corner", false,
+              true } },
+          { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } } } },
+      nullptr, makeBlockOperator<Saturation>, nullptr, true },
+  };
+}
+
+std::vector<EffectEntry> noiseEffects()
+{
+  return { { { "excess_noise", "Excess noise",
+    "More scatter between repeats than the noise model says; the mean does not change.",
+    EffectStage::Noise, EffectNeed::Nothing,
+    { { "factor", "standard deviation x factor",
+        { { "factor", "1", 1.0, 0.1, 20.0, 0.3, "factor on the standard deviation" } } },
+      { "per_channel", "standard deviation x factor of the channel",
+        { { "factor", "1", 1.0, 0.1, 20.0, 0.3, "factor on the standard deviation", true } } },
+      { "added", "variance + added^2",
+        { { "added", "white", 0.0, 0.0, 0.2, 0.002, "further standard deviation" } } } } } } };
+}
+
+} // namespace msi

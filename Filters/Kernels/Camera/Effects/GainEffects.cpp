@@ -1,0 +1,98 @@
+// Linear effects of the detector and its clock.
+#include "Kernels/Camera/Effects/EffectEntry.h"
+
+namespace msi
+{
+
+namespace
+{
+class ChannelGain : public BlockOperatorOf<ChannelGain>
+{
+public:
+  explicit ChannelGain(const BoundEffect& effect)
+    : Gain(effect.perChannel("gain"))
+  {
+  }
+  template <typename Scalar>
+  void run(Block<Scalar> signal, const ColumnContext&) const noexcept
+  {
+    signal.array().colwise() *= Gain.as<Scalar>();
+  }
+
+private:
+  ChannelValues Gain;
+};
+
+// u_k + before (u_k-1 - u_k) + after (u_k+1 - u_k); at the ends the neighbour that is missing gives nothing.
+class ChannelCrosstalk : public BlockOperatorOf<ChannelCrosstalk>
+{
+public:
+  explicit ChannelCrosstalk(const BoundEffect& effect)
+    : Before(effect.value(effect.form().name == "one_sided" ? "from_previous" : "coupling"))
+    , After(effect.value(effect.form().name == "one_sided" ? "from_next" : "coupling"))
+  {
+  }
+  template <typename Scalar>
+  void run(Block<Scalar> signal, const ColumnContext&) const noexcept
+  {
+    const auto before = static_cast<Scalar>(Before);
+    const auto after = static_cast<Scalar>(After);
+    const Eigen::Index last = signal.rows() - 1;
+    for (Eigen::Index j = 0; j < signal.cols(); ++j)
+    {
+      Scalar previous = signal(0, j);
+      for (Eigen::Index k = 0; k <= last; ++k)
+      {
+        const Scalar self = signal(k, j);
+        Scalar change = before * (previous - self);
+        if (k < last)
+        {
+          change += after * (signal(k + 1, j) - self);
+        }
+        signal(k, j) = self + change;
+        previous = self;
+      }
+    }
+  }
+
+private:
+  double Before;
+  double After;
+};
+}
+
+std::vector<EffectEntry> gainEffects()
+{
+  const EffectParameter coupling{ "coupling", "1", 0.0, -0.2, 0.45, 0.01,
+    "share exchanged with each neighbour" };
+  EffectParameter previous = coupling;
+  previous.name = "from_previous";
+  previous.meaning = "share taken over from the channel before";
+  EffectParameter next = coupling;
+  next.name = "from_next";
+  next.meaning = "share taken over from the channel behind";
+  return {
+    { { "exposure_gain", "Exposure gain",
+        "All channels brighter or darker: exposure time, aperture, lamp, white tile.",
+        EffectStage::Detector, EffectNeed::Nothing,
+        { { "common", "gain u",
+          { { "gain", "1", 1.0, 0.2, 5.0, 0.03, "factor on every channel" } } } } },
+      nullptr, makeBlockOperator<ChannelGain> },
+    { { "channel_gain", "Channel gain",
+        "Every channel has an error of its own in exposure or white balance.",
+        EffectStage::Detector, EffectNeed::Nothing,
+        { { "per_channel", "gain_k u_k",
+          { { "gain", "1", 1.0, 0.2, 5.0, 0.03, "factor on the channel", true } } } } },
+      nullptr, makeBlockOperator<ChannelGain> },
+    { { "channel_crosstalk", "Channel crosstalk",
+        "A part of the neighbouring channels' signal: charge, lag between exposures, a mosaic's "
+        "leak.",
+        EffectStage::Detector, EffectNeed::Nothing,
+        { { "symmetric", "u_k + coupling (u_k-1 - u_k) + coupling (u_k+1 - u_k)", { coupling } },
+          { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
+            { previous, next } } } },
+      nullptr, makeBlockOperator<ChannelCrosstalk> },
+  };
+}
+
+} // namespace msi

@@ -1,0 +1,41 @@
+// Effects that only an image shows; ImageSimulator treats them.
+#include "Kernels/Camera/Effects/EffectEntry.h"
+
+namespace msi
+{
+
+std::vector<EffectEntry> imageEffects()
+{
+  return {
+    { { "misregistration", "Misregistration",
+      "The channels' images do not lie on one another: filters of different thickness and wedge, "
+      "chromatic "
+      "difference of magnification.",
+      EffectStage::Image, EffectNeed::Nothing,
+      { { "per_channel", "every channel is displaced and magnified about the middle of the field",
+        { { "right", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in x", true },
+          { "down", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", true },
+          { "magnification", "1", 0.0, -0.02, 0.02, 0.001, "relative growth of the image", true,
+            true } } } } } },
+    { { "defocus", "Defocus",
+      "Each filter moves the focus: the channel's image is convolved with a Gaussian.",
+      EffectStage::Image, EffectNeed::Nothing,
+      { { "common", "one blur for all channels",
+          { { "blur", "pixels", 0.0, 0.0, 8.0, 0.5, "standard deviation" } } },
+        { "per_channel", "a blur for each channel",
+          { { "blur", "pixels", 0.0, 0.0, 8.0, 0.5, "standard deviation", true } } } } } },
+    { { "lag", "Lag", "A detector keeps a part of the exposure before: that of the channel before.",
+      EffectStage::Image, EffectNeed::Nothing,
+      { { "common", "u_k + retained u_k-1",
+        { { "retained", "1", 0.0, 0.0, 0.3, 0.01, "share of the exposure before" } } } } } },
+    { { "banding", "Banding", "A gain that changes from row to row: flicker, readout.",
+      EffectStage::Image, EffectNeed::Nothing,
+      { { "sine", "u (1 + amplitude sin(2 pi (row / period + phase k)))",
+        { { "amplitude", "1", 0.0, 0.0, 0.3, 0.01, "relative" },
+          { "period", "pixels", 32.0, 2.0, 4096.0, 8.0, "rows of one cycle", false, true },
+          { "phase", "cycle", 0.25, 0.0, 1.0, 0.1, "advance from channel to channel", false,
+            true } } } } } },
+  };
+}
+
+} // namespace msi

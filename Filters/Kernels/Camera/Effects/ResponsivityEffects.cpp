@@ -1,0 +1,227 @@
+// Lamp and filters that are not what the model says.
+#include "Kernels/Camera/Effects/EffectEntry.h"
+#include "Kernels/Camera/Effects/MovedSpectrum.h"
+
+#include <cmath>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double MiddleWavelength = 550.0;
+
+// Wavelength mapped to [-1, 1] over the grid.
+Eigen::ArrayXd position(const WavelengthGrid& grid)
+{
+  if (grid.size() < 2)
+  {
+    return Eigen::ArrayXd::Zero(grid.size());
+  }
+  return 2.0 * (grid.vector().array() - grid.front()) / (grid.back() - grid.front()) - 1.0;
+}
+
+// Channel centroids; the middle of the grid where a row has no weight.
+Eigen::ArrayXd centers(const CameraModel& camera)
+{
+  const double middle = 0.5 * (camera.wavelengths().front() + camera.wavelengths().back());
+  return camera.centroids().array().unaryExpr(
+    [&](double center)
+    {
+      const bool inside =
+        center >= camera.wavelengths().front() && center <= camera.wavelengths().back();
+      return inside ? center : middle;
+    });
+}
+
+class IlluminantDrift : public ResponsivityOperator
+{
+public:
+  explicit IlluminantDrift(const BoundEffect& effect)
+  {
+    const Eigen::ArrayXd x = position(effect.camera().wavelengths());
+    Eigen::ArrayXd logarithm = effect.value("tilt") * x;
+    if (effect.form().name == "smooth")
+    {
+      logarithm += effect.value("curvature") * (1.5 * x.square() - 0.5) +
+        effect.value("twist") * (2.5 * x.cube() - 1.5 * x);
+    }
+    Factor = logarithm.exp();
+  }
+  void apply(Eigen::MatrixXd& responsivity) const override
+  {
+    responsivity.array().rowwise() *= Factor.transpose();
+  }
+
+private:
+  Eigen::ArrayXd Factor;
+};
+
+// A passband that moves over a smooth reflectance is a reflectance that moves under the passband. That side
+// can be interpolated; passbands and lamp lines are too narrow for it.
+class FilterShift : public ResponsivityOperator
+{
+public:
+  explicit FilterShift(const BoundEffect& effect)
+    : Grid(effect.camera().wavelengths())
+    , Shift(effect.perChannel("shift"))
+    , Sampled(effect.form().name == "sampled")
+  {
+    if (effect.form().name == "linear")
+    {
+      Shift += effect.value("slope") * (centers(effect.camera()) - MiddleWavelength) / 100.0;
+    }
+  }
+  void apply(Eigen::MatrixXd& responsivity) const override
+  {
+    for (Eigen::Index k = 0; k < responsivity.rows(); ++k)
+    {
+      if (k > 0 && Shift[k] == Shift[k - 1])
+      {
+        continue; // done together with the row before
+      }
+      const Eigen::Index count = rowsAlike(k);
+      auto rows = responsivity.middleRows(k, count);
+      if (Sampled)
+      {
+        const Eigen::MatrixXd moved = movedSpectrum(Grid, Grid.vector().array() - Shift[k]);
+        rows = (rows * moved.transpose()).eval();
+      }
+      else
+      {
+        rows = (rows * movedSpectrum(Grid, Grid.vector().array() + Shift[k])).eval();
+      }
+    }
+  }
+
+private:
+  Eigen::Index rowsAlike(Eigen::Index first) const
+  {
+    Eigen::Index last = first + 1;
+    while (last < Shift.size() && Shift[last] == Shift[first])
+    {
+      ++last;
+    }
+    return last - first;
+  }
+
+  WavelengthGrid Grid;
+  Eigen::ArrayXd Shift;
+  bool Sampled;
+};
+
+class FilterBandwidth : public ResponsivityOperator
+{
+public:
+  explicit FilterBandwidth(const BoundEffect& effect)
+    : Grid(effect.camera().wavelengths())
+    , Factor(effect.perChannel("factor"))
+    , Center(centers(effect.camera()))
+    , FixedPeak(effect.form().name == "fixed_peak")
+  {
+  }
+  void apply(Eigen::MatrixXd& responsivity) const override
+  {
+    const Eigen::ArrayXd wavelength = Grid.vector().array();
+    for (Eigen::Index k = 0; k < responsivity.rows(); ++k)
+    {
+      const Eigen::ArrayXd at = Center[k] + Factor[k] * (wavelength - Center[k]);
+      const double gain = FixedPeak ? Factor[k] : 1.0;
+      responsivity.row(k) = (gain * responsivity.row(k) * movedSpectrum(Grid, at)).eval();
+    }
+  }
+
+private:
+  WavelengthGrid Grid;
+  Eigen::ArrayXd Factor;
+  Eigen::ArrayXd Center;
+  bool FixedPeak;
+};
+
+class FilterLeak : public ResponsivityOperator
+{
+public:
+  explicit FilterLeak(const BoundEffect& effect)
+    : Fraction(effect.perChannel("fraction"))
+    , White(effect.camera().whiteResponse().array())
+  {
+    const Eigen::ArrayXd x = position(effect.camera().wavelengths());
+    Spectrum = (1.0 + effect.value("tilt") * x) / static_cast<double>(x.size());
+  }
+  void apply(Eigen::MatrixXd& responsivity) const override
+  {
+    responsivity += (Fraction * White).matrix() * Spectrum.matrix().transpose();
+  }
+
+private:
+  Eigen::ArrayXd Fraction;
+  Eigen::ArrayXd White;
+  Eigen::ArrayXd Spectrum;
+};
+}
+
+std::vector<EffectEntry> responsivityEffects()
+{
+  const auto shift = [](bool perChannel)
+  {
+    return EffectParameter{ "shift", "nm", 0.0, -25.0, 25.0, 2.0, "towards longer wavelengths",
+      perChannel };
+  };
+  const auto factor = [](bool perChannel)
+  {
+    return EffectParameter{ "factor", "1", 1.0, 0.3, 3.0, 0.1,
+      "real width of the passband over the nominal one", perChannel };
+  };
+  const auto leak = [](bool perChannel)
+  {
+    return std::vector<EffectParameter>{
+      { "fraction", "1", 0.0, 0.0, 0.5, 0.01,
+        "response to white through the leak over that through the passband", perChannel },
+      { "tilt", "1", 0.0, -1.0, 1.0, 0.5, "-1 only short waves leak, 1 only long ones", false,
+        true }
+    };
+  };
+  const EffectParameter tilt{ "tilt", "1", 0.0, -2.0, 2.0, 0.1,
+    "natural logarithm of the change at the long end; minus that at the short end" };
+  return {
+    { { "filter_bandwidth", "Filter bandwidth",
+        "Passbands wider or narrower than the nominal ones, about their centroids.",
+        EffectStage::Responsivity, EffectNeed::Nothing,
+        { { "common", "M(c + (wavelength - c) / factor), response to white kept",
+            { factor(false) } },
+          { "per_channel", "the same with a factor of its own for each channel", { factor(true) } },
+          { "fixed_peak", "the same with the peak kept: the response to white grows with the width",
+            { factor(false) } } } },
+      makeResponsivityOperator<FilterBandwidth> },
+    { { "filter_shift", "Filter shift",
+        "Passbands at other wavelengths than nominal: maker's tolerance, oblique incidence, "
+        "temperature.",
+        EffectStage::Responsivity, EffectNeed::Nothing,
+        { { "common", "M(wavelength - shift), response to white kept", { shift(false) } },
+          { "sampled",
+            "the curve itself is moved on its grid: what leaves at an end is lost to the response "
+            "to white",
+            { shift(false) } },
+          { "linear", "shift + slope (centroid - 550 nm) / 100 nm",
+            { shift(false),
+              { "slope", "nm per 100 nm", 0.0, -15.0, 15.0, 1.0, "growth of the shift" } } },
+          { "per_channel", "a shift of its own for each channel", { shift(true) } } } },
+      makeResponsivityOperator<FilterShift> },
+    { { "filter_leak", "Filter leak",
+        "Transmittance outside the passband, even over the grid or tilted.",
+        EffectStage::Responsivity, EffectNeed::Nothing,
+        { { "common", "M + fraction x (response to white) x spectrum", leak(false) },
+          { "per_channel", "the same with a fraction of its own for each channel", leak(true) } } },
+      makeResponsivityOperator<FilterLeak> },
+    { { "illuminant_drift", "Illuminant drift",
+        "The lamp's spectrum is not the one of the model: aged, another voltage, another lamp.",
+        EffectStage::Responsivity, EffectNeed::Nothing,
+        { { "tilt", "M exp(tilt x), x = -1..1 over the grid", { tilt } },
+          { "smooth", "M exp(tilt P1(x) + curvature P2(x) + twist P3(x)), Legendre polynomials",
+            { tilt, { "curvature", "1", 0.0, -2.0, 2.0, 0.1, "weight of P2" },
+              { "twist", "1", 0.0, -2.0, 2.0, 0.1, "weight of P3" } } } } },
+      makeResponsivityOperator<IlluminantDrift> },
+  };
+}
+
+} // namespace msi

@@ -1,0 +1,159 @@
+#include "Kernels/Camera/CameraTestData.h"
+#include "Kernels/Camera/Effects/MovedSpectrum.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using msi::CameraEffect;
+using msi::CameraSimulator;
+using msi::WavelengthGrid;
+
+WavelengthGrid fineGrid()
+{
+  return WavelengthGrid::uniform(400.0, 700.0, 2.0);
+}
+
+Eigen::ArrayXd gaussian(const WavelengthGrid& grid, double center, double deviation)
+{
+  return (-0.5 * ((grid.vector().array() - center) / deviation).square()).exp();
+}
+
+// Three Gaussian passbands under an even light.
+constexpr double FilterDeviation = 12.0;
+msi::CameraModel gaussianCamera()
+{
+  const WavelengthGrid grid = fineGrid();
+  Eigen::MatrixXd responsivity(3, grid.size());
+  for (int k = 0; k < 3; ++k)
+  {
+    responsivity.row(k) = gaussian(grid, 480.0 + 70.0 * k, FilterDeviation).transpose();
+  }
+  return msi::CameraModel(grid, responsivity, Eigen::VectorXd::Zero(3)).whiteBalanced();
+}
+
+Eigen::VectorXd respondTo(const Eigen::VectorXd& reflectance, const CameraEffect& effect)
+{
+  msi::SceneSamples samples;
+  samples.reflectance = reflectance;
+  return CameraSimulator(gaussianCamera(), { effect }).respond({ fineGrid(), samples });
+}
+
+// Mean of a Gaussian of deviation b, displaced by d, under a Gaussian of deviation a.
+double overlap(double a, double b, double d)
+{
+  const double variance = a * a + b * b;
+  return b / std::sqrt(variance) * std::exp(-0.5 * d * d / variance);
+}
+
+constexpr double BandDeviation = 20.0;
+
+TEST(FilterShift, MovesAGaussianPassbandOverAGaussianReflectance)
+{
+  const Eigen::VectorXd band = gaussian(fineGrid(), 550.0, BandDeviation);
+  for (const double shift : { -7.3, -2.0, 0.4, 5.5 })
+  {
+    for (const char* form : { "common", "sampled" })
+    {
+      EXPECT_NEAR(respondTo(band, { "filter_shift", form, "", { shift } })[1],
+        overlap(FilterDeviation, BandDeviation, shift), 2e-5)
+        << form << " " << shift;
+    }
+  }
+}
+
+TEST(FilterShift, GrowsWithTheWavelengthAndDiffersByChannel)
+{
+  const Eigen::VectorXd ramp = (fineGrid().vector().array() - 400.0) / 300.0;
+  const Eigen::VectorXd ideal = respondTo(ramp, { "filter_shift", "", "", { 0.0 } });
+  const Eigen::VectorXd linear =
+    respondTo(ramp, { "filter_shift", "linear", "", { 2.0, 1.5 } }) - ideal;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double shift = 2.0 + 1.5 * (480.0 + 70.0 * k - 550.0) / 100.0;
+    EXPECT_NEAR(linear[k], shift / 300.0, 1e-6);
+  }
+  const Eigen::VectorXd each =
+    respondTo(ramp, { "filter_shift", "per_channel", "", { 1.0, -2.0, 0.0 } }) - ideal;
+  EXPECT_NEAR(each[0], 1.0 / 300.0, 1e-6);
+  EXPECT_NEAR(each[1], -2.0 / 300.0, 1e-6);
+  EXPECT_EQ(each[2], 0.0);
+}
+
+TEST(FilterShift, KeepsTheResponseToWhite)
+{
+  const Eigen::VectorXd white = Eigen::VectorXd::Ones(fineGrid().size());
+  EXPECT_LT(
+    (respondTo(white, { "filter_shift", "", "", { 15.0 } }).array() - 1.0).abs().maxCoeff(), 1e-13);
+}
+
+TEST(FilterBandwidth, WidensAGaussianPassband)
+{
+  const Eigen::VectorXd band = gaussian(fineGrid(), 550.0, BandDeviation);
+  for (const double factor : { 0.6, 0.9, 1.3, 1.8 })
+  {
+    const double expected = overlap(factor * FilterDeviation, BandDeviation, 0.0);
+    EXPECT_NEAR(respondTo(band, { "filter_bandwidth", "", "", { factor } })[1], expected, 2e-5);
+    EXPECT_NEAR(respondTo(band, { "filter_bandwidth", "fixed_peak", "", { factor } })[1],
+      factor * expected, 2e-5);
+  }
+}
+
+TEST(FilterLeak, LetsALongPassTileThroughABlueChannel)
+{
+  const Eigen::VectorXd longPass = (fineGrid().vector().array() > 600.0).cast<double>();
+  const double above = longPass.mean();
+  EXPECT_NEAR(
+    respondTo(longPass, { "filter_leak", "", "", { 0.04, 0.0 } })[0], 0.04 * above, 1e-12);
+  // Tilted to the long waves: mean of 1 + x over 602..700 nm, where x is the position from -1 to 1.
+  const double x = (651.0 - 550.0) / 150.0;
+  EXPECT_NEAR(respondTo(longPass, { "filter_leak", "", "", { 0.04, 1.0 } })[0],
+    0.04 * above * (1.0 + x), 1e-12);
+}
+
+TEST(IlluminantDrift, IsTheCameraUnderTheOtherLamp)
+{
+  const WavelengthGrid grid = fineGrid();
+  msi::CameraParts parts;
+  parts.detector = msi::siliconDetector(grid);
+  parts.light = msi::planckianLight(grid, 2850.0);
+  parts.filters = { { 470.0, 30.0 }, { 560.0, 50.0 }, { 640.0, 30.0 } };
+  const msi::CameraModel nominal = msi::designCamera(grid, parts);
+  const Eigen::ArrayXd x = (grid.vector().array() - 550.0) / 150.0;
+  const Eigen::ArrayXd cubic =
+    0.2 * x - 0.1 * (1.5 * x.square() - 0.5) + 0.05 * (2.5 * x.cube() - 1.5 * x);
+  parts.light = parts.light.array() * cubic.exp();
+  const msi::CameraModel real = msi::designCamera(grid, parts);
+  const CameraSimulator simulator(
+    nominal, { { "illuminant_drift", "smooth", "", { 0.2, -0.1, 0.05 } } }, { true });
+  EXPECT_LT((simulator.effectiveResponsivity() - real.responsivity()).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(MovedSpectrum, IsExactForCubicsAndComesToRestOutside)
+{
+  const WavelengthGrid grid({ 400.0, 410.0, 425.0, 440.0, 460.0, 470.0 });
+  const auto cubic = [](double w)
+  {
+    const double t = (w - 430.0) / 30.0;
+    return 0.3 + 0.2 * t - 0.1 * t * t + 0.05 * t * t * t;
+  };
+  const Eigen::VectorXd values = grid.vector().unaryExpr(cubic);
+  Eigen::ArrayXd at(4);
+  at << 403.0, 425.0, 436.0, 465.5;
+  const Eigen::VectorXd moved = msi::movedSpectrum(grid, at) * values;
+  for (Eigen::Index i = 0; i < at.size(); ++i)
+  {
+    EXPECT_NEAR(moved[i], cubic(at[i]), 1e-14) << at[i];
+  }
+  Eigen::ArrayXd outside(3);
+  outside << 399.9, 300.0, 480.0;
+  const Eigen::MatrixXd operation = msi::movedSpectrum(grid, outside);
+  EXPECT_LT((operation.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
+  const double slope = (0.2 + 0.2 * 1.0 + 0.15 * 1.0) / 30.0; // of the cubic at 400 nm, t = -1
+  EXPECT_NEAR((operation * values)[0], cubic(400.0) - slope * 0.1 / 1.005, 1e-12);
+  EXPECT_NEAR((operation * values)[1], cubic(400.0) - slope * 100.0 / 6.0, 1e-12);
+}
+
+}

@@ -1,0 +1,320 @@
+#include "Kernels/Camera/Imaging/ImageSimulator.h"
+
+#include "Kernels/Camera/Effects/EffectChain.h"
+#include "Kernels/Camera/Imaging/ChannelRegistration.h"
+#include "Kernels/Camera/Imaging/ScatterTail.h"
+#include "Kernels/Camera/Imaging/SeparableFilter.h"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int BlockPixels = 512;
+
+template <typename... Parts>
+[[noreturn]] void reject(const Parts&... parts)
+{
+  std::ostringstream message;
+  (message << ... << parts);
+  throw std::invalid_argument(message.str());
+}
+
+std::string describe(const ImageWindow& window)
+{
+  std::ostringstream text;
+  text << window.width << " x " << window.height << " pixels at (" << window.x << ", " << window.y
+       << ")";
+  return text.str();
+}
+
+Eigen::Map<Eigen::MatrixXf> blockOf(float* values, int rows, int columns)
+{
+  return { values, rows, columns };
+}
+
+struct Banding
+{
+  double amplitude;
+  double period;
+  double phase;
+};
+}
+
+struct ImageSimulator::Implementation
+{
+  EffectChain Chain;
+  ImageExtent Extent;
+  NoiseGenerator Noise;
+  std::uint32_t Exposure;
+  std::vector<int> MediumNumber; // of the numbers in a medium image
+  std::optional<ChannelRegistration> Registration;
+  std::optional<SymmetricKernel> Blur;
+  std::optional<ScatterTail> Tail;
+  std::optional<Banding> Bands;
+  float Retained = 0.0F;
+
+  Implementation(CameraModel camera, std::vector<CameraEffect> effects, const ImageExtent& extent,
+    const ImageSimulatorOptions& options)
+    : Chain(std::move(camera), std::move(effects), options.whiteAfterEffects)
+    , Extent(extent)
+    , Noise(Chain.noiseGenerator(options.noise, options.seed))
+    , Exposure(options.exposure)
+  {
+    if (extent.width < 1 || extent.height < 1)
+    {
+      reject("the image has ", extent.width, " x ", extent.height,
+        " pixels; expected at least one each way");
+    }
+    if (Chain.needsOrder())
+    {
+      reject("session_drift concerns samples captured one after the other; for an image use "
+             "channel_gain");
+    }
+    for (const std::string& medium : options.media)
+    {
+      MediumNumber.push_back(Chain.mediumNumber(medium));
+    }
+    if (const auto effect = Chain.active("misregistration"))
+    {
+      Registration.emplace(effect->perChannel("right"), effect->perChannel("down"),
+        effect->perChannel("magnification"), extent);
+    }
+    if (const auto effect = Chain.active("defocus"))
+    {
+      Blur = gaussianKernel(effect->perChannel("blur"));
+    }
+    if (const auto effect = Chain.active("local_stray_light"))
+    {
+      Tail.emplace(effect->value("radius"));
+    }
+    if (const auto effect = Chain.active("lag"))
+    {
+      Retained = static_cast<float>(effect->value("retained"));
+    }
+    if (const auto effect = Chain.active("banding"))
+    {
+      Bands =
+        Banding{ effect->value("amplitude"), effect->value("period"), effect->value("phase") };
+    }
+  }
+
+  int wavelengths() const { return static_cast<int>(Chain.camera().wavelengths().size()); }
+  int channels() const { return static_cast<int>(Chain.camera().channelCount()); }
+
+  int halo() const
+  {
+    return (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) +
+      (Tail ? Tail->reach() : 0);
+  }
+
+  void requireWindow(const ImageWindow& window, const int* medium) const
+  {
+    if (window.width < 1 || window.height < 1 || !wholeImage(Extent).contains(window))
+    {
+      reject("the window of ", describe(window), " does not lie in the image of ", Extent.width,
+        " x ", Extent.height, " pixels");
+    }
+    if (Chain.needsMedium() && medium == nullptr)
+    {
+      reject("an effect of the camera acts on one medium, but the image comes without media");
+    }
+  }
+
+  // The light on the detector, pixel by pixel: a run of at most BlockPixels pixels of one row.
+  void irradiate(const float* reflectance, const int* medium, int x, int y, int count,
+    float* signal, ImageWorkspace& work) const
+  {
+    const auto size = static_cast<std::size_t>(count);
+    const double half = 0.5 * std::max(1, std::max(Extent.width, Extent.height) - 1);
+    work.fieldX.resize(size);
+    work.fieldY.assign(size, (y - 0.5 * (Extent.height - 1)) / half);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      work.fieldX[i] = (x + static_cast<int>(i) - 0.5 * (Extent.width - 1)) / half;
+    }
+    ColumnContext columns;
+    columns.fieldX = work.fieldX.data();
+    columns.fieldY = work.fieldY.data();
+    const float* source = reflectance;
+    if (Chain.needsMedium())
+    {
+      work.medium.resize(size);
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        const bool known =
+          medium[i] >= 0 && static_cast<std::size_t>(medium[i]) < MediumNumber.size();
+        work.medium[i] = known ? MediumNumber[static_cast<std::size_t>(medium[i])] : -1;
+      }
+      columns.medium = work.medium.data();
+      work.reflectance.assign(
+        reflectance, reflectance + size * static_cast<std::size_t>(wavelengths()));
+      Chain.reflect<float>(blockOf(work.reflectance.data(), wavelengths(), count), columns);
+      source = work.reflectance.data();
+    }
+    Chain.integrate(source, signal, count);
+    Chain.illuminate<float>(blockOf(signal, channels(), count), columns);
+  }
+
+  // All rows of `region` in runs: use(reflectance and media of the run, x, y, count).
+  template <typename Use>
+  void forRuns(const float* reflectance, const int* medium, const ImageWindow& available,
+    const ImageWindow& region, Use use) const
+  {
+    for (int y = region.y; y < region.y + region.height; ++y)
+    {
+      for (int x = region.x; x < region.x + region.width; x += BlockPixels)
+      {
+        const int count = std::min(BlockPixels, region.x + region.width - x);
+        const std::size_t pixel =
+          static_cast<std::size_t>(y - available.y) * static_cast<std::size_t>(available.width) +
+          static_cast<std::size_t>(x - available.x);
+        const float* source = reflectance + pixel * static_cast<std::size_t>(wavelengths());
+        use(source, medium == nullptr ? nullptr : medium + pixel, x, y, count);
+      }
+    }
+  }
+
+  // Stray light, detector, noise: a run of one row, in place.
+  void detect(
+    float* signal, int x, int y, int count, const Eigen::VectorXf& mean, ImageWorkspace& work) const
+  {
+    auto block = blockOf(signal, channels(), count);
+    if (Tail)
+    {
+      const Eigen::Map<const Eigen::MatrixXf> tail(work.tail.pixel(x, y), channels(), count);
+      Chain.localStrayLight()->apply(block, tail);
+    }
+    if (Chain.veilingGlare() != nullptr)
+    {
+      work.surround.resize(static_cast<std::size_t>(block.size()));
+      auto surround = blockOf(work.surround.data(), channels(), count);
+      surround.colwise() = mean;
+      Chain.veilingGlare()->apply(block, surround);
+    }
+    if (Retained != 0.0F)
+    {
+      for (Eigen::Index k = block.rows() - 1; k > 0; --k)
+      {
+        block.row(k) += Retained * block.row(k - 1);
+      }
+    }
+    if (Bands)
+    {
+      constexpr double TwoPi = 6.283185307179586;
+      for (Eigen::Index k = 0; k < block.rows(); ++k)
+      {
+        const double cycles = y / Bands->period + Bands->phase * static_cast<double>(k);
+        block.row(k) *= static_cast<float>(1.0 + Bands->amplitude * std::sin(TwoPi * cycles));
+      }
+    }
+    Chain.detect<float>(block, {});
+    const auto firstPixel =
+      static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(Extent.width) +
+      static_cast<std::uint64_t>(x);
+    Noise(block, firstPixel, Exposure);
+  }
+};
+
+ImageSimulator::ImageSimulator(CameraModel camera, std::vector<CameraEffect> effects,
+  const ImageExtent& extent, ImageSimulatorOptions options)
+  : Self(std::make_unique<Implementation>(std::move(camera), std::move(effects), extent, options))
+{
+}
+
+ImageSimulator::~ImageSimulator() = default;
+ImageSimulator::ImageSimulator(ImageSimulator&&) noexcept = default;
+ImageSimulator& ImageSimulator::operator=(ImageSimulator&&) noexcept = default;
+
+int ImageSimulator::wavelengthCount() const noexcept
+{
+  return Self->wavelengths();
+}
+int ImageSimulator::channelCount() const noexcept
+{
+  return Self->channels();
+}
+int ImageSimulator::halo() const noexcept
+{
+  return Self->halo();
+}
+bool ImageSimulator::needsSceneMean() const noexcept
+{
+  return Self->Chain.veilingGlare() != nullptr;
+}
+bool ImageSimulator::needsMedium() const noexcept
+{
+  return Self->Chain.needsMedium();
+}
+
+void ImageSimulator::addToMean(const float* reflectance, const int* medium,
+  const ImageWindow& window, SceneMean& mean, ImageWorkspace& workspace) const
+{
+  Self->requireWindow(window, medium);
+  workspace.signal.resize({ 0, 0, BlockPixels, 1 }, channelCount());
+  Self->forRuns(reflectance, medium, window, window,
+    [&](const float* source, const int* media, int x, int y, int count)
+    {
+      float* signal = workspace.signal.values.data();
+      Self->irradiate(source, media, x, y, count, signal, workspace);
+      mean.add(signal, count);
+    });
+}
+
+void ImageSimulator::simulate(const float* reflectance, const int* medium,
+  const ImageWindow& available, const ImageWindow& window, const SceneMean* mean, float* response,
+  ImageWorkspace& workspace) const
+{
+  Self->requireWindow(window, medium);
+  const ImageWindow region = grown(window, halo(), Self->Extent);
+  if (!available.contains(region))
+  {
+    reject("the window of ", describe(window), " depends on ", describe(region), ", but only ",
+      describe(available), " are available");
+  }
+  if (needsSceneMean() && mean == nullptr)
+  {
+    reject("the effect veiling_glare needs the mean of the scene");
+  }
+  const Eigen::VectorXf glare = needsSceneMean() ? mean->value() : Eigen::VectorXf();
+  PixelBuffer& signal = workspace.signal;
+  signal.resize(region, channelCount());
+  Self->forRuns(reflectance, medium, available, region,
+    [&](const float* source, const int* media, int x, int y, int count)
+    { Self->irradiate(source, media, x, y, count, signal.pixel(x, y), workspace); });
+  if (Self->Registration)
+  {
+    (*Self->Registration)(signal, workspace.scratch);
+  }
+  if (Self->Blur)
+  {
+    convolve(*Self->Blur, signal);
+  }
+  if (Self->Tail)
+  {
+    workspace.blurred = signal;
+    (*Self->Tail)(workspace.blurred, workspace.tail);
+  }
+  const auto channels = static_cast<std::size_t>(channelCount());
+  for (int y = window.y; y < window.y + window.height; ++y)
+  {
+    for (int x = window.x; x < window.x + window.width; x += BlockPixels)
+    {
+      const int count = std::min(BlockPixels, window.x + window.width - x);
+      const std::size_t pixel =
+        static_cast<std::size_t>(y - window.y) * static_cast<std::size_t>(window.width) +
+        static_cast<std::size_t>(x - window.x);
+      float* out = response + pixel * channels;
+      std::copy_n(signal.pixel(x, y), static_cast<std::size_t>(count) * channels, out);
+      Self->detect(out, x, y, count, glare, workspace);
+    }
+  }
+}
+
+} // namespace msi

@@ -1,0 +1,173 @@
+#include "Kernels/Camera/CameraTestData.h"
+#include "Kernels/Camera/Imaging/ChannelRegistration.h"
+#include "Kernels/Camera/Imaging/ScatterTail.h"
+#include "Kernels/Camera/Imaging/SceneMean.h"
+#include "Kernels/Camera/Imaging/SeparableFilter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace
+{
+using msi::PixelBuffer;
+using msi::test::messageOf;
+
+constexpr msi::ImageExtent Extent{ 161, 141 };
+constexpr int CenterX = 80;
+constexpr int CenterY = 70;
+
+PixelBuffer pictureOf(int channels, const std::function<double(int, int, int)>& value)
+{
+  PixelBuffer buffer;
+  buffer.resize(msi::wholeImage(Extent), channels);
+  for (int y = 0; y < Extent.height; ++y)
+  {
+    for (int x = 0; x < Extent.width; ++x)
+    {
+      for (int k = 0; k < channels; ++k)
+      {
+        buffer.pixel(x, y)[k] = static_cast<float>(value(x, y, k));
+      }
+    }
+  }
+  return buffer;
+}
+
+PixelBuffer impulse(int channels)
+{
+  return pictureOf(
+    channels, [](int x, int y, int) { return x == CenterX && y == CenterY ? 1.0 : 0.0; });
+}
+
+struct Spread
+{
+  double sum = 0.0;
+  double varianceX = 0.0;
+  double varianceY = 0.0;
+};
+
+Spread spreadOf(const PixelBuffer& picture, int channel)
+{
+  Spread spread;
+  for (int y = 0; y < Extent.height; ++y)
+  {
+    for (int x = 0; x < Extent.width; ++x)
+    {
+      const double value = static_cast<double>(picture.pixel(x, y)[channel]);
+      spread.sum += value;
+      spread.varianceX += value * (x - CenterX) * (x - CenterX);
+      spread.varianceY += value * (y - CenterY) * (y - CenterY);
+    }
+  }
+  return spread;
+}
+
+TEST(SeparableFilter, SpreadsAnImpulseIntoAGaussian)
+{
+  PixelBuffer picture = impulse(3);
+  msi::convolve(msi::gaussianKernel(Eigen::Array3d(0.0, 1.5, 3.0)), picture);
+  EXPECT_EQ(picture.pixel(CenterX, CenterY)[0], 1.0F);
+  EXPECT_EQ(picture.pixel(CenterX + 1, CenterY)[0], 0.0F);
+  for (const auto& [channel, deviation] : { std::pair{ 1, 1.5 }, std::pair{ 2, 3.0 } })
+  {
+    const Spread spread = spreadOf(picture, channel);
+    EXPECT_NEAR(spread.sum, 1.0, 1e-6);
+    // Cut at four deviations a Gaussian lacks 0.1 % of its variance.
+    EXPECT_NEAR(spread.varianceX / (deviation * deviation), 1.0, 2e-3);
+    EXPECT_NEAR(spread.varianceY / (deviation * deviation), 1.0, 2e-3);
+    const double peak = static_cast<double>(picture.pixel(CenterX, CenterY)[channel]);
+    const double beside = static_cast<double>(picture.pixel(CenterX + 2, CenterY + 1)[channel]);
+    EXPECT_NEAR(beside / peak, std::exp(-0.5 * 5.0 / (deviation * deviation)), 1e-6);
+  }
+}
+
+TEST(ScatterTail, SpreadsAnImpulseToTheStatedVariance)
+{
+  const msi::ScatterTail tail(1.5);
+  ASSERT_LT(tail.reach(), CenterY) << "the picture must hold the whole tail";
+  PixelBuffer picture = impulse(1);
+  PixelBuffer spreadOut;
+  tail(picture, spreadOut);
+  double expected = 0.0;
+  double weights = 0.0;
+  for (std::size_t n = 0; n < tail.weights().size(); ++n)
+  {
+    expected += static_cast<double>(tail.weights()[n]) * (std::pow(4.0, n + 1.0) - 1.0) / 3.0;
+    weights += static_cast<double>(tail.weights()[n]);
+  }
+  const Spread spread = spreadOf(spreadOut, 0);
+  EXPECT_NEAR(weights, 1.0, 1e-6);
+  EXPECT_NEAR(spread.sum, 1.0, 1e-5);
+  EXPECT_NEAR(spread.varianceX, expected, 1e-4 * expected);
+  EXPECT_NEAR(spread.varianceY, expected, 1e-4 * expected);
+}
+
+TEST(ScatterTail, ReachesFartherWithALargerRadius)
+{
+  EXPECT_GT(msi::ScatterTail(16.0).reach(), msi::ScatterTail(4.0).reach());
+  EXPECT_EQ(messageOf([] { msi::ScatterTail tail(0.5); }),
+    "the radius of the stray light is 0.5 pixels; expected a value from 1 to 64");
+}
+
+TEST(ChannelRegistration, MovesAQuadraticExactly)
+{
+  const auto surface = [](double x, double y)
+  { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y; };
+  const msi::ChannelRegistration move(Eigen::Array3d(0.0, 2.0, -0.37),
+    Eigen::Array3d(0.0, -1.0, 1.62), Eigen::Array3d(0.0, 0.0, 0.01), Extent);
+  PixelBuffer picture = pictureOf(3, [&](int x, int y, int) { return surface(x, y); });
+  const PixelBuffer before = picture;
+  PixelBuffer scratch;
+  move(picture, scratch);
+  for (int y = 8; y < Extent.height - 8; ++y)
+  {
+    for (int x = 8; x < Extent.width - 8; ++x)
+    {
+      ASSERT_EQ(picture.pixel(x, y)[0], before.pixel(x, y)[0]);
+      ASSERT_EQ(picture.pixel(x, y)[1], before.pixel(x - 2, y + 1)[1]);
+      const double sourceX = CenterX + (x - CenterX + 0.37) / 1.01;
+      const double sourceY = CenterY + (y - CenterY - 1.62) / 1.01;
+      ASSERT_NEAR(static_cast<double>(picture.pixel(x, y)[2]), surface(sourceX, sourceY), 1e-5);
+    }
+  }
+}
+
+TEST(ChannelRegistration, RefusesArraysOfDifferentLength)
+{
+  EXPECT_EQ(messageOf(
+              []
+              {
+                msi::ChannelRegistration move(Eigen::ArrayXd::Zero(3), Eigen::ArrayXd::Zero(2),
+                  Eigen::ArrayXd::Zero(3), Extent);
+              }),
+    "a registration has 3 displacements to the right, 2 down and 3 magnifications; expected one of "
+    "each "
+    "for every channel");
+}
+
+TEST(SceneMean, IsTheMeanWhateverTheSplit)
+{
+  std::vector<float> pixels(2 * 1000);
+  double sum = 0.0;
+  for (int i = 0; i < 1000; ++i)
+  {
+    pixels[2 * static_cast<std::size_t>(i)] = static_cast<float>(1.0 / (1.0 + i));
+    pixels[2 * static_cast<std::size_t>(i) + 1] = -0.25F;
+    sum += static_cast<double>(pixels[2 * static_cast<std::size_t>(i)]);
+  }
+  pixels[2 * 17 + 1] = std::numeric_limits<float>::quiet_NaN();
+  msi::SceneMean whole(2);
+  whole.add(pixels.data(), 1000);
+  msi::SceneMean back(2);
+  back.add(pixels.data() + 2 * 300, 700);
+  msi::SceneMean front(2);
+  front.add(pixels.data(), 300);
+  back.merge(front);
+  EXPECT_EQ(whole.value(), back.value());
+  EXPECT_NEAR(static_cast<double>(whole.value()[0]), sum / 1000.0, 1e-9);
+  EXPECT_EQ(whole.value()[1], -0.25F);
+}
+
+}

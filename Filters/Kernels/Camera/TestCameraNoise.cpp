@@ -1,0 +1,142 @@
+#include "Kernels/Camera/CameraNoise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace
+{
+
+struct Moments
+{
+  double mean;
+  double variance;
+};
+
+Moments momentsOf(const Eigen::MatrixXd& values)
+{
+  const double mean = values.mean();
+  return { mean, (values.array() - mean).square().sum() / double(values.size() - 1) };
+}
+
+TEST(CameraNoise, TemporalNoiseHasTheContractedVariance)
+{
+  msi::CameraNoise noise;
+  noise.read = 0.002;
+  noise.shot = 0.01;
+  const msi::NoiseGenerator add(noise, 5);
+  constexpr Eigen::Index Count = 50000;
+  for (const double level : { 0.0, 0.2, 0.9 })
+  {
+    Eigen::MatrixXd response = Eigen::MatrixXd::Constant(2, Count, level);
+    add(response, 0);
+    const Moments moments = momentsOf(response);
+    const double variance = 0.002 * 0.002 + 0.01 * 0.01 * level;
+    EXPECT_DOUBLE_EQ(msi::noiseVariance(noise, level), variance);
+    const double draws = 2.0 * Count;
+    EXPECT_NEAR(moments.mean, level, 5.0 * std::sqrt(variance / draws));
+    EXPECT_NEAR(moments.variance, variance, 5.0 * variance * std::sqrt(2.0 / draws));
+  }
+}
+
+TEST(CameraNoise, FixedPatternStaysFromExposureToExposure)
+{
+  msi::CameraNoise noise;
+  noise.fixedPatternGain = 0.02;
+  noise.fixedPatternOffset = 0.001;
+  const msi::NoiseGenerator add(noise, 5);
+  constexpr Eigen::Index Count = 40000;
+  Eigen::MatrixXd first = Eigen::MatrixXd::Constant(1, Count, 0.5);
+  Eigen::MatrixXd second = first;
+  add(first, 0, 0);
+  add(second, 0, 9);
+  EXPECT_EQ(first, second);
+  const double variance = 0.02 * 0.02 * 0.25 + 0.001 * 0.001;
+  EXPECT_NEAR(momentsOf(first).variance, variance, 5.0 * variance * std::sqrt(2.0 / Count));
+}
+
+TEST(CameraNoise, ExposuresAreIndependent)
+{
+  msi::CameraNoise noise;
+  noise.read = 0.01;
+  const msi::NoiseGenerator add(noise, 5);
+  constexpr Eigen::Index Count = 40000;
+  Eigen::MatrixXd first = Eigen::MatrixXd::Zero(1, Count);
+  Eigen::MatrixXd second = first;
+  add(first, 0, 0);
+  add(second, 0, 1);
+  const double correlation = first.row(0).dot(second.row(0)) / (Count * 1e-4);
+  EXPECT_NEAR(correlation, 0.0, 5.0 / std::sqrt(double(Count)));
+}
+
+TEST(CameraNoise, QuantisationRoundsToSteps)
+{
+  msi::CameraNoise noise;
+  noise.quantisationStep = 0.25;
+  Eigen::MatrixXd response(1, 3);
+  response << 0.12, 0.13, 0.9;
+  msi::NoiseGenerator{ noise, 1 }(response, 0);
+  EXPECT_EQ(response, (Eigen::MatrixXd(1, 3) << 0.0, 0.25, 1.0).finished());
+}
+
+TEST(CameraNoise, AnySplitIntoBlocksGivesTheSameBytes)
+{
+  msi::CameraNoise noise;
+  noise.read = 0.01;
+  noise.shot = 0.02;
+  noise.fixedPatternGain = 0.01;
+  noise.quantisationStep = 1.0 / 4095.0;
+  const msi::NoiseGenerator add(noise, 77);
+  const Eigen::MatrixXf clean = Eigen::MatrixXf::Constant(3, 100, 0.4F);
+  Eigen::MatrixXf whole = clean;
+  add(whole, 1000, 2);
+  Eigen::MatrixXf pieces = clean;
+  for (const auto& [first, count] : { std::pair{ 41, 59 }, std::pair{ 0, 7 }, std::pair{ 7, 34 } })
+  {
+    add(pieces.middleCols(first, count), 1000U + static_cast<std::uint64_t>(first), 2);
+  }
+  EXPECT_EQ(whole, pieces);
+}
+
+TEST(CameraNoise, NoNoiseChangesNoBit)
+{
+  Eigen::MatrixXd response = Eigen::MatrixXd::Random(4, 50);
+  const Eigen::MatrixXd before = response;
+  msi::NoiseGenerator{ msi::CameraNoise{}, 3 }(response, 0);
+  EXPECT_EQ(response, before);
+}
+
+TEST(CameraNoise, NaNStaysInItsOwnPixel)
+{
+  msi::CameraNoise noise;
+  noise.read = 0.01;
+  noise.shot = 0.01;
+  const msi::NoiseGenerator add(noise, 3);
+  Eigen::MatrixXd clean = Eigen::MatrixXd::Constant(1, 3, 0.5);
+  Eigen::MatrixXd response = clean;
+  response(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  add(clean, 0);
+  add(response, 0);
+  EXPECT_TRUE(std::isnan(response(0, 1)));
+  EXPECT_EQ(response(0, 0), clean(0, 0));
+  EXPECT_EQ(response(0, 2), clean(0, 2));
+}
+
+TEST(CameraNoise, RefusesNegativeNoiseAndNamesIt)
+{
+  msi::CameraNoise noise;
+  noise.shot = -0.1;
+  try
+  {
+    msi::NoiseGenerator add(noise, 1);
+    FAIL() << "expected std::invalid_argument";
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_STREQ(error.what(), "the camera noise 'shot' is -0.1; expected zero or more");
+  }
+}
+
+}

@@ -1,0 +1,21 @@
+// The SIMD block kernels behind CIELAB and SRGB: contiguous colors, three values each.
+#pragma once
+
+#include "Kernels/Colorimetry/SRGB.h"
+
+#include <cstddef>
+
+namespace msi
+{
+
+// In and out may be the same. Defined for float and double.
+template <typename Scalar>
+void labFromXYZ(
+  const double* whitePoint, const Scalar* xyz, Scalar* lab, std::size_t count) noexcept;
+
+// linearMatrix by columns.
+template <typename Scalar>
+SRGBClipping sRGBFromXYZ(
+  const double* linearMatrix, const Scalar* xyz, Scalar* rgb, std::size_t count) noexcept;
+
+} // namespace msi

@@ -1,0 +1,117 @@
+#include "Kernels/Colorimetry/Illuminant.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace
+{
+
+using msi::Illuminant;
+using msi::WavelengthGrid;
+
+double powerAt(const Illuminant& illuminant, double wavelength)
+{
+  for (Eigen::Index i = 0; i < illuminant.wavelengths().size(); ++i)
+  {
+    if (illuminant.wavelengths()[i] == wavelength)
+    {
+      return illuminant.power()(i);
+    }
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string messageOf(const WavelengthGrid& wavelengths, const Eigen::VectorXd& power)
+{
+  try
+  {
+    Illuminant("lamp", wavelengths, power);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+
+// ISO/CIE 11664-2: S_A = 100 (560 / l)^5 (exp(1.435e7 / (2848 * 560)) - 1)
+//                            / (exp(1.435e7 / (2848 l)) - 1).
+TEST(Illuminant, AFollowsItsFormula)
+{
+  const Illuminant illuminant = Illuminant::named("A");
+  for (Eigen::Index i = 0; i < illuminant.power().size(); ++i)
+  {
+    const double wavelength = illuminant.wavelengths()[i];
+    const double expected = 100.0 * std::pow(560.0 / wavelength, 5) *
+      std::expm1(1.435e7 / (2848.0 * 560.0)) / std::expm1(1.435e7 / (2848.0 * wavelength));
+    EXPECT_NEAR(illuminant.power()(i), expected, 1e-5 * expected) << wavelength << " nm";
+  }
+}
+
+TEST(Illuminant, DaylightIsNormalizedAt560Nanometres)
+{
+  EXPECT_EQ(powerAt(Illuminant::named("D65"), 560.0), 100.0);
+  EXPECT_EQ(powerAt(Illuminant::named("D50"), 560.0), 100.0);
+}
+
+TEST(Illuminant, AllNamesAreThere)
+{
+  const auto names = Illuminant::names();
+  ASSERT_EQ(names.size(), 20U);
+  EXPECT_EQ(names.front(), "A");
+  EXPECT_EQ(names[3], "FL1");
+  EXPECT_EQ(names.back(), "LED-B5");
+  for (const auto& name : names)
+  {
+    const Illuminant illuminant = Illuminant::named(name);
+    EXPECT_EQ(illuminant.name(), name);
+    EXPECT_EQ(illuminant.wavelengths().back(), 780.0);
+    EXPECT_LE(illuminant.wavelengths().front(), 380.0);
+    EXPECT_EQ(*illuminant.wavelengths().step(), 5.0);
+  }
+}
+
+TEST(Illuminant, OldNamesAndSmallLettersAreUnderstood)
+{
+  EXPECT_EQ(Illuminant::named("F2").name(), "FL2");
+  EXPECT_EQ(Illuminant::named("f12").power(), Illuminant::named("FL12").power());
+  EXPECT_EQ(Illuminant::named("led-b1").name(), "LED-B1");
+}
+
+TEST(Illuminant, AnUnknownNameListsTheKnownOnes)
+{
+  for (const char* name : { "D55", "F13", "", "2deg" })
+  {
+    try
+    {
+      Illuminant::named(name);
+      FAIL() << "accepted " << name;
+    }
+    catch (const std::invalid_argument& error)
+    {
+      EXPECT_EQ(std::string(error.what()),
+        "unknown illuminant '" + std::string(name) +
+          "'; known are: A D50 D65 FL1 FL2 FL3 FL4 FL5 FL6 FL7 FL8 FL9 FL10 FL11 FL12 LED-B1 "
+          "LED-B2 LED-B3 LED-B4 LED-B5, and F1 to F12 for FL1 to FL12");
+    }
+  }
+}
+
+TEST(Illuminant, RefusesWhatIsNoPowerDistribution)
+{
+  const WavelengthGrid grid({ 400.0, 500.0, 600.0 });
+  EXPECT_EQ(messageOf(grid, Eigen::Vector2d(1.0, 2.0)),
+    "illuminant 'lamp' has 2 values of power for 3 wavelengths; expected one each");
+  EXPECT_EQ(messageOf(grid, Eigen::Vector3d(1.0, -2.0, 1.0)),
+    "illuminant 'lamp' has the power -2 at 500 nm; expected a finite value that is not negative");
+  EXPECT_NE(messageOf(grid, Eigen::Vector3d(1.0, 2.0, std::nan(""))), "");
+  EXPECT_EQ(
+    messageOf(grid, Eigen::Vector3d::Zero()), "illuminant 'lamp' has no power at any wavelength");
+  EXPECT_EQ(messageOf(grid, Eigen::Vector3d(0.0, 2.0, 0.0)), "");
+}
+
+}

@@ -1,0 +1,84 @@
+// Compares estimation methods on a target medium: random tuning samples, the rest held out.
+#pragma once
+
+#include "Kernels/Estimation/FitSummary.h"
+#include "Kernels/Estimation/SampleDraw.h"
+#include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Spectra/WavelengthGrid.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace msi
+{
+
+enum class EstimationMethod
+{
+  Direct,
+  Pinv,
+  Pooled,
+  RModel,
+  Banded,
+  Transfer
+};
+
+// "direct", "pinv", "pooled", "r-model", "banded", "transfer".
+std::string_view nameOf(EstimationMethod method) noexcept;
+// All methods in the order above.
+const std::vector<EstimationMethod>& allEstimationMethods();
+// Throws std::invalid_argument, listing the known names, for any other name.
+EstimationMethod estimationMethodNamed(std::string_view name);
+
+struct ComparisonOptions
+{
+  std::vector<EstimationMethod> methods = allEstimationMethods();
+  Eigen::Index tuningSamples = 16;
+  std::uint64_t seed = 1;
+  std::optional<WavelengthGrid> channelWavelengths; // for the structure of the method banded
+};
+
+// One method on the held-out samples of one draw.
+struct MethodEstimate
+{
+  EstimationMethod method;
+  Eigen::MatrixXd reflectance;       // N x held-out
+  Eigen::MatrixXd standardDeviation; // N x held-out for the method transfer, else 0 x 0
+  Eigen::VectorXd rms;               // held-out: sqrt(mean over bands of the squared error), Eq. 21
+  FitSummary summary;
+};
+
+struct ComparisonDraw
+{
+  std::vector<Eigen::Index> tuning;      // columns of the target set, increasing
+  std::vector<Eigen::Index> heldOut;     // the other columns, increasing
+  std::vector<MethodEstimate> estimates; // one per method, in the order of the options
+};
+
+// The immutable set-up of a comparison. Draws are independent of each other: callers spread
+// run(0), run(1), ... over threads or ranks and get the same numbers.
+//
+// Errors: the constructor throws std::invalid_argument where a set is empty or not finite, bands or
+//         channels differ, no method is asked for, or tuningSamples leaves nothing to hold out;
+//         run() throws what the method's fit throws (std::invalid_argument), with the method's name.
+class MethodComparison
+{
+public:
+  MethodComparison(SampleSet calibration, SampleSet target, ComparisonOptions options = {});
+
+  ComparisonDraw run(std::uint64_t draw) const;
+
+  const SampleSet& target() const noexcept { return Target; }
+  const ComparisonOptions& options() const noexcept { return Options; }
+
+private:
+  SampleSet Calibration;
+  SampleSet Target;
+  ComparisonOptions Options;
+};
+
+} // namespace msi

@@ -1,0 +1,85 @@
+#include "Kernels/Estimation/AffineTransform.h"
+#include "Kernels/Estimation/EstimationTestData.h"
+#include "Kernels/Estimation/MethodComparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using msi::EstimationMethod;
+using msi::test::messageOf;
+using msi::test::randomMatrix;
+
+TEST(MethodComparison, NamesGoBothWays)
+{
+  for (const EstimationMethod method : msi::allEstimationMethods())
+  {
+    EXPECT_EQ(msi::estimationMethodNamed(msi::nameOf(method)), method);
+  }
+  EXPECT_EQ(messageOf([] { msi::estimationMethodNamed("magic"); }),
+    "there is no estimation method 'magic'; expected one of direct, pinv, pooled, r-model, banded, "
+    "transfer");
+}
+
+msi::SampleSet affineSamples(Eigen::Index count, unsigned seed)
+{
+  const Eigen::MatrixXd responses = randomMatrix(3, count, seed);
+  return { msi::AffineTransform(randomMatrix(6, 4, 99))(responses), responses };
+}
+
+TEST(MethodComparison, HoldsOutWhatItDoesNotTuneOn)
+{
+  msi::ComparisonOptions options;
+  options.methods = { EstimationMethod::Pooled, EstimationMethod::Direct };
+  options.tuningSamples = 5;
+  const msi::MethodComparison comparison(affineSamples(20, 1), affineSamples(12, 2), options);
+  const auto draw = comparison.run(3);
+  EXPECT_EQ(draw.tuning, msi::drawSamples(12, 5, 1, 3));
+  EXPECT_EQ(draw.heldOut, msi::remainingSamples(12, draw.tuning));
+  ASSERT_EQ(draw.estimates.size(), 2U);
+  EXPECT_EQ(draw.estimates[0].method, EstimationMethod::Pooled);
+  for (const auto& estimate : draw.estimates)
+  {
+    ASSERT_EQ(estimate.rms.size(), 7);
+    EXPECT_LT(estimate.rms.maxCoeff(), 1e-13);
+  }
+}
+
+TEST(MethodComparison, RmsIsTheRootMeanSquareOverBands)
+{
+  // Chart: r = 1 whatever u; target: s = (1 + 3, 1 + 4), so every rms is sqrt((9 + 16) / 2).
+  const Eigen::MatrixXd responses = randomMatrix(1, 9, 3);
+  const msi::SampleSet chart{ Eigen::MatrixXd::Ones(2, 9), responses };
+  msi::SampleSet target = chart;
+  target.reflectance.colwise() += Eigen::Vector2d(3.0, 4.0);
+  msi::ComparisonOptions options;
+  options.methods = { EstimationMethod::Direct };
+  options.tuningSamples = 4;
+  const auto draw = msi::MethodComparison(chart, target, options).run(0);
+  EXPECT_NEAR(draw.estimates[0].rms.minCoeff(), std::sqrt(12.5), 1e-12);
+  EXPECT_NEAR(draw.estimates[0].rms.maxCoeff(), std::sqrt(12.5), 1e-12);
+}
+
+TEST(MethodComparison, RefusesBadInputAndSaysWhy)
+{
+  const auto samples = affineSamples(12, 4);
+  const auto compare = [&](const msi::ComparisonOptions& options)
+  { return messageOf([&] { msi::MethodComparison(samples, samples, options).run(0); }); };
+  msi::ComparisonOptions options;
+  options.tuningSamples = 12;
+  EXPECT_EQ(compare(options),
+    "12 tuning samples are asked for and the target has 12 samples; "
+    "expected a number from 1 to 11, so that samples are left to test on");
+  options.tuningSamples = 3;
+  options.methods = { EstimationMethod::RModel };
+  EXPECT_EQ(compare(options),
+    "method r-model: the R-model has 3 tuning samples for 4 unknowns a "
+    "band; expected at least 4 samples");
+  options.methods.clear();
+  EXPECT_EQ(compare(options), "no estimation method is asked for; expected at least one");
+}
+
+}

@@ -1,0 +1,42 @@
+#include "Kernels/Estimation/TransferKernel.h"
+
+namespace msi
+{
+
+Eigen::MatrixXd scaledProducts(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+{
+  return a.transpose() * b / static_cast<double>(a.rows());
+}
+
+Eigen::MatrixXd scaledDistances(
+  const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen::MatrixXd& products)
+{
+  const double channels = static_cast<double>(a.rows());
+  const Eigen::VectorXd ofA = a.colwise().squaredNorm().transpose() / channels;
+  const Eigen::RowVectorXd ofB = b.colwise().squaredNorm() / channels;
+  Eigen::MatrixXd distances = -2.0 * products;
+  distances.colwise() += ofA;
+  distances.rowwise() += ofB;
+  return distances.cwiseMax(0.0);
+}
+
+Eigen::MatrixXd covariance(const TransferKernel& kernel, const Eigen::MatrixXd& a,
+  Eigen::Index chartOfA, const Eigen::MatrixXd& b, Eigen::Index chartOfB)
+{
+  using Kernel = TransferKernel;
+  const Eigen::MatrixXd products = scaledProducts(a, b);
+  const double length = kernel[Kernel::Length];
+  const Eigen::MatrixXd smooth =
+    (scaledDistances(a, b, products).array() * (-0.5 / (length * length))).exp();
+  Eigen::MatrixXd result = (kernel[Kernel::Constant] + kernel[Kernel::Linear] * products.array() +
+    kernel[Kernel::Smooth] * smooth.array())
+                             .matrix();
+  const Eigen::Index targetOfA = a.cols() - chartOfA;
+  const Eigen::Index targetOfB = b.cols() - chartOfB;
+  result.bottomRightCorner(targetOfA, targetOfB).array() += kernel[Kernel::TargetConstant] +
+    kernel[Kernel::TargetLinear] * products.bottomRightCorner(targetOfA, targetOfB).array() +
+    kernel[Kernel::TargetSmooth] * smooth.bottomRightCorner(targetOfA, targetOfB).array();
+  return result;
+}
+
+} // namespace msi

@@ -1,0 +1,140 @@
+#include "Kernels/Gap/EffectScreen.h"
+
+#include "Kernels/Gap/OrderBreaks.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double PriorWidth = 10.0;
+
+// The residual and everything the present effects can do, taken out of the way.
+class Remainder
+{
+public:
+  Remainder(const EffectFitter& fitter, const EffectFit& current)
+    : RootWeight(
+        Eigen::Map<const Eigen::ArrayXd>(fitter.weight().data(), fitter.weight().size()).sqrt())
+  {
+    if (current.jacobian.cols() > 0)
+    {
+      const Eigen::MatrixXd columns = RootWeight.matrix().asDiagonal() * current.jacobian;
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+      Basis = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+    }
+  }
+  Eigen::MatrixXd cleared(const Eigen::MatrixXd& columns) const
+  {
+    Eigen::MatrixXd rest = RootWeight.matrix().asDiagonal() * columns;
+    rest = (RootWeight > 0.0).replicate(1, rest.cols()).select(rest.array(), 0.0);
+    if (Basis.cols() > 0)
+    {
+      rest -= Basis * (Basis.transpose() * rest);
+    }
+    return rest;
+  }
+  // Squared error left after one linear step with these columns.
+  double leftAfter(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
+    const std::vector<FreeParameter>& free) const
+  {
+    Eigen::MatrixXd normal = columns.transpose() * columns;
+    for (Eigen::Index p = 0; p < columns.cols(); ++p)
+    {
+      const double scale = free[static_cast<std::size_t>(p)].scale;
+      normal(p, p) += 1.0 / (PriorWidth * PriorWidth * scale * scale);
+    }
+    const Eigen::VectorXd gradient = columns.transpose() * residual;
+    return residual.squaredNorm() - gradient.dot(normal.ldlt().solve(gradient));
+  }
+
+private:
+  Eigen::ArrayXd RootWeight;
+  Eigen::MatrixXd Basis;
+};
+
+std::vector<std::vector<double>> startsOf(
+  const EffectChoice& choice, const GapData& data, const OrderBreaks& breaks)
+{
+  const std::string& form = choice.form->name;
+  if (choice.effect->name == "session_drift" && form.find("step") != std::string::npos)
+  {
+    return breaks.startsFor(form);
+  }
+  std::vector<std::vector<double>> starts = choice.form->starts;
+  if (choice.effect->name == "saturation")
+  {
+    starts.push_back({ 0.98 * data.observed.maxCoeff(), 0.01 });
+  }
+  return starts;
+}
+}
+
+std::vector<ScreenedEffect> screenEffects(const EffectFitter& fitter, const EffectFit& current,
+  const std::vector<EffectChoice>& choices, double pricePerParameter)
+{
+  const GapData& data = fitter.data();
+  const Remainder remainder(fitter, current);
+  const auto flatten = [](const Eigen::MatrixXd& m) -> Eigen::VectorXd
+  { return Eigen::Map<const Eigen::VectorXd>(m.data(), m.size()); };
+  const Eigen::VectorXd residual =
+    remainder.cleared(flatten(data.observed - current.predicted)).col(0);
+  const double before = residual.squaredNorm();
+  const OrderBreaks breaks(fitter, current.predicted);
+  const std::size_t position = current.set.size();
+
+  std::vector<ScreenedEffect> screened;
+  for (const EffectChoice& choice : choices)
+  {
+    if (current.set.has(choice))
+    {
+      continue;
+    }
+    std::vector<std::vector<double>> starts = startsOf(choice, data, breaks);
+    if (starts.empty())
+    {
+      starts.emplace_back();
+    }
+    ScreenedEffect best{ choice, {}, 0.0, 0 };
+    for (const std::vector<double>& start : starts)
+    {
+      EffectSet set = current.set;
+      set.add(choice, data.camera, start);
+      std::vector<FreeParameter> free = set.freeParameters(data.camera);
+      free.erase(std::remove_if(free.begin(), free.end(),
+                   [position](const FreeParameter& p) { return p.effect < position; }),
+        free.end());
+      Eigen::MatrixXd base = current.predicted;
+      Eigen::VectorXd here = residual;
+      if (!start.empty())
+      {
+        base = respond(data.camera, data.scene, set);
+        here = remainder.cleared(flatten(data.observed - base)).col(0);
+      }
+      const Eigen::MatrixXd columns =
+        remainder.cleared(jacobian(data.camera, data.scene, set, base, free));
+      const double gain = before - remainder.leftAfter(here, columns, free);
+      best.parameters =
+        columns.cols() + static_cast<Eigen::Index>(set.steps() - current.set.steps());
+      if (gain > best.gain)
+      {
+        best.gain = gain;
+        best.start = start;
+      }
+    }
+    screened.push_back(std::move(best));
+  }
+  const auto worth = [pricePerParameter](const ScreenedEffect& effect)
+  { return effect.gain - pricePerParameter * static_cast<double>(effect.parameters); };
+  std::stable_sort(screened.begin(), screened.end(),
+    [&worth](const ScreenedEffect& a, const ScreenedEffect& b) { return worth(a) > worth(b); });
+  return screened;
+}
+
+} // namespace msi

@@ -1,0 +1,46 @@
+// Which set of effects explains a gap.
+#pragma once
+
+#include "Kernels/Gap/EffectFit.h"
+#include "Kernels/Gap/EffectScreen.h"
+
+#include <functional>
+#include <vector>
+
+namespace msi
+{
+
+struct SearchLimits
+{
+  int maximumEffects = 5;
+  int width = 3;     // sets kept of each size
+  int fullFits = 12; // effects fitted for each set kept
+};
+
+struct SearchResult
+{
+  EffectFit best;
+  std::size_t causes =
+    0; // the effects of `best` up to here are causes, those after it small errors of the camera
+  std::vector<EffectFit> singles; // single effects that were fitted; the best form of each
+  double gapEnergy = 0.0;         // weighted, beyond noise, before any effect
+};
+
+// The price of one parameter in cross-validated energy: what chance gives it (half of log n times the
+// dispersion), and not less than a fixed part of the gap, because a form is an approximation and a further
+// parameter mends it a little always.
+double parameterPrice(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy);
+
+// Fits current + choice for the best choices of the screen; secondary parameters are freed where the
+// cross-validation asks for it.
+std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& current,
+  const std::vector<EffectChoice>& choices, double gapEnergy, int fullFits);
+
+// Beam search by size; a set of one effect more must beat the best smaller one by significance, by the price of
+// its parameters and by a relevant part of the gap. Afterwards effects are dropped again where that
+// costs nothing, and the forms of those that stay are chosen by cross-validation alone.
+// stop() is asked now and then; true ends the search early.
+SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectChoice>& choices,
+  const SearchLimits& limits, const std::function<bool()>& stop);
+
+} // namespace msi

@@ -1,0 +1,284 @@
+#include "Kernels/Gap/EffectSet.h"
+
+#include "Kernels/Camera/CameraSimulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double RelativeStep = 1e-3; // of a parameter's typical size
+constexpr const char* Level = "exposure_gain";
+
+// The place of a step has no useful derivative.
+bool foundBySearch(const EffectParameter& parameter)
+{
+  return parameter.name == "place";
+}
+}
+
+bool EffectSet::has(const EffectChoice& cause) const noexcept
+{
+  return std::any_of(choices.begin(), choices.end(),
+    [&cause](const EffectChoice& choice) { return choice.sameCause(cause); });
+}
+
+bool EffectSet::whiteAfterEffects() const noexcept
+{
+  return std::any_of(
+    choices.begin(), choices.end(), [](const EffectChoice& choice) { return choice.whiteAfter; });
+}
+
+bool EffectSet::leveled() const noexcept
+{
+  const auto is = [](const char* name)
+  { return [name](const EffectChoice& choice) { return choice.effect->name == name; }; };
+  return std::any_of(choices.begin(), choices.end(),
+           [](const EffectChoice& choice) { return choice.leveled; }) &&
+    std::none_of(choices.begin(), choices.end(), is("exposure_gain"));
+}
+
+std::size_t EffectSet::steps() const noexcept
+{
+  return static_cast<std::size_t>(std::count_if(choices.begin(), choices.end(),
+    [](const EffectChoice& choice)
+    {
+      const auto& parameters = choice.form->parameters;
+      return std::any_of(parameters.begin(), parameters.end(), foundBySearch);
+    }));
+}
+
+std::vector<CameraEffect> EffectSet::simulated() const
+{
+  std::vector<CameraEffect> all = effects;
+  if (leveled())
+  {
+    all.push_back({ Level, "", "", { level } });
+  }
+  return all;
+}
+
+void EffectSet::add(
+  const EffectChoice& choice, const CameraModel& camera, const std::vector<double>& start)
+{
+  choices.push_back(choice);
+  effects.push_back(
+    neutralEffect(choice.effect->name, camera.channels(), choice.form->name, choice.medium));
+  secondaryFree.push_back(0);
+  if (!start.empty())
+  {
+    std::size_t at = 0;
+    for (std::size_t p = 0; p < choice.form->parameters.size(); ++p)
+    {
+      const std::size_t count =
+        choice.form->parameters[p].perChannel ? camera.channels().size() : 1;
+      std::fill_n(
+        effects.back().parameters.begin() + static_cast<std::ptrdiff_t>(at), count, start[p]);
+      at += count;
+    }
+  }
+}
+
+void EffectSet::remove(std::size_t position)
+{
+  const auto at = static_cast<std::ptrdiff_t>(position);
+  choices.erase(choices.begin() + at);
+  effects.erase(effects.begin() + at);
+  secondaryFree.erase(secondaryFree.begin() + at);
+}
+
+std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) const
+{
+  std::vector<FreeParameter> free;
+  std::size_t group = 0;
+  for (std::size_t e = 0; e < effects.size(); ++e)
+  {
+    std::size_t index = 0;
+    for (const EffectParameter& parameter : choices[e].form->parameters)
+    {
+      const auto count = parameter.perChannel ? camera.channelCount() : Eigen::Index(1);
+      const bool isFree =
+        !foundBySearch(parameter) && (!parameter.secondary || secondaryFree[e] != 0);
+      for (Eigen::Index k = 0; k < count; ++k, ++index)
+      {
+        if (isFree)
+        {
+          std::string name = parameter.name;
+          if (parameter.perChannel)
+          {
+            name += "[" + camera.channels()[static_cast<std::size_t>(k)] + "]";
+          }
+          free.push_back({ e, index, parameter.perChannel ? k : -1, group, parameter.neutral,
+            parameter.lower, parameter.upper, parameter.typical, name, parameter.unit });
+        }
+      }
+      ++group;
+    }
+  }
+  if (leveled())
+  {
+    const EffectParameter& gain = findEffect(Level)->forms.front().parameters.front();
+    free.push_back({ effects.size(), 0, -1, group, gain.neutral, gain.lower, gain.upper,
+      gain.typical, "level", gain.unit });
+  }
+  return free;
+}
+
+double valueOf(const EffectSet& set, const FreeParameter& parameter)
+{
+  return parameter.effect < set.effects.size()
+    ? set.effects[parameter.effect].parameters[parameter.index]
+    : set.level;
+}
+
+void setValue(EffectSet& set, const FreeParameter& parameter, double value)
+{
+  (parameter.effect < set.effects.size() ? set.effects[parameter.effect].parameters[parameter.index]
+                                         : set.level) = value;
+}
+
+Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>& free)
+{
+  Eigen::VectorXd values(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t p = 0; p < free.size(); ++p)
+  {
+    values[static_cast<Eigen::Index>(p)] = valueOf(set, free[p]);
+  }
+  return values;
+}
+
+void setValues(
+  EffectSet& set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& values)
+{
+  for (std::size_t p = 0; p < free.size(); ++p)
+  {
+    setValue(set, free[p], values[static_cast<Eigen::Index>(p)]);
+  }
+}
+
+Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set)
+{
+  try
+  {
+    return CameraSimulator(camera, set.simulated(), { set.whiteAfterEffects() }).respond(scene);
+  }
+  catch (const std::invalid_argument&)
+  {
+    // A trial that leaves a channel without light: as bad as can be, for the fit to turn back from.
+    return Eigen::MatrixXd::Constant(
+      camera.channelCount(), scene.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+Eigen::MatrixXd jacobian(const CameraModel& camera, const SampleScene& scene, const EffectSet& set,
+  const Eigen::MatrixXd& base, const std::vector<FreeParameter>& free)
+{
+  const bool coupled = std::any_of(set.effects.begin(), set.effects.end(),
+    [](const CameraEffect& effect) { return effect.name == "channel_crosstalk"; });
+  const Eigen::Index colors = coupled ? 3 : 1;
+  const Eigen::Index reach = coupled ? 1 : 0;
+  const Eigen::Index channels = base.rows();
+  Eigen::MatrixXd columns =
+    Eigen::MatrixXd::Zero(base.size(), static_cast<Eigen::Index>(free.size()));
+  const auto stepOf = [&](const FreeParameter& parameter)
+  {
+    const double value = valueOf(set, parameter);
+    const double step = RelativeStep * parameter.scale;
+    return value + step > parameter.upper ? -step : step;
+  };
+  std::size_t first = 0;
+  while (first < free.size())
+  {
+    std::size_t last = first + 1;
+    while (last < free.size() && free[last].group == free[first].group)
+    {
+      ++last;
+    }
+    const bool perChannel = free[first].channel >= 0;
+    for (Eigen::Index color = 0; color < (perChannel ? colors : 1); ++color)
+    {
+      EffectSet moved = set;
+      for (std::size_t p = first; p < last; ++p)
+      {
+        if (!perChannel || free[p].channel % colors == color)
+        {
+          setValue(moved, free[p], valueOf(set, free[p]) + stepOf(free[p]));
+        }
+      }
+      const Eigen::MatrixXd change = respond(camera, scene, moved) - base;
+      for (std::size_t p = first; p < last; ++p)
+      {
+        if (perChannel && free[p].channel % colors != color)
+        {
+          continue;
+        }
+        const Eigen::Index low =
+          perChannel ? std::max<Eigen::Index>(free[p].channel - reach, 0) : 0;
+        const Eigen::Index high =
+          perChannel ? std::min<Eigen::Index>(free[p].channel + reach, channels - 1) : channels - 1;
+        Eigen::Map<Eigen::MatrixXd> column(
+          columns.col(static_cast<Eigen::Index>(p)).data(), channels, base.cols());
+        column.middleRows(low, high - low + 1) =
+          change.middleRows(low, high - low + 1) / stepOf(free[p]);
+      }
+    }
+    first = last;
+  }
+  // Samples without reflectance have no derivative.
+  columns = columns.array().isFinite().select(columns, 0.0);
+  return columns;
+}
+
+std::vector<EffectChoice> choicesFor(
+  const SampleScene& scene, const std::vector<std::string>& without)
+{
+  const auto barred = [&without](const std::string& name)
+  { return std::find(without.begin(), without.end(), name) != without.end(); };
+  std::vector<EffectChoice> choices;
+  for (const EffectDefinition& effect : effectLibrary())
+  {
+    const bool shown = effect.stage != EffectStage::Noise && effect.stage != EffectStage::Image &&
+      (effect.need != EffectNeed::Position || scene.hasPositions()) &&
+      (effect.need != EffectNeed::Order || scene.hasOrder()) &&
+      (effect.need != EffectNeed::Medium || !scene.samples().medium.empty()) &&
+      !barred(effect.name);
+    if (!shown)
+    {
+      continue;
+    }
+    const std::vector<std::string> media =
+      effect.need == EffectNeed::Medium ? scene.media() : std::vector<std::string>{ std::string() };
+    for (const std::string& medium : media)
+    {
+      if (effect.need == EffectNeed::Medium && medium.empty())
+      {
+        continue;
+      }
+      for (const EffectForm& form : effect.forms)
+      {
+        // Without exposure_gain nothing else may carry a gain of all channels in disguise.
+        if (form.name == "fixed_peak" && barred("exposure_gain"))
+        {
+          continue;
+        }
+        choices.push_back({ &effect, &form, medium });
+        if (effect.stage == EffectStage::Responsivity)
+        {
+          choices.push_back({ &effect, &form, medium, true });
+        }
+        if (effect.name == "illuminant_drift" && !barred("exposure_gain"))
+        {
+          choices.push_back({ &effect, &form, medium, false, true });
+        }
+      }
+    }
+  }
+  return choices;
+}
+
+} // namespace msi

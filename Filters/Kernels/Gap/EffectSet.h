@@ -1,0 +1,87 @@
+// A hypothesis about the camera: some effects, some of their parameters free.
+#pragma once
+
+#include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Camera/CameraModel.h"
+#include "Kernels/Camera/SampleScene.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+// One form of one effect that may be tried.
+struct EffectChoice
+{
+  const EffectDefinition* effect = nullptr;
+  const EffectForm* form = nullptr;
+  std::string medium;
+  // The white was taken with this effect in place: CameraSimulatorOptions::whiteAfterEffects.
+  bool whiteAfter = false;
+  // With a level of its own: a lamp that changes its color also changes its brightness. The library's forms of
+  // illuminant_drift hold the brightness; exposure_gain carries it in the simulator.
+  bool leveled = false;
+
+  // The same effect on the same medium, whatever the form.
+  bool sameCause(const EffectChoice& other) const noexcept
+  {
+    return effect == other.effect && medium == other.medium;
+  }
+};
+
+struct FreeParameter
+{
+  std::size_t effect;   // in EffectSet::effects; their number for the level
+  std::size_t index;    // in CameraEffect::parameters
+  Eigen::Index channel; // -1: common to all channels
+  std::size_t group;    // parameters of one group differ in the channel only
+  double neutral, lower, upper, scale;
+  std::string name, unit;
+};
+
+struct EffectSet
+{
+  std::vector<EffectChoice> choices;
+  std::vector<CameraEffect> effects; // one a choice
+  std::vector<char> secondaryFree;   // one a choice
+  double level = 1.0;                // of the choices that are leveled
+
+  std::size_t size() const noexcept { return effects.size(); }
+  bool has(const EffectChoice& cause) const noexcept;
+  bool whiteAfterEffects() const noexcept;
+  bool leveled() const noexcept;      // and exposure_gain is not there to do it
+  std::size_t steps() const noexcept; // places of steps in time: found by search, not by derivative
+  // What the simulator is to run with.
+  std::vector<CameraEffect> simulated() const;
+  // Added at its neutral values, or at `start` (one number a parameter of the form).
+  void add(
+    const EffectChoice& choice, const CameraModel& camera, const std::vector<double>& start = {});
+  void remove(std::size_t position);
+  std::vector<FreeParameter> freeParameters(const CameraModel& camera) const;
+};
+
+double valueOf(const EffectSet& set, const FreeParameter& parameter);
+void setValue(EffectSet& set, const FreeParameter& parameter, double value);
+Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>& free);
+void setValues(
+  EffectSet& set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& values);
+
+// Noise-free response of the camera with these effects, K x S.
+Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
+
+// Derivative of the response by the free parameters of the effects from position `first` on, one column a
+// parameter, rows in the order of the K x S response. `base` is the response itself.
+// Forward differences. The parameters of one channel move that channel only (with channel_crosstalk also
+// its neighbours), so all channels are moved at once.
+Eigen::MatrixXd jacobian(const CameraModel& camera, const SampleScene& scene, const EffectSet& set,
+  const Eigen::MatrixXd& base, const std::vector<FreeParameter>& free);
+
+// The effects of the library that this scene can show in its mean response, form by form, without those named;
+// those of lamp and filters also with the white taken after them.
+std::vector<EffectChoice> choicesFor(
+  const SampleScene& scene, const std::vector<std::string>& without);
+
+} // namespace msi

@@ -1,0 +1,202 @@
+#include "Kernels/Gap/GapCauses.h"
+
+#include "Kernels/Gap/Shapley.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int Iterations = 6;
+constexpr int AlternativesFitted = 8;
+constexpr std::size_t EquivalentNamed = 2;
+constexpr double EquivalentPart = 0.02;      // of the gap's energy
+constexpr double EquivalentDeviations = 9.0; // dispersions
+
+EffectSet subsetOf(const EffectSet& set, std::size_t subset)
+{
+  EffectSet part = set;
+  for (std::size_t e = set.size(); e-- > 0;)
+  {
+    if ((subset >> e & 1U) == 0)
+    {
+      part.remove(e);
+    }
+  }
+  return part;
+}
+
+// Shrink of every subset of the effects.
+std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& best)
+{
+  const std::size_t subsets = std::size_t(1) << best.set.size();
+  std::vector<double> shrink{ 0.0 };
+  for (std::size_t subset = 1; subset < subsets; ++subset)
+  {
+    const double reached = subset + 1 == subsets
+      ? shrinkOf(fitter, best)
+      : shrinkOf(fitter, fitter.fit(subsetOf(best.set, subset), Iterations));
+    shrink.push_back(std::fmax(reached, 0.0));
+  }
+  return shrink;
+}
+
+// The place of a step lies between two samples; the error is that of a uniform distribution there.
+void addPlace(GapCause& cause, const EffectSet& set, std::size_t position, double samples)
+{
+  std::size_t index = 0;
+  for (const EffectParameter& parameter : set.choices[position].form->parameters)
+  {
+    if (parameter.name == "place")
+    {
+      cause.parameters.push_back({ parameter.name, set.effects[position].parameters[index],
+        parameter.unit, 1.0 / (samples * std::sqrt(12.0)) });
+    }
+    index += parameter.perChannel ? set.effects[position].parameters.size() -
+        (set.choices[position].form->parameters.size() - 1)
+                                  : 1;
+  }
+}
+
+// Effects that do as well in the place of one of the causes.
+std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchResult& found,
+  const std::vector<EffectChoice>& choices, std::size_t position)
+{
+  const EffectFit& best = found.best;
+  EffectSet rest = best.set;
+  rest.remove(position);
+  std::vector<EffectChoice> others;
+  std::copy_if(choices.begin(), choices.end(), std::back_inserter(others),
+    [&](const EffectChoice& choice) {
+      return choice.effect->name != best.set.choices[position].effect->name && !rest.has(choice);
+    });
+  const EffectFit without = rest.size() > 0 ? fitter.fit(rest, Iterations) : fitter.nominal();
+  const std::vector<EffectFit> alternatives =
+    extendFit(fitter, without, others, found.gapEnergy, AlternativesFitted);
+  struct Rival
+  {
+    std::string name;
+    double cost;
+  };
+  std::vector<Rival> rivals;
+  const double price = parameterPrice(fitter, best, found.gapEnergy);
+  const auto costOf = [price](const EffectFit& fit)
+  { return fit.energy + price * static_cast<double>(fit.parameters()); };
+  const double tolerance =
+    std::fmax(EquivalentPart * found.gapEnergy, EquivalentDeviations * best.dispersion);
+  for (const EffectFit& alternative : alternatives)
+  {
+    if (costOf(alternative) <= costOf(best) + tolerance)
+    {
+      rivals.push_back({ alternative.set.choices.back().effect->name, costOf(alternative) });
+    }
+  }
+  std::stable_sort(
+    rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
+  std::vector<std::string> names;
+  for (const Rival& rival : rivals)
+  {
+    if (names.size() < EquivalentNamed &&
+      std::find(names.begin(), names.end(), rival.name) == names.end())
+    {
+      names.push_back(rival.name);
+    }
+  }
+  return names;
+}
+}
+
+double shrinkOf(double before, double after, double noise) noexcept
+{
+  const double excess = before - noise;
+  if (!(excess > 0.0))
+  {
+    return 0.0;
+  }
+  return std::fmax(1.0 - std::sqrt(std::fmax(after - noise, 0.0) / excess), -1.0);
+}
+
+double shrinkOf(const EffectFitter& fitter, const EffectFit& fit)
+{
+  const GapData& data = fitter.data();
+  double before = 0.0;
+  double after = 0.0;
+  double noise = 0.0;
+  for (Eigen::Index i = 0; i < data.observed.size(); ++i)
+  {
+    if (fitter.weight()(i) > 0.0)
+    {
+      const double gap = data.observed(i) - data.simulated(i);
+      before += gap * gap;
+      after += fit.heldOut(i) * fit.heldOut(i);
+      noise += data.variance(i);
+    }
+  }
+  return shrinkOf(before, after, noise);
+}
+
+std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchResult& found,
+  const std::vector<EffectChoice>& choices, double total)
+{
+  const EffectFit& best = found.best;
+  const std::size_t count = best.set.size();
+  const std::vector<double> alone = subsetShrinks(fitter, best);
+  std::vector<double> share = shapleyValues(alone, count);
+  double sum = 0.0;
+  for (double& part : share)
+  {
+    part = std::fmax(part, 0.0);
+    sum += part;
+  }
+  const Eigen::VectorXd errors = count > 0
+    ? Eigen::VectorXd(fitter.covariance(best).diagonal().cwiseMax(0.0).cwiseSqrt())
+    : Eigen::VectorXd();
+  std::vector<GapCause> causes;
+  for (std::size_t e = 0; e < count; ++e)
+  {
+    GapCause cause;
+    cause.effect = best.set.choices[e].effect->name;
+    cause.form = best.set.choices[e].form->name;
+    cause.medium = best.set.choices[e].medium;
+    cause.share = sum > 0.0 ? std::fmax(total, 0.0) * share[e] / sum : 0.0;
+    cause.shrink = alone[std::size_t(1) << e];
+    if (e < found.causes)
+    {
+      cause.equivalent = equivalentsOf(fitter, found, choices, e);
+    }
+    for (std::size_t p = 0; p < best.free.size(); ++p)
+    {
+      const FreeParameter& parameter = best.free[p];
+      const bool level = parameter.effect == count && best.set.choices[e].leveled;
+      if (parameter.effect == e || level)
+      {
+        cause.parameters.push_back({ parameter.name, valueOf(best.set, parameter), parameter.unit,
+          errors[static_cast<Eigen::Index>(p)] });
+      }
+    }
+    addPlace(cause, best.set, e, fitter.trainingSamples());
+    causes.push_back(std::move(cause));
+  }
+  std::stable_sort(causes.begin(), causes.end(),
+    [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
+  return causes;
+}
+
+std::vector<GapCandidate> describeCandidates(const EffectFitter& fitter, const SearchResult& found)
+{
+  std::vector<GapCandidate> candidates;
+  for (const EffectFit& single : found.singles)
+  {
+    const EffectChoice& choice = single.set.choices.front();
+    candidates.push_back(
+      { choice.effect->name, choice.form->name, choice.medium, shrinkOf(fitter, single) });
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+    [](const GapCandidate& a, const GapCandidate& b) { return a.shrink > b.shrink; });
+  return candidates;
+}
+
+} // namespace msi

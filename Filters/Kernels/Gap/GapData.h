@@ -1,0 +1,46 @@
+// A capture made ready for fitting: one grid, averaged readings, weights, folds.
+#pragma once
+
+#include "Kernels/Gap/SimToRealGap.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace msi
+{
+
+// Channels x samples throughout. An element without a reading has count 0 and weight 0, and observed
+// there equals simulated.
+struct GapData
+{
+  CameraModel camera;
+  SampleScene scene; // on the camera's grid
+  Eigen::MatrixXd observed;
+  Eigen::MatrixXd count;     // readings behind each element
+  Eigen::MatrixXd scatter;   // sum of squared deviations of the readings from their mean
+  Eigen::MatrixXd simulated; // the nominal camera
+  Eigen::MatrixXd variance;  // of observed - simulated from noise alone
+  Eigen::MatrixXd weight;    // of a squared residual in a fit
+  std::vector<char> usable;  // S: has a reflectance and a reading
+  std::vector<int> fold;     // S: 0 .. folds - 1
+  int folds = 0;
+  Eigen::Index elements = 0; // with weight
+
+  Eigen::Index channels() const noexcept { return observed.rows(); }
+  Eigen::Index samples() const noexcept { return observed.cols(); }
+};
+
+// Averages and aligns; variance and weight are left empty.
+// Errors: as diagnoseGap.
+GapData prepareGapData(const GapCapture& capture, const GapOptions& options);
+
+// Weights 1 / (variance + (formTolerance x rms gap)^2): the library's forms are approximations of the
+// physics, and beyond that part of the gap no element is trusted more than another.
+void setWeights(GapData& data);
+
+// Balanced folds over the usable samples, media kept in proportion; the same for the same seed.
+std::vector<int> foldsOf(
+  const GapData& data, const std::vector<char>& among, int folds, std::uint64_t seed);
+
+} // namespace msi

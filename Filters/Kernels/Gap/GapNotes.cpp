@@ -1,0 +1,196 @@
+#include "Kernels/Gap/GapNotes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double EqualReadings =
+  0.01; // part of all elements at the largest value that speaks of a limit
+
+template <typename... Parts>
+std::string text(const Parts&... parts)
+{
+  std::ostringstream message;
+  message.precision(3);
+  (message << ... << parts);
+  return message.str();
+}
+
+void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
+  const NoiseFinding& noise, double reflectanceNoise)
+{
+  if (noise.unknown)
+  {
+    notes.push_back(
+      "No noise model and one reading a sample: what no effect and no axis predicts is "
+      "taken for noise. A second reading of each sample would tell.");
+  }
+  else if (!capture.noise)
+  {
+    notes.push_back(text("The noise comes from the repeats: read ", noise.reading.read, ", shot ",
+      noise.reading.shot, ", relative to white."));
+  }
+  else if (noise.degrees < 4.0)
+  {
+    notes.push_back("One reading a sample: the noise model could not be checked.");
+  }
+  if (reflectanceNoise > 0.0)
+  {
+    notes.push_back(
+      text("The measured reflectances are taken to scatter by ", reflectanceNoise, "."));
+  }
+}
+
+void noteScene(std::vector<std::string>& notes, const GapData& data)
+{
+  const SceneSamples& samples = data.scene.samples();
+  if (samples.medium.empty())
+  {
+    notes.push_back("The samples name no medium: effects of one medium were not tried.");
+  }
+  else if (data.scene.media().size() == 1)
+  {
+    notes.push_back(
+      "One medium only: an effect of the medium and one of the camera can look alike.");
+  }
+  if (!data.scene.hasPositions())
+  {
+    notes.push_back(
+      "No positions: vignetting, illumination gradient and local stray light were not "
+      "tried.");
+  }
+  if (!data.scene.hasOrder())
+  {
+    notes.push_back("No capture order: session drift was not tried.");
+  }
+  if (data.scene.scenes().size() == 1)
+  {
+    notes.push_back("One scene only: veiling glare looks like a dark offset of each channel.");
+  }
+}
+
+void noteSamples(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
+{
+  const auto usable = std::count(data.usable.begin(), data.usable.end(), 1);
+  if (usable < data.samples())
+  {
+    notes.push_back(text(data.samples() - usable, " of ", data.samples(),
+      " samples have no reading or no reflectance and were left out."));
+  }
+  std::size_t parameters = 0;
+  for (const GapCause& cause : report.causes)
+  {
+    parameters += cause.parameters.size();
+  }
+  if (static_cast<std::size_t>(usable) < std::max<std::size_t>(parameters, 20))
+  {
+    notes.push_back(
+      text(usable, " samples are few for ", parameters, " parameters: expect wide intervals."));
+  }
+  const Eigen::MatrixXd& r = data.scene.reflectance();
+  double spread = 0.0;
+  double level = 0.0;
+  for (Eigen::Index i = 0; i < r.cols(); ++i)
+  {
+    if (data.usable[static_cast<std::size_t>(i)] != 0)
+    {
+      const double mean = r.col(i).mean();
+      spread += (r.col(i).array() - mean).square().mean();
+      level += mean * mean;
+    }
+  }
+  if (spread < 1e-4 * level)
+  {
+    notes.push_back(
+      "The reflectances hardly change with wavelength: lamp, filters and channel gains "
+      "cannot be told apart.");
+  }
+}
+
+void noteSaturation(std::vector<std::string>& notes, const GapData& data)
+{
+  const double top = data.observed.maxCoeff();
+  Eigen::Index equal = 0;
+  for (Eigen::Index i = 0; i < data.observed.size(); ++i)
+  {
+    equal += data.count(i) > 0.0 && data.observed(i) >= top - 1e-6 * std::fabs(top) ? 1 : 0;
+  }
+  if (static_cast<double>(equal) > EqualReadings * static_cast<double>(data.elements))
+  {
+    notes.push_back(text(equal, " readings share the largest value ", top,
+      ": they look clipped and say little about any other effect."));
+  }
+}
+}
+
+void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,
+  const std::optional<ReadingNoise>& given, const std::vector<std::string>& without)
+{
+  const bool barred = std::find(without.begin(), without.end(), "excess_noise") != without.end();
+  if (!given || noise.excess <= 1.0 || barred)
+  {
+    return;
+  }
+  const Eigen::MatrixXd expected = readingVariance(data, *given);
+  const Eigen::MatrixXd found = readingVariance(data, noise.reading);
+  const auto measured = (data.count.array() > 0.0).cast<double>();
+  const double excess =
+    (measured * (found - expected).array()).sum() / static_cast<double>(data.elements);
+  const double before2 = report.gap.rmsBefore * report.gap.rmsBefore;
+  const double floor2 = report.gap.noiseFloor * report.gap.noiseFloor;
+  const double expected2 = std::fmax(floor2 - excess, 0.0);
+  GapCause cause;
+  cause.effect = "excess_noise";
+  cause.form = "factor";
+  cause.parameters.push_back(
+    { "factor", noise.excess, "1", noise.excess / std::sqrt(2.0 * noise.degrees) });
+  if (report.causes.empty() && report.verdict != GapVerdict::Unexplained)
+  {
+    // The gap is what the given model does not allow; with the effect in the simulator it does.
+    cause.share = 1.0;
+    cause.shrink = 1.0;
+    report.verdict = GapVerdict::Explained;
+    report.gap.noiseFloor = std::sqrt(expected2);
+    report.gap.rmsAfter = std::sqrt(std::fmax(before2 - excess, expected2));
+    report.gap.shrink = before2 > expected2
+      ? 1.0 - std::sqrt(std::fmax(before2 - excess - expected2, 0.0) / (before2 - expected2))
+      : 1.0;
+    cause.shrink = report.gap.shrink;
+    report.gap.shrinkInterval = { std::fmin(report.gap.shrink, 0.0), 1.0 };
+  }
+  else
+  {
+    // Sizes, not energies, as the other shares.
+    const double size = std::sqrt(std::fmax(excess, 0.0));
+    const double gap = std::sqrt(std::fmax(before2 - floor2, 0.0));
+    cause.share = size / (size + gap);
+    cause.shrink = 0.0;
+    for (GapCause& other : report.causes)
+    {
+      other.share *= 1.0 - cause.share;
+    }
+    report.unexplained.share *= 1.0 - cause.share;
+  }
+  report.correction.push_back({ "excess_noise", "factor", "", { noise.excess } });
+  report.causes.push_back(std::move(cause));
+  std::stable_sort(report.causes.begin(), report.causes.end(),
+    [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
+}
+
+std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
+  const NoiseFinding& noise, double reflectanceNoise, const GapReport& report)
+{
+  std::vector<std::string> notes;
+  noteNoise(notes, capture, noise, reflectanceNoise);
+  noteScene(notes, data);
+  noteSamples(notes, data, report);
+  noteSaturation(notes, data);
+  return notes;
+}
+
+} // namespace msi

@@ -1,0 +1,122 @@
+// What a diagnosis of the gap between a simulated and a real camera has to say.
+#pragma once
+
+#include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Camera/CameraModel.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+enum class GapVerdict
+{
+  NoGap,
+  Explained,
+  PartlyExplained,
+  Unexplained
+};
+
+// "no gap", "explained", "partly explained", "unexplained"
+const char* nameOf(GapVerdict verdict) noexcept;
+
+// Root mean squares over channels and samples, response relative to white, on samples that took no part
+// in choosing or fitting the effects.
+//   shrink = 1 - sqrt(max(0, after^2 - floor^2)) / sqrt(before^2 - floor^2), within [-1, 1];
+//   0 where there is no gap to shrink. The interval is a 95 % bootstrap over samples.
+struct GapFigures
+{
+  double rmsBefore = 0.0;
+  double rmsAfter = 0.0;
+  double noiseFloor = 0.0;
+  double shrink = 0.0;
+  std::array<double, 2> shrinkInterval{ 0.0, 0.0 };
+};
+
+struct GapCell
+{
+  std::string cell;   // "C3", "fabric", "x 0.5..1, y 0..0.5", ...
+  double share = 0.0; // of the gap's energy
+};
+
+// One axis along which the gap may lie: channel, medium, scene, position, level, order, spectral_shape,
+// sample. The shares are of the gap's energy above noise before any effect; Shapley values of the
+// cross-validated R^2 of the axes' bases, so that correlated axes are not counted twice.
+struct GapAxis
+{
+  std::string axis;
+  double share = 0.0;
+  std::vector<GapCell> worst;
+};
+
+// A place in the capture order where the gap's level jumps.
+struct GapChangePoint
+{
+  double order = 0.0;      // in the units of the capture's order column
+  double change = 0.0;     // relative change of the response
+  double deviations = 0.0; // the change over its standard error
+};
+
+struct GapParameter
+{
+  std::string name;
+  double value = 0.0;
+  std::string unit;
+  double standardError = 0.0; // robust against samples whose channels err together
+};
+
+struct GapCause
+{
+  std::string effect;
+  std::string form;
+  std::string medium;                  // empty unless the effect acts on one medium
+  double share = 0.0;                  // of the gap's size; Shapley value of the held-out shrink
+  double shrink = 0.0;                 // by this effect alone
+  std::vector<std::string> equivalent; // effects that this data cannot tell from it; at most two
+  std::vector<GapParameter> parameters;
+};
+
+struct GapCandidate
+{
+  std::string effect;
+  std::string form;
+  std::string medium;
+  double shrink = 0.0; // by this effect alone, cross-validated
+};
+
+struct GapRemainder
+{
+  double share = 0.0; // of the gap's size
+  std::string where;  // empty where nothing is left
+};
+
+struct GapNextCapture
+{
+  std::string capture;
+  std::vector<std::string> separates;
+};
+
+struct GapReport
+{
+  GapVerdict verdict = GapVerdict::NoGap;
+  GapFigures gap;
+  std::vector<GapAxis> where; // the largest share first
+  std::vector<GapChangePoint> changePoints;
+  std::vector<GapCause> causes;         // the largest share first
+  std::vector<GapCandidate> candidates; // the largest shrink first
+  GapRemainder unexplained;
+  std::optional<GapNextCapture> nextCapture;
+  std::vector<std::string> notes; // what the data cannot decide, and why
+  // The corrected simulator is CameraSimulator(camera, correction, { whiteAfterEffects }) with the capture's
+  // own camera.
+  std::vector<CameraEffect> correction;
+  bool whiteAfterEffects = false;
+  // K x S, real minus simulated, before and after the correction; NaN where nothing was measured.
+  Eigen::MatrixXd gapBefore;
+  Eigen::MatrixXd gapAfter;
+};
+
+} // namespace msi

@@ -1,0 +1,405 @@
+#include "Kernels/Gap/SimToRealGap.h"
+
+#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Gap/EffectSearch.h"
+#include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Gap/GapCauses.h"
+#include "Kernels/Gap/GapData.h"
+#include "Kernels/Gap/GapNoise.h"
+#include "Kernels/Gap/GapNotes.h"
+#include "Kernels/Gap/OrderBreaks.h"
+#include "Kernels/Gap/SeparatingCapture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double LargestReflectanceNoise = 0.003;
+constexpr double ExplainedShrink = 0.85;
+constexpr double NegligiblePart = 0.25; // of what is left
+constexpr double PartlyShrink = 0.25;
+constexpr double PredictableDeviations = 4.0;
+constexpr double PredictablePart = 0.1; // of the noise energy
+constexpr double UnpredictableFactor = 1.3;
+constexpr int Resamplings = 400;
+constexpr int MostChangePoints = 6;
+
+// Progress over jobs that may run on several threads.
+class Progress
+{
+public:
+  Progress(const GapOptions& options, double steps)
+    : Report(options.progress)
+    , Exclusive(options.exclusive)
+    , Steps(steps)
+  {
+  }
+  bool stopped() const
+  {
+    bool now = false;
+    alone([&] { now = Stopped; });
+    return now;
+  }
+  void step(const char* what, double count = 1.0)
+  {
+    alone(
+      [&]
+      {
+        Done += count;
+        ask(what);
+      });
+  }
+  bool ask()
+  {
+    bool now = false;
+    alone(
+      [&]
+      {
+        ask("searching for effects");
+        now = Stopped;
+      });
+    return now;
+  }
+
+private:
+  void alone(const std::function<void()>& body) const
+  {
+    if (Exclusive)
+    {
+      Exclusive(body);
+    }
+    else
+    {
+      body();
+    }
+  }
+  void ask(const char* what)
+  {
+    if (Report && !Stopped && !Report(std::fmin(Done / Steps, 1.0), what))
+    {
+      Stopped = true;
+    }
+  }
+  std::function<bool(double, const char*)> Report;
+  std::function<void(const std::function<void()>&)> Exclusive;
+  bool Stopped = false;
+  double Done = 0.0;
+  double Steps;
+};
+
+Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
+{
+  return (data.count.array() > 0.0).select(values, 0.0);
+}
+
+double meanOverMeasured(const GapData& data, const Eigen::MatrixXd& values)
+{
+  return measuredOnly(data, values).sum() / static_cast<double>(data.elements);
+}
+
+// Without noise model and repeats: per channel what no basis predicts is noise.
+void setUnknownNoise(GapData& data)
+{
+  data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());
+  const Eigen::MatrixXd residual =
+    shareOverAxes(data, measuredOnly(data, data.observed - data.simulated), false).heldOutResidual;
+  for (Eigen::Index k = 0; k < data.channels(); ++k)
+  {
+    std::vector<double> size;
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      if (data.count(k, i) > 0.0)
+      {
+        size.push_back(std::fabs(residual(k, i)));
+      }
+    }
+    if (!size.empty())
+    {
+      const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+      std::nth_element(size.begin(), middle, size.end());
+      data.variance.row(k).setConstant(std::pow(1.4826 * *middle, 2) + 1e-12);
+    }
+  }
+}
+
+// Per-sample energies before and after, and what noise allows.
+struct Energies
+{
+  std::vector<double> before, after, noise;
+};
+
+Energies energiesOf(
+  const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
+{
+  Energies energies;
+  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  {
+    if (data.usable[static_cast<std::size_t>(i)] != 0)
+    {
+      energies.before.push_back(before.col(i).squaredNorm());
+      energies.after.push_back(after.col(i).squaredNorm());
+      energies.noise.push_back(
+        (data.count.col(i).array() > 0.0).select(data.variance.col(i), 0.0).sum());
+    }
+  }
+  return energies;
+}
+
+GapFigures figuresOf(const GapData& data, const Energies& energies, std::uint64_t seed)
+{
+  double before = 0.0;
+  double after = 0.0;
+  double noise = 0.0;
+  const std::size_t count = energies.before.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    before += energies.before[i];
+    after += energies.after[i];
+    noise += energies.noise[i];
+  }
+  GapFigures figures;
+  const auto elements = static_cast<double>(data.elements);
+  figures.rmsBefore = std::sqrt(before / elements);
+  figures.rmsAfter = std::sqrt(after / elements);
+  figures.noiseFloor = std::sqrt(noise / elements);
+  figures.shrink = shrinkOf(before, after, noise);
+  const CounterRandom random(seed, 72);
+  std::vector<double> shrinks;
+  for (int draw = 0; draw < Resamplings; ++draw)
+  {
+    double b = 0.0;
+    double a = 0.0;
+    double n = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto index = static_cast<std::uint64_t>(draw) * count + i;
+      const auto pick = std::min(
+        count - 1, static_cast<std::size_t>(random.uniform(index) * static_cast<double>(count)));
+      b += energies.before[pick];
+      a += energies.after[pick];
+      n += energies.noise[pick];
+    }
+    shrinks.push_back(shrinkOf(b, a, n));
+  }
+  std::sort(shrinks.begin(), shrinks.end());
+  figures.shrinkInterval = { shrinks[Resamplings / 40],
+    shrinks[Resamplings - 1 - Resamplings / 40] };
+  figures.shrinkInterval[0] = std::fmin(figures.shrinkInterval[0], figures.shrink);
+  figures.shrinkInterval[1] = std::fmax(figures.shrinkInterval[1], figures.shrink);
+  return figures;
+}
+
+// Whether the bases predict held-out samples: their gain in energy, sample by sample, against its own error.
+bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares)
+{
+  double sum = 0.0;
+  double square = 0.0;
+  double samples = 0.0;
+  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  {
+    if (data.usable[static_cast<std::size_t>(i)] != 0)
+    {
+      const double gain = gap.col(i).squaredNorm() - shares.heldOutResidual.col(i).squaredNorm();
+      sum += gain;
+      square += gain * gain;
+      samples += 1.0;
+    }
+  }
+  const double error = std::sqrt(std::fmax(square - sum * sum / samples, 0.0));
+  const double noise = measuredOnly(data, data.variance).sum();
+  return sum > PredictableDeviations * error && sum > PredictablePart * noise;
+}
+
+// A gap that nothing predicts but that noise, with the largest reflectance noise allowed for, does not make.
+bool beyondNoise(const GapFigures& gap)
+{
+  return gap.rmsBefore > UnpredictableFactor * gap.noiseFloor;
+}
+
+std::string whereIs(const AxisShares& shares)
+{
+  if (shares.axes.empty())
+  {
+    return "no axis stands out";
+  }
+  const GapAxis& axis = shares.axes.front();
+  return axis.axis + (axis.worst.empty() ? "" : " " + axis.worst.front().cell);
+}
+}
+
+const char* nameOf(GapVerdict verdict) noexcept
+{
+  switch (verdict)
+  {
+    case GapVerdict::NoGap:
+      return "no gap";
+    case GapVerdict::Explained:
+      return "explained";
+    case GapVerdict::PartlyExplained:
+      return "partly explained";
+    case GapVerdict::Unexplained:
+      break;
+  }
+  return "unexplained";
+}
+
+std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
+{
+  for (const std::string& name : options.without)
+  {
+    if (findEffect(name) == nullptr)
+    {
+      throw std::invalid_argument("there is no effect '" + name + "' to leave out");
+    }
+  }
+  GapData data = prepareGapData(capture, options);
+  const NoiseFinding noise = findNoise(data, capture.noise);
+  if (noise.unknown)
+  {
+    setUnknownNoise(data);
+  }
+  else
+  {
+    data.variance = readingVariance(data, noise.reading);
+  }
+  const Eigen::MatrixXd integration = integrationVariance(data, capture.wavelengths);
+  data.variance += integration;
+  if (options.reflectanceNoise)
+  {
+    data.variance.colwise() +=
+      *options.reflectanceNoise * *options.reflectanceNoise * reflectanceErrorGain(data.camera);
+  }
+  setWeights(data);
+
+  GapReport report;
+  const Eigen::MatrixXd before = measuredOnly(data, data.observed - data.simulated);
+  Progress progress(options, data.folds + 4.0);
+  const std::vector<EffectChoice> choices = choicesFor(data.scene, options.without);
+  const EffectFitter fitter(data, data.usable, options.seed);
+  SearchResult found;
+  Eigen::MatrixXd after = before;
+  const auto stop = [&progress] { return progress.ask(); };
+  const auto job = [&](int number)
+  {
+    if (number == 0)
+    {
+      SearchLimits limits;
+      limits.maximumEffects = options.maximumCauses;
+      found = searchEffects(fitter, choices, limits, stop);
+      progress.step("effects found", 2.0);
+      return;
+    }
+    std::vector<char> training = data.usable;
+    for (std::size_t i = 0; i < training.size(); ++i)
+    {
+      training[i] = training[i] != 0 && data.fold[i] != number - 1 ? 1 : 0;
+    }
+    const EffectFitter fold(data, training, options.seed + static_cast<std::uint64_t>(number));
+    SearchLimits limits;
+    limits.maximumEffects = options.maximumCauses;
+    limits.width = 2;
+    limits.fullFits = 7;
+    const SearchResult result = searchEffects(fold, choices, limits, stop);
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      if (data.fold[static_cast<std::size_t>(i)] == number - 1)
+      {
+        after.col(i) = (data.count.col(i).array() > 0.0)
+                         .select(data.observed.col(i) - result.best.predicted.col(i), 0.0);
+      }
+    }
+    progress.step("checked on samples left out");
+  };
+  if (options.parallelFor)
+  {
+    options.parallelFor(data.folds + 1, job);
+  }
+  else
+  {
+    for (int number = 0; number <= data.folds && !progress.stopped(); ++number)
+    {
+      job(number);
+    }
+  }
+  if (progress.stopped())
+  {
+    return std::nullopt;
+  }
+
+  const AxisShares rest = shareOverAxes(data, after, true);
+  double reflectanceNoise = options.reflectanceNoise.value_or(0.0);
+  if (!options.reflectanceNoise && !noise.unknown)
+  {
+    const Eigen::VectorXd gain = reflectanceErrorGain(data.camera);
+    const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
+    const double beyond = unpredicted - measuredOnly(data, data.variance).sum();
+    const double perUnit = measuredOnly(data, gain.replicate(1, data.samples())).sum();
+    reflectanceNoise =
+      std::fmin(std::sqrt(std::fmax(beyond, 0.0) / perUnit), LargestReflectanceNoise);
+    data.variance.colwise() += reflectanceNoise * reflectanceNoise * gain;
+  }
+  report.gap = figuresOf(data, energiesOf(data, before, after), options.seed);
+  const AxisShares where = shareOverAxes(data, before, true);
+  report.where = where.axes;
+  report.changePoints = OrderBreaks::significant(fitter, data.simulated, MostChangePoints);
+  progress.step("axes shared");
+
+  const double explained = meanOverMeasured(data, before.array().square().matrix()) -
+    meanOverMeasured(data, after.array().square().matrix());
+  // A change this small is not told apart from errors of sums over wavelength and of reflectance.
+  const double negligible = std::fmax(2.0 * meanOverMeasured(data, integration),
+    NegligiblePart * meanOverMeasured(data, after.array().square().matrix()));
+  if (found.best.set.size() > 0 && explained > negligible && report.gap.shrink > 0.0)
+  {
+    // What is left has a cause that is not known, and may overlap with those found by as much as its own size.
+    const double shrink = report.gap.shrink;
+    const double certain = shrink >= ExplainedShrink ? shrink : std::fmax(2.0 * shrink - 1.0, 0.0);
+    report.causes = describeCauses(fitter, found, choices, certain);
+    report.correction = found.best.set.simulated();
+    report.whiteAfterEffects = found.best.set.whiteAfterEffects();
+    report.verdict = report.gap.shrink >= ExplainedShrink ? GapVerdict::Explained
+      : report.gap.shrink >= PartlyShrink                 ? GapVerdict::PartlyExplained
+                                                          : GapVerdict::Unexplained;
+    report.unexplained.share = std::fmin(std::fmax(1.0 - certain, 0.0), 1.0);
+    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
+  }
+  else if ((predictable(data, before, where) &&
+             where.predictable > negligible * static_cast<double>(data.elements)) ||
+    beyondNoise(report.gap))
+  {
+    report.verdict = GapVerdict::Unexplained;
+    report.unexplained = { 1.0, whereIs(where) };
+  }
+  if (report.verdict == GapVerdict::NoGap)
+  {
+    report.gap.rmsAfter = report.gap.rmsBefore;
+    report.gap.shrink = 0.0;
+    report.gap.shrinkInterval = { 0.0, 0.0 };
+    after = before;
+  }
+  report.candidates = describeCandidates(fitter, found);
+  addExcessNoise(report, data, noise, capture.noise, options.without);
+  for (const GapCause& cause : report.causes)
+  {
+    if (!cause.equivalent.empty() && !report.nextCapture)
+    {
+      GapNextCapture next{ separatingCapture(cause.effect), { cause.effect } };
+      next.separates.insert(next.separates.end(), cause.equivalent.begin(), cause.equivalent.end());
+      report.nextCapture = std::move(next);
+    }
+  }
+  report.notes = notesOn(data, capture, noise, reflectanceNoise, report);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  report.gapBefore = (data.count.array() > 0.0).select(before, nan);
+  report.gapAfter = (data.count.array() > 0.0).select(after, nan);
+  progress.step("done", 10.0);
+  return report;
+}
+
+} // namespace msi

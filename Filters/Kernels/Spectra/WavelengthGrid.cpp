@@ -1,0 +1,84 @@
+#include "Kernels/Spectra/WavelengthGrid.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double ShortestWavelength = 100.0;
+constexpr double LongestWavelength = 20000.0;
+constexpr double StepTolerance = 1e-6;
+
+[[noreturn]] void reject(std::size_t position, double value, const char* expected)
+{
+  std::ostringstream message;
+  message << "wavelength " << position + 1 << " is " << value << " nm; expected " << expected;
+  throw std::invalid_argument(message.str());
+}
+}
+
+WavelengthGrid::WavelengthGrid(std::vector<double> nanometres)
+  : Nanometres(std::move(nanometres))
+{
+  if (Nanometres.empty())
+  {
+    throw std::invalid_argument("a wavelength grid needs at least one wavelength");
+  }
+  for (std::size_t i = 0; i < Nanometres.size(); ++i)
+  {
+    const double value = Nanometres[i];
+    if (!(value >= ShortestWavelength && value <= LongestWavelength))
+    {
+      reject(i, value, "a value from 100 to 20000 nm");
+    }
+    if (i > 0 && !(value > Nanometres[i - 1]))
+    {
+      reject(i, value, "wavelengths in strictly increasing order");
+    }
+  }
+}
+
+WavelengthGrid WavelengthGrid::uniform(double first, double last, double step)
+{
+  const double count = (last - first) / step;
+  const double whole = std::round(count);
+  if (!(step > 0.0) || !(whole >= 0.0) || !(whole < 1e6) || std::abs(count - whole) > StepTolerance)
+  {
+    std::ostringstream message;
+    message << "a uniform wavelength grid from " << first << " to " << last << " nm in steps of "
+            << step << " nm does not end on its last value";
+    throw std::invalid_argument(message.str());
+  }
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(whole) + 1);
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(whole); ++i)
+  {
+    values.push_back(first + step * static_cast<double>(i));
+  }
+  return WavelengthGrid(std::move(values));
+}
+
+std::optional<double> WavelengthGrid::step() const noexcept
+{
+  if (Nanometres.size() < 2)
+  {
+    return std::nullopt;
+  }
+  const double mean =
+    (Nanometres.back() - Nanometres.front()) / static_cast<double>(Nanometres.size() - 1);
+  for (std::size_t i = 1; i < Nanometres.size(); ++i)
+  {
+    if (std::abs(Nanometres[i] - Nanometres[i - 1] - mean) > StepTolerance)
+    {
+      return std::nullopt;
+    }
+  }
+  return mean;
+}
+
+} // namespace msi

@@ -1,0 +1,49 @@
+/**
+ * @class   vtkChannelSelection
+ * @brief   Keeps some channels of a spectral image or of a sample table's responses
+ *
+ * Input and output are a spectral image (its spectral array is cut to the chosen components) or a sample
+ * table (columns C400, .. that were not chosen are removed; all others stay).
+ */
+#ifndef vtkChannelSelection_h
+#define vtkChannelSelection_h
+
+#include "MultispectralFiltersSamplingModule.h"
+#include "vtkPassInputTypeAlgorithm.h"
+
+#include <vector>
+
+class MULTISPECTRALFILTERSSAMPLING_EXPORT vtkChannelSelection : public vtkPassInputTypeAlgorithm
+{
+public:
+  static vtkChannelSelection* New();
+  vtkTypeMacro(vtkChannelSelection, vtkPassInputTypeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The channels to keep, counted from 1 in order of wavelength. None given (default): all.
+   */
+  void AddChannel(int channel);
+  void ClearChannels();
+  ///@}
+
+protected:
+  vtkChannelSelection();
+  ~vtkChannelSelection() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkChannelSelection(const vtkChannelSelection&) = delete;
+  void operator=(const vtkChannelSelection&) = delete;
+
+  // 0-based, increasing, within the number of channels.
+  std::vector<std::size_t> Chosen(std::size_t channels) const;
+
+  std::vector<int> Channels;
+};
+
+#endif

@@ -1,0 +1,274 @@
+#include "vtkPatchSampler.h"
+
+#include "AlgorithmSupport.h"
+#include "ImagePieces.h"
+#include "PatchPixels.h"
+#include "SampleColumns.h"
+#include "SpectralImage.h"
+
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkTable.h"
+
+#include "Kernels/Sampling/PatchGrid.h"
+#include "Kernels/Sampling/PatchStatistics.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkPatchSampler);
+
+namespace
+{
+constexpr const char* LabelColumn = "label";
+
+vtkDataArray* requireLabelColumn(vtkTable* table)
+{
+  auto* column = vtkDataArray::SafeDownCast(table->GetColumnByName(LabelColumn));
+  if (!column)
+  {
+    throw std::invalid_argument(
+      "the patch table has no column of numbers 'label'; expected the patch "
+      "number of each row");
+  }
+  return column;
+}
+
+// The label of each output row.
+std::vector<int> rowLabels(vtkTable* patchTable, const msi::PatchStatistics& statistics)
+{
+  std::vector<int> labels;
+  if (!patchTable)
+  {
+    for (int label = 1; label <= statistics.patches(); ++label)
+    {
+      if (statistics.count(label) + statistics.leftOut(label) > 0)
+      {
+        labels.push_back(label);
+      }
+    }
+    return labels;
+  }
+  auto* column = requireLabelColumn(patchTable);
+  for (vtkIdType row = 0; row < column->GetNumberOfTuples(); ++row)
+  {
+    const double label = column->GetComponent(row, 0);
+    if (!(label >= 1.0 && label <= statistics.patches()) || label != std::floor(label) ||
+      statistics.count(static_cast<int>(label)) == 0)
+    {
+      std::ostringstream text;
+      text << label;
+      throw std::invalid_argument("row " + std::to_string(row + 1) +
+        " of the patch table asks for label " + text.str() +
+        ", which has no finite pixel in the image; labels go from 1 to " +
+        std::to_string(statistics.patches()));
+    }
+    labels.push_back(static_cast<int>(label));
+  }
+  return labels;
+}
+
+void writeRows(const msi::PatchStatistics& statistics, const msi::SpectralAxis& axis,
+  msi::SampleQuantity quantity, vtkTable* patchTable, vtkTable* output)
+{
+  const auto labels = rowLabels(patchTable, statistics);
+  const auto rows = static_cast<Eigen::Index>(labels.size());
+  if (patchTable)
+  {
+    output->ShallowCopy(patchTable);
+  }
+  else
+  {
+    vtkNew<vtkIntArray> column;
+    column->SetName(LabelColumn);
+    for (const int label : labels)
+    {
+      column->InsertNextValue(label);
+    }
+    output->AddColumn(column);
+  }
+  Eigen::MatrixXd mean(statistics.channels(), rows);
+  Eigen::MatrixXd deviation(statistics.channels(), rows);
+  Eigen::MatrixXd place(4, rows);
+  for (Eigen::Index row = 0; row < rows; ++row)
+  {
+    const int label = labels[static_cast<std::size_t>(row)];
+    mean.col(row) = statistics.mean(label);
+    deviation.col(row) = statistics.standardDeviation(label);
+    place.col(row) << statistics.center(label), static_cast<double>(statistics.count(label)),
+      static_cast<double>(statistics.leftOut(label));
+  }
+  const char* names[] = { "x", "y", "count", "left_out" };
+  for (int i = 0; i < 4; ++i)
+  {
+    msi::setNumbers(output, names[i], place.row(i));
+  }
+  msi::setSpectra(output, quantity, axis, mean);
+  for (std::size_t k = 0; k < axis.size(); ++k)
+  {
+    const std::string channel =
+      axis.wavelengths ? static_cast<char>(quantity) + axis.names[k] : axis.names[k];
+    msi::setNumbers(output, "deviation " + channel, deviation.row(static_cast<Eigen::Index>(k)));
+  }
+}
+}
+
+vtkPatchSampler::vtkPatchSampler()
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(1);
+}
+
+void vtkPatchSampler::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "SpectralArray: " << this->SpectralArray << "\n"
+     << indent << "GridColumns: " << this->GridColumns << "\n"
+     << indent << "GridRows: " << this->GridRows << "\n"
+     << indent << "PatchFraction: " << this->PatchFraction << "\n";
+  const double* corners[] = { this->Corner1, this->Corner2, this->Corner3, this->Corner4 };
+  for (int i = 0; i < 4; ++i)
+  {
+    os << indent << "Corner" << i + 1 << ": " << corners[i][0] << ", " << corners[i][1] << "\n";
+  }
+}
+
+int vtkPatchSampler::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkTable" : "vtkImageData");
+  if (port > 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkPatchSampler::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  msi::declareCollective(outputs);
+  return msi::runAlgorithm(this, outputs,
+    [&]
+    {
+      msi::requireSameSize(inputs[1]->GetInformationObject(0), "the label image",
+        inputs[0]->GetInformationObject(0), "the image", "expected one label per pixel");
+    });
+}
+
+int vtkPatchSampler::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  // Each rank samples its own piece of the image, whatever piece of the table is asked for: the sums are
+  // reduced over all ranks.
+  auto* controller = vtkMultiProcessController::GetGlobalController();
+  for (int port = 0; port < 2; ++port)
+  {
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      auto* info = inputs[port]->GetInformationObject(i);
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(),
+        controller ? controller->GetLocalProcessId() : 0);
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(),
+        controller ? controller->GetNumberOfProcesses() : 1);
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
+  msi::requestWhole(inputs, 2);
+  return 1;
+}
+
+int vtkPatchSampler::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return msi::runAlgorithm(this, outputs,
+    [&]
+    {
+      auto* image = vtkImageData::GetData(inputs[0]);
+      auto* labelImage = vtkImageData::GetData(inputs[1]);
+      auto* patchTable = vtkTable::GetData(inputs[2]);
+      auto* controller = msi::controllerOfPieces(inputs[0]);
+
+      // With more ranks than pixels some hold nothing.
+      const bool holdsPixels = !controller || image->GetNumberOfPoints() > 0;
+      vtkDataArray* array = nullptr;
+      msi::SpectralAxis axis;
+      msi::PatchMap map;
+      msi::beforeRanksMeet(controller,
+        [&]
+        {
+          if (holdsPixels)
+          {
+            array = msi::requireSpectralArray(image, "the image", this->SpectralArray.c_str());
+            axis = msi::axisOf(image, array);
+            map = labelImage ? msi::mapFromLabels(labelImage, image)
+                             : msi::mapFromGrid(this->MakeGrid(inputs[0]->GetInformationObject(0)));
+          }
+        });
+      const int patches = msi::maximumOverRanks(map.patches, controller);
+      if (patches == 0)
+      {
+        throw std::invalid_argument("the label image is 0 everywhere; expected patches 1, 2, ..");
+      }
+      msi::PatchStatistics statistics(
+        patches, msi::maximumOverRanks(static_cast<int>(axis.size()), controller));
+      msi::beforeRanksMeet(controller,
+        [&]
+        {
+          if (holdsPixels)
+          {
+            msi::addPixels(this, image, array, map,
+              msi::ownedExtent(inputs[0]->GetInformationObject(0), image), statistics);
+          }
+        });
+      msi::sumOverRanks(statistics, controller);
+
+      // A piece of the table: the first rank of many has all rows, a rank that asked for the whole too.
+      auto* outInfo = outputs->GetInformationObject(0);
+      if (outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+      {
+        return;
+      }
+      const bool reflectance =
+        array->GetName() && std::string(array->GetName()) == msi::ReflectanceArray;
+      const bool measured =
+        patchTable && msi::findSpectra(patchTable, msi::SampleQuantity::Reflectance);
+      const auto quantity = !reflectance ? msi::SampleQuantity::Response
+        : measured                       ? msi::SampleQuantity::Estimate
+                                         : msi::SampleQuantity::Reflectance;
+      writeRows(statistics, axis, quantity, patchTable, vtkTable::GetData(outputs, 0));
+    });
+}
+
+msi::PatchGrid vtkPatchSampler::MakeGrid(vtkInformation* imageInfo) const
+{
+  const double* corners[] = { this->Corner1, this->Corner2, this->Corner3, this->Corner4 };
+  msi::PatchGrid::Corners points;
+  bool given = false;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    points[i] = { corners[i][0], corners[i][1] };
+    given = given || !points[i].isZero();
+  }
+  if (!given)
+  {
+    int whole[6];
+    double origin[3] = { 0.0, 0.0, 0.0 };
+    double spacing[3] = { 1.0, 1.0, 1.0 };
+    imageInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+    if (imageInfo->Has(vtkDataObject::ORIGIN()))
+    {
+      imageInfo->Get(vtkDataObject::ORIGIN(), origin);
+      imageInfo->Get(vtkDataObject::SPACING(), spacing);
+    }
+    const double left = origin[0] + spacing[0] * (whole[0] - 0.5);
+    const double right = origin[0] + spacing[0] * (whole[1] + 0.5);
+    const double bottom = origin[1] + spacing[1] * (whole[2] - 0.5);
+    const double top = origin[1] + spacing[1] * (whole[3] + 0.5);
+    points = { { { left, top }, { right, top }, { right, bottom }, { left, bottom } } };
+  }
+  return msi::PatchGrid(this->GridColumns, this->GridRows, points, this->PatchFraction);
+}

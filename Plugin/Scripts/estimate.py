@@ -1,0 +1,98 @@
+"""Reflectance image, RGB view and error maps from a multispectral image."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from support import command, estimation, pipeline, report  # noqa: E402
+
+METHODS = {"direct": "Direct", "pinv": "PINV", "pooled": "Pooled", "r-model": "R-model",
+           "banded": "Banded", "transfer": "Transfer"}
+
+
+def arguments():
+    parser = command.parser("estimate", __doc__)
+    parser.add_argument("--image", metavar="FILE", nargs="+", required=True,
+                        help="the image: one file, or one file per channel")
+    parser.add_argument("--calibration", metavar="FILE",
+                        help="sample table of the chart: reflectance and camera responses")
+    parser.add_argument("--tuning", metavar="FILE",
+                        help="sample table of a few samples of the imaged medium")
+    parser.add_argument("--white", metavar="FILE", nargs="+", help="white reference, like --image")
+    parser.add_argument("--dark", metavar="FILE", nargs="+", help="dark frame, like --image")
+    parser.add_argument("--labels", metavar="FILE", help="label image of the patches in the image")
+    parser.add_argument("--patches", metavar="FILE",
+                        help="measured reflectance of the patches, with the column 'label'")
+    parser.add_argument("--method", choices=METHODS, default="transfer",
+                        help="how tuning samples are used (default: %(default)s)")
+    parser.add_argument("--wavelengths", metavar="NM", nargs="+", type=float,
+                        help="wavelengths of the image's channels, over what the files say")
+    options = parser.parse_args()
+    if (options.labels is None) != (options.patches is None):
+        parser.error("--labels and --patches go together")
+    if options.calibration is None and options.labels is None:
+        parser.error("give --calibration, or --labels and --patches to calibrate on the image")
+    if options.tuning is not None and options.calibration is None:
+        parser.error("--tuning goes with --calibration")
+    return options
+
+
+def require_inputs(options):
+    lists = [options.image, options.white or [], options.dark or []]
+    singles = [options.calibration, options.tuning, options.labels, options.patches]
+    command.require_files(*[path for paths in lists for path in paths], *singles)
+
+
+def read_tables(options):
+    def table(path):
+        return pipeline.create("SampleTableReader", FileName=path) if path else None
+    tables = table(options.calibration), table(options.tuning), table(options.patches)
+    pipeline.update(*[t for t in tables if t])
+    return tables
+
+
+def main():
+    options = arguments()
+    require_inputs(options)
+    folder = command.make_folder(options.output)
+    pipeline.load_plugin()
+
+    def read(files):
+        return estimation.read_image(files, options.wavelengths) if files else None
+    image = estimation.flat_field(read(options.image), read(options.white), read(options.dark))
+    calibration, tuning, patches = read_tables(options)
+
+    labels = held_out = None
+    if options.labels:
+        labels = pipeline.create("LabelImageReader", FileName=options.labels)
+        pipeline.update(labels)
+        sampled = pipeline.create("PatchSampler", Input=image, Labels=labels, PatchTable=patches)
+        pipeline.update(sampled)
+        held_out = sampled
+        if calibration is None or tuning is None:
+            # The patches in the image serve: every other one, the rest is held out.
+            split = pipeline.create("SampleSplit", Input=sampled)
+            pipeline.update(split)
+            held_out = pipeline.port(split, 1)
+            if calibration is None:
+                calibration = pipeline.port(split, 0)
+            else:
+                tuning = pipeline.port(split, 0)
+
+    transforms, summary = estimation.correction(calibration, tuning, METHODS[options.method])
+    reflectance = estimation.estimate(image, transforms, folder)
+    estimation.save_reflectance(reflectance, folder)
+    pages = [report.pictures("Reflectance", folder, {"rgb.png": "sRGB view under D65"}),
+             report.table("The fit", *pipeline.table(summary))]
+    errors = None
+    if labels is not None:
+        errors, held = estimation.judge(reflectance, labels, held_out, folder)
+        estimation.print_summary("Held-out patches, mean spectrum of each", pipeline.port(held, 1))
+        estimation.print_summary("Held-out pixels", pipeline.port(errors, 1))
+        pages += estimation.report_errors(errors, held, folder)
+    estimation.save_state(os.path.join(folder, "state.pvsm"), reflectance, errors)
+    report.write(folder, "Spectral reflectance of an image", pages)
+    command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
+
+
+command.run(main)

@@ -1,0 +1,43 @@
+"""Compares the estimation methods on two sample tables: random tuning samples, the rest held out."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from support import command, comparison, pipeline  # noqa: E402
+
+
+def arguments():
+    parser = command.parser("evaluate", __doc__)
+    parser.add_argument("--calibration", metavar="FILE", required=True,
+                        help="sample table of the chart: reflectance and camera responses")
+    parser.add_argument("--target", metavar="FILE", required=True,
+                        help="sample table of the target medium")
+    parser.add_argument("--channels", metavar="16|9", type=command.whole_number(1),
+                        help="use all channels, or every second and the last (default: all)")
+    parser.add_argument("--tuning", metavar="N", type=command.whole_number(2), default=16,
+                        help="tuning samples a draw (default: %(default)s)")
+    parser.add_argument("--draws", metavar="N", type=command.whole_number(1), default=10,
+                        help="random choices of tuning samples (default: %(default)s)")
+    parser.add_argument("--seed", metavar="N", type=command.whole_number(0), default=1,
+                        help="seed of the choices (default: %(default)s)")
+    parser.add_argument("--methods", metavar="LIST", default=",".join(comparison.METHODS),
+                        help="methods, separated by commas (default: %(default)s)")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    command.require_files(options.calibration, options.target)
+    folder = command.make_folder(options.output)
+    pipeline.load_plugin()
+    tables = [pipeline.create("SampleTableReader", FileName=path)
+              for path in (options.calibration, options.target)]
+    pipeline.update(*tables)
+    tables = [comparison.select_channels(table, options.channels) for table in tables]
+    comparison.compare(*tables, folder=folder, methods=options.methods, tuning=options.tuning,
+                       draws=options.draws, seed=options.seed)
+    command.say(f"results, draws and pictures: {folder}")
+
+
+command.run(main)

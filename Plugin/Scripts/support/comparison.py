@@ -1,0 +1,131 @@
+"""Comparing the methods: the results table and its three pictures."""
+
+import os
+
+from . import command, pictures, pipeline
+from .command import Failure
+
+METHODS = ("direct", "pinv", "pooled", "r-model", "banded", "transfer")
+# Numbers of tuning samples of the picture rms against tuning.
+TUNING_STEPS = (4, 6, 10, 16, 24, 36, 48)
+MOST_DRAWS_OF_PICTURE = 10
+
+
+def response_columns(table):
+    return [name for name in pipeline.column_names(table)
+            if name[:1] == "C" and name[1:].replace(".", "", 1).isdigit()]
+
+
+def select_channels(table, count):
+    """All channels, or every second one and the last, as the user asked by their number."""
+    available = len(response_columns(table))
+    if count is None or count == available:
+        return table
+    chosen = list(range(1, available, 2))
+    chosen += [available] if chosen[-1:] != [available] else []
+    if len(chosen) != count:
+        raise Failure(f"--channels {count}: the table has {available} channels; expected "
+                      f"{available} (all) or {len(chosen)} (every second and the last)")
+    selection = pipeline.create("ChannelSelection", Input=table, Channels=chosen)
+    pipeline.update(selection)
+    return selection
+
+
+def compare(calibration, target, folder, methods, tuning, draws, seed):
+    """Writes results.csv, draws.csv and the pictures; prints the table. Returns names and rows."""
+    comparison = pipeline.create("MethodComparison", Calibration=calibration, Target=target,
+                                 Methods=methods, TuningSamples=str(tuning), Draws=draws, Seed=seed)
+    pipeline.update(comparison)
+    pipeline.save_table(pipeline.port(comparison, 0), os.path.join(folder, "results.csv"))
+    pipeline.save_table(pipeline.port(comparison, 1), os.path.join(folder, "draws.csv"))
+    names, rows = pipeline.table(pipeline.port(comparison, 0))
+    print_results(names, rows)
+
+    most = pipeline.number_of_rows(target) // 2
+    steps = [count for count in TUNING_STEPS if count <= most]
+    curves = pipeline.create("MethodComparison", Calibration=calibration, Target=target,
+                             Methods=methods, TuningSamples=", ".join(map(str, steps or [tuning])),
+                             Draws=min(draws, MOST_DRAWS_OF_PICTURE), Seed=seed)
+    pipeline.update(curves)
+    pipeline.save_table(pipeline.port(curves, 0), os.path.join(folder, "rms-against-tuning.csv"))
+    chosen = [name for name in METHODS if name in methods.replace(" ", ",").split(",")]
+    _draw_spectra(comparison, chosen, os.path.join(folder, "spectra.png"))
+    _draw_curves(curves, chosen, os.path.join(folder, "rms-against-tuning.png"))
+    _draw_colors(calibration, target, tuning, seed, os.path.join(folder, "ab-distribution.png"))
+    return names, rows
+
+
+def condensed(names, rows):
+    """One row a method: mean / median / max of each metric, as text."""
+    column = {name: i for i, name in enumerate(names)}
+    by_method = {}
+    for row in rows:
+        metric, illuminant = row[column["metric"]], row[column["illuminant"]]
+        figures = [row[column[name]] for name in ("mean", "median", "max")]
+        if metric == "coverage95":
+            cell = f"{100 * figures[0]:.0f} %"
+        else:
+            digits = 4 if metric == "rms" else 2
+            cell = " / ".join(f"{figure:.{digits}f}" for figure in figures)
+        title = "within 95 % interval" if metric == "coverage95" else f"{metric} {illuminant}"
+        by_method.setdefault(row[column["method"]], {})[title.strip()] = cell
+    titles = list(dict.fromkeys(title for cells in by_method.values() for title in cells))
+    return (["method"] + titles,
+            [[method] + [cells.get(title, "") for title in titles]
+             for method, cells in by_method.items()])
+
+
+def print_results(names, rows):
+    titles, lines = condensed(names, rows)
+    for line in [titles] + lines:
+        command.say(f"{line[0]:<10}" + "".join(f"{cell:>27}" for cell in line[1:]).rstrip())
+    command.say("(mean / median / max over held-out samples, mean over draws)")
+
+
+def _draw_spectra(comparison, methods, path):
+    chart = pictures.Chart("A typical held-out sample", "Wavelength (nm)", "Reflectance factor")
+    chart.legend_at("TopLeft")
+    spectra = pipeline.port(comparison, 2)
+    series = {"measured": ("measured", pictures.COLORS["measured"], pictures.LineStyle.SOLID, 4.0)}
+    for method in methods:
+        series[method] = (method, pictures.COLORS[method], pictures.LineStyle.SOLID, 2.0)
+    if "transfer" in methods:
+        color = pictures.COLORS["transfer"]
+        for sign, label in (("-2s", "transfer, 2 standard deviations"), ("+2s", "")):
+            series[f"transfer {sign}"] = (label, color, pictures.LineStyle.DOT, 1.5)
+    chart.add(spectra, "wavelength", series)
+    chart.limits(left=(0.0, _top_of_spectra(spectra, methods)))
+    chart.save(path)
+
+
+def _top_of_spectra(spectra, methods):
+    """Room for the measured spectrum and the last method; a wild one may leave the chart."""
+    names, rows = pipeline.table(spectra)
+    shown = [name for name in ("measured", methods[-1]) if name in names]
+    largest = max((row[names.index(name)] for row in rows for name in shown), default=1.0)
+    return 1.3 * pipeline.share([largest], 1)[0]
+
+
+def _draw_curves(curves, methods, path):
+    chart = pictures.Chart("Error against the number of tuning samples", "Tuning samples",
+                           "Spectral rms, mean over held-out samples", log_y=True)
+    chart.add(pipeline.port(curves, 3), "tuning",
+              {method: (method, pictures.COLORS[method]) for method in methods},
+              marker=pictures.Marker.CIRCLE)
+    chart.save(path)
+
+
+def _draw_colors(calibration, target, tuning, seed, path):
+    """The a*b* distribution of the three sets of the first draw."""
+    split = pipeline.create("SampleSplit", Input=target, Mode="Random", Count=tuning, Seed=seed)
+    chart = pictures.Chart("Colors of the three sets (D65, 2 degree observer)", "a*", "b*",
+                           size=(800, 800))
+    sets = (("calibration", calibration), ("held out", pipeline.port(split, 1)),
+            ("tuning", pipeline.port(split, 0)))
+    for name, source in sets:
+        color = pipeline.create("SpectralToColor", Input=source)
+        pipeline.update(color)
+        chart.add(color, "R_a", {"R_b": (name, pictures.COLORS[name])},
+                  line=pictures.LineStyle.NONE, marker=pictures.Marker.CIRCLE,
+                  marker_size=9.0 if name == "tuning" else 6.0)
+    chart.save(path)

@@ -1,0 +1,177 @@
+"""Pictures of pipelines: images with a color legend, and charts of tables."""
+
+from paraview import simple
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
+# Okabe and Ito's palette: told apart with any color vision.
+COLORS = {
+    "measured": (0.0, 0.0, 0.0),
+    "direct": (0.60, 0.60, 0.60),
+    "pinv": (0.90, 0.62, 0.0),
+    "pooled": (0.34, 0.71, 0.91),
+    "r-model": (0.80, 0.47, 0.65),
+    "banded": (0.0, 0.45, 0.70),
+    "transfer": (0.84, 0.37, 0.0),
+    "calibration": (0.60, 0.60, 0.60),
+    "held out": (0.34, 0.71, 0.91),
+    "tuning": (0.84, 0.37, 0.0),
+    "estimated": (0.84, 0.37, 0.0),
+}
+_TEXT = (0.1, 0.1, 0.1)
+_GRID = (0.88, 0.88, 0.88)
+
+
+class LineStyle:
+    NONE, SOLID, DASH, DOT = 0, 1, 2, 3
+
+
+class Marker:
+    NONE, CROSS, PLUS, SQUARE, CIRCLE, DIAMOND = 0, 1, 2, 3, 4, 5
+
+
+def _whole_extent(source):
+    """Of the whole image: a rank's own data information would tell of its piece only."""
+    information = source.SMProxy.GetClientSideObject().GetOutputInformation(
+        getattr(source, "Port", 0))
+    return information.Get(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT())
+
+
+def image(source, array, path, value_range=None, rgb=False):
+    """A picture of one array of an image, upright, each pixel enlarged by a whole number."""
+    view = image_view(source, array, value_range, rgb)
+    _save(view, path)
+
+
+def image_view(source, array, value_range=None, rgb=False):
+    extent = _whole_extent(source)
+    width, height = extent[1] - extent[0] + 1, extent[3] - extent[2] + 1
+    scale = max(1, round(1000 / max(width, height)))
+    legend = 0 if rgb else 150
+    view = simple.CreateView("RenderView")
+    view.ViewSize = [width * scale + legend, height * scale]
+    view.OrientationAxesVisibility = 0
+    view.CameraParallelProjection = 1
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1.0, 1.0, 1.0]
+    display = simple.Show(source, view, "UniformGridRepresentation")
+    display.SetRepresentationType("Slice")
+    display.InterpolateScalarsBeforeMapping = 0
+    if rgb:
+        simple.ColorBy(display, ("POINTS", array))
+        display.MapScalars = 0
+    else:
+        _map_errors(display, view, array, value_range)
+    # The image fills the view but for the legend at the right.
+    units = 1.0 / scale
+    center_x = 0.5 * (extent[0] + extent[1]) + 0.5 * legend * units
+    center_y = 0.5 * (extent[2] + extent[3])
+    view.CameraFocalPoint = [center_x, center_y, 0.0]
+    view.CameraPosition = [center_x, center_y, 1000.0]
+    view.CameraParallelScale = 0.5 * view.ViewSize[1] * units
+    return view
+
+
+def _map_errors(display, view, array, value_range):
+    simple.ColorBy(display, ("POINTS", array))
+    colors = simple.GetColorTransferFunction(array)
+    colors.ApplyPreset("Viridis (matplotlib)", True)
+    colors.NanColor = [0.82, 0.82, 0.82]
+    if value_range:
+        colors.RescaleTransferFunction(*value_range)
+    else:
+        display.RescaleTransferFunctionToDataRange(False, True)
+    bar = simple.GetScalarBar(colors, view)
+    bar.Title = array
+    bar.ComponentTitle = ""
+    bar.TitleColor = _TEXT
+    bar.LabelColor = _TEXT
+    bar.TitleFontSize = 16
+    bar.LabelFontSize = 14
+    bar.Orientation = "Vertical"
+    bar.WindowLocation = "Any Location"
+    bar.Position = [1.0 - 120.0 / view.ViewSize[0], 0.12]
+    bar.ScalarBarLength = 0.7
+    bar.AutomaticLabelFormat = 0
+    bar.LabelFormat = "%-.3g"
+    bar.RangeLabelFormat = "%-.3g"
+    display.SetScalarBarVisibility(view, True)
+
+
+class Chart:
+    """An XY chart; series come from the columns of tables."""
+
+    def __init__(self, title, x_title, y_title, log_y=False, size=(1000, 640)):
+        self.view = simple.CreateView("XYChartView")
+        view = self.view
+        view.ViewSize = list(size)
+        view.ChartTitle = title
+        view.ChartTitleFontSize = 18
+        view.BottomAxisTitle = x_title
+        view.LeftAxisTitle = y_title
+        view.LeftAxisLogScale = 1 if log_y else 0
+        for axis in ("Left", "Bottom"):
+            setattr(view, f"{axis}AxisTitleFontSize", 16)
+            setattr(view, f"{axis}AxisLabelFontSize", 14)
+            setattr(view, f"{axis}AxisGridColor", list(_GRID))
+        view.LegendFontSize = 14
+        view.ShowLegend = 1
+
+    def add(self, source, x, series, line=LineStyle.SOLID, marker=Marker.NONE, width=2.0,
+            marker_size=6.0):
+        """series: {column: (label, color)} or {column: (label, color, line style, width)}."""
+        display = simple.Show(source, self.view, "XYChartRepresentation")
+        display.AttributeType = "Row Data"
+        display.UseIndexForXAxis = 0
+        display.XArrayName = x
+        display.SeriesVisibility = list(series)
+        labels, colors, lines, widths, markers, sizes = [], [], [], [], [], []
+        for column, (label, color, *style) in series.items():
+            labels += [column, label]
+            colors += [column] + [str(part) for part in color]
+            lines += [column, str(style[0] if style else line)]
+            widths += [column, str(style[1] if len(style) > 1 else width)]
+            markers += [column, str(marker)]
+            sizes += [column, str(marker_size)]
+        display.SeriesLabel = labels
+        display.SeriesColor = colors
+        display.SeriesLineStyle = lines
+        display.SeriesLineThickness = widths
+        display.SeriesMarkerStyle = markers
+        display.SeriesMarkerSize = sizes
+
+    def limits(self, left=None, bottom=None):
+        for axis, bounds in (("Left", left), ("Bottom", bottom)):
+            if bounds:
+                setattr(self.view, f"{axis}AxisUseCustomRange", 1)
+                setattr(self.view, f"{axis}AxisRangeMinimum", bounds[0])
+                setattr(self.view, f"{axis}AxisRangeMaximum", bounds[1])
+
+    def legend_at(self, location):
+        self.view.LegendLocation = location
+
+    def save(self, path):
+        _save(self.view, path)
+
+
+def side_by_side(views):
+    """A layout that ParaView shows when it opens the saved state: room around the image for any window,
+    and surfaces, because a slice complains when a state is opened before it has data."""
+    for view in views:
+        view.CameraParallelScale *= 1.5
+        for display in view.Representations:
+            if hasattr(display, "SetRepresentationType"):
+                display.SetRepresentationType("Surface")
+                display.Ambient, display.Diffuse = 1.0, 0.0  # colors as they are
+    layout = simple.CreateLayout("Multispectral")
+    cell = 0
+    for i, view in enumerate(views):
+        if i + 1 < len(views):
+            cell = layout.SplitHorizontal(cell, 1.0 / (len(views) - i))
+        layout.AssignView(cell, view)
+        cell += 1
+
+
+def _save(view, path):
+    simple.Render(view)
+    simple.SaveScreenshot(path, view, ImageResolution=list(view.ViewSize), TransparentBackground=0)
+    simple.Delete(view)

@@ -1,0 +1,134 @@
+"""Proxies of the plugin in a batch program: loading, errors as one line, progress, tables to Python."""
+
+import os
+import re
+import sys
+
+from paraview import servermanager, simple
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
+
+from .command import Failure, rank
+
+# What VTK has to say: "ERROR: In file, line n\nvtkClass (0xaddress): text\n\n", likewise "Warning: ".
+_messages = vtkStringOutputWindow()
+_MESSAGE = re.compile(r"(ERROR|Warning): In [^\n]*, line \d+\n[^\n]*? \(0x[0-9a-f]+\): (.*?)\n\n", re.DOTALL)
+_noted = set()
+
+
+def load_plugin():
+    """Also takes over VTK's messages: an error ends the work as one line, a warning becomes a note."""
+    # ParaView sends Python's output through VTK's window too; ours goes straight to the terminal.
+    sys.stdout = open(1, "w", closefd=False)
+    sys.stderr = open(2, "w", closefd=False)
+    vtkOutputWindow.SetInstance(_messages)
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    simple.LoadPlugin(os.environ["MULTISPECTRAL_PLUGIN"], remote=False, ns=simple.__dict__)
+    simple._DisableFirstRenderCameraReset()
+    fail_on_error()
+
+
+def fail_on_error():
+    """The first error ends the work; warnings are told once."""
+    for kind, text in _MESSAGE.findall(_messages.GetOutput() + "\n\n"):
+        line = " ".join(text.split())
+        if kind == "ERROR":
+            raise Failure(line)
+        if line not in _noted and rank() == 0:
+            print(f"multispectral: note: {line}", file=sys.stderr, flush=True)
+        _noted.add(line)
+
+
+def create(name, **properties):
+    """A proxy of the plugin by its name without spaces, watched for progress."""
+    proxy = getattr(simple, name)(registrationName=name, **properties)
+    fail_on_error()
+    watch(proxy)
+    return proxy
+
+
+def watch(proxy):
+    algorithm = proxy.SMProxy.GetClientSideObject()
+    if sys.stderr.isatty():
+        label = proxy.SMProxy.GetXMLLabel()
+        algorithm.AddObserver("ProgressEvent", lambda a, _: _show_progress(label, a.GetProgress()))
+        algorithm.AddObserver("EndEvent", lambda *_: _show_progress(None, 1.0))
+
+
+def _show_progress(label, share):
+    if rank() == 0:
+        print(f"\r{label} {100 * share:3.0f} %" if label else "\r\033[K", end="", file=sys.stderr,
+              flush=True)
+
+
+def update(*proxies):
+    """Runs the pipeline up to these proxies; the first error ends the work."""
+    for proxy in proxies:
+        proxy.UpdatePipeline()
+        fail_on_error()
+
+
+def port(proxy, index):
+    return proxy[index]
+
+
+def table(source):
+    """A table as a list of columns' names and a list of rows; on rank 0, elsewhere empty."""
+    data = servermanager.Fetch(source, idx=getattr(source, "Port", 0))
+    if data is None or not data.IsA("vtkTable"):
+        return [], []
+    names = [data.GetColumnName(i) for i in range(data.GetNumberOfColumns())]
+    rows = [[_value(data.GetColumn(i), row) for i in range(len(names))]
+            for row in range(data.GetNumberOfRows())]
+    return names, rows
+
+
+def share(numbers, count):
+    """Rank 0's numbers, on every rank."""
+    from vtkmodules.vtkCommonCore import vtkDoubleArray
+    from vtkmodules.vtkParallelCore import vtkMultiProcessController
+    values = vtkDoubleArray()
+    values.SetNumberOfValues(count)
+    for i, number in enumerate(numbers):
+        values.SetValue(i, number)
+    controller = vtkMultiProcessController.GetGlobalController()
+    if controller.GetNumberOfProcesses() > 1:
+        controller.Broadcast(values, 0)
+    return [values.GetValue(i) for i in range(count)]
+
+
+def whole(source):
+    """A small table in full, as a vtkTable on every rank."""
+    algorithm = source.SMProxy.GetClientSideObject()
+    algorithm.UpdatePiece(0, 1, 0)
+    fail_on_error()
+    return algorithm.GetOutputDataObject(getattr(source, "Port", 0))
+
+
+def column_names(source):
+    data = whole(source)
+    return [data.GetColumnName(i) for i in range(data.GetNumberOfColumns())]
+
+
+def number_of_rows(source):
+    return whole(source).GetNumberOfRows()
+
+
+def _value(column, row):
+    return column.GetValue(row)
+
+
+def save_table(source, path):
+    """Writes CSV through the plugin's writer: complete or absent."""
+    _write("SampleTableWriter", source, path)
+
+
+def save_image(source, path):
+    """Writes a spectral image through the plugin's writer: complete or absent."""
+    _write("SpectralImageWriter", source, path)
+
+
+def _write(name, source, path):
+    writer = getattr(servermanager.writers, name)(Input=source, FileName=path)
+    watch(writer)
+    writer.UpdatePipeline()
+    fail_on_error()

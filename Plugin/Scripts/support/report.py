@@ -1,0 +1,87 @@
+"""One self-contained HTML page: sections of text, tables and pictures."""
+
+import base64
+import html
+import math
+import os
+
+from . import command
+
+_STYLE = """
+body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 62rem; margin: 2rem auto;
+       padding: 0 1rem; }
+h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.2rem; }
+figure { margin: 1rem 0; } figcaption { color: #555; font-size: .9rem; }
+img { max-width: 100%; height: auto; border: 1px solid #ddd; }
+.row { display: grid; grid-template-columns: repeat(auto-fit, minmax(28rem, 1fr)); gap: 1rem; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .92rem; }
+th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e3e3e3; }
+th:first-child, td:first-child { text-align: left; }
+td.text, th.text { text-align: left; }
+.scroll { overflow-x: auto; }
+footer { margin-top: 3rem; color: #777; font-size: .85rem; }
+"""
+
+
+def text(title, *paragraphs):
+    return _section(title, "".join(f"<p>{html.escape(p)}</p>" for p in paragraphs))
+
+
+def table(title, names, rows, columns=None, note=None):
+    """columns: the columns to show, in order; all by default."""
+    if not rows:
+        return ""
+    chosen = [names.index(name) for name in (columns or names)]
+    head = "".join(f"<th{_class(rows[0][i])}>{html.escape(names[i])}</th>" for i in chosen)
+    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(row[i])}</td>" for i in chosen)
+                   + "</tr>" for row in rows)
+    remark = f"<p>{html.escape(note)}</p>" if note else ""
+    return _section(title, f"{remark}<div class='scroll'><table><thead><tr>{head}</tr></thead>"
+                           f"<tbody>{body}</tbody></table></div>")
+
+
+def pictures(title, folder, captions):
+    """captions: {file name: caption}; the pictures are put into the page."""
+    if command.rank() != 0:
+        return ""
+    figures = ""
+    for name, caption in captions.items():
+        with open(os.path.join(folder, name), "rb") as file:
+            data = base64.b64encode(file.read()).decode("ascii")
+        figures += (f"<figure><img alt='{html.escape(caption)}' src='data:image/png;base64,{data}'>"
+                    f"<figcaption>{html.escape(caption)}</figcaption></figure>")
+    layout = f"<div class='row'>{figures}</div>" if len(captions) > 1 else figures
+    return _section(title, layout)
+
+
+def write(folder, title, sections):
+    """report.html in the folder: written aside, then renamed."""
+    if command.rank() != 0:
+        return
+    page = (f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'>"
+            f"<meta name='viewport' content='width=device-width'>"
+            f"<title>{html.escape(title)}</title><style>{_STYLE}</style></head><body>"
+            f"<h1>{html.escape(title)}</h1>{''.join(sections)}"
+            f"<footer>Written by Multispectral; the tables stand beside this page as CSV.</footer>"
+            f"</body></html>")
+    path = os.path.join(folder, "report.html")
+    aside = path + ".part"
+    with open(aside, "w", encoding="utf-8") as file:
+        file.write(page)
+    os.replace(aside, path)
+
+
+def _section(title, content):
+    return f"<section><h2>{html.escape(title)}</h2>{content}</section>"
+
+
+def _class(value):
+    return " class='text'" if isinstance(value, str) else ""
+
+
+def _cell(value):
+    if isinstance(value, float):
+        if math.isnan(value):
+            return ""
+        return f"{value:.0f}" if value.is_integer() and abs(value) < 1e9 else f"{value:.4g}"
+    return html.escape(str(value))

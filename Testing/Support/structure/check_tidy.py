@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Runs clang-tidy over the project's own sources, those of the tests excepted.
+
+A source that was clean stays clean until it, a header of ours that it includes, its compile command or
+.clang-tidy changes; BUILD/tidy remembers.
+
+usage: check_tidy.py CLANG_TIDY ROOT BUILD JOBS
+"""
+
+import concurrent.futures
+import hashlib
+import json
+import os
+import re
+import subprocess
+import sys
+
+ROOMS = ("Filters/", "Readers/", "Plugin/")
+TEST = re.compile(r"(^|/)(Testing/|Test[A-Z]\w*\.(cpp|cxx)$|\w+Probe\.cpp$)")
+
+
+def own_sources(root, build):
+    """Path below the root and compile command of each source."""
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+        commands = json.load(file)
+    found = {}
+    for entry in commands:
+        path = os.path.relpath(entry["file"], root)
+        if path.startswith(ROOMS) and not TEST.search(path):
+            found[path] = entry
+    return found
+
+
+def headers_of_objects(root, build):
+    """For each object file the project's own headers that it was built from."""
+    listing = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True,
+                             check=True).stdout
+    headers = {}
+    current = None
+    for line in listing.splitlines():
+        if line and not line.startswith((" ", "ninja:")):
+            current = headers.setdefault(line.split(":")[0], [])
+        elif current is not None and line.strip().startswith(root + os.sep):
+            current.append(line.strip())
+    return headers
+
+
+def key_of(root, entry, headers, configuration):
+    digest = hashlib.sha256(configuration)
+    digest.update(entry["command"].encode())
+    name = re.search(r" -o (\S+)", entry["command"])
+    for path in [entry["file"], *sorted(set(headers.get(name.group(1), []) if name else []))]:
+        with open(path, "rb") as file:
+            digest.update(os.path.relpath(path, root).encode() + b"\0" + file.read())
+    return digest.hexdigest()
+
+
+def tidy(tool, build, path):
+    run = subprocess.run([tool, "-p", build, "--quiet", path], capture_output=True, text=True)
+    # The counts of suppressed warnings of system headers say nothing.
+    noise = re.compile(r"^\d+ warnings? (generated|treated)|^Suppressed|^Use -header-filter")
+    errors = "\n".join(line for line in run.stderr.splitlines() if not noise.match(line))
+    return run.returncode, (run.stdout + (errors if run.returncode else "")).strip()
+
+
+def main():
+    tool, root, build, jobs = sys.argv[1:5]
+    root, build = os.path.realpath(root), os.path.realpath(build)
+    sources = own_sources(root, build)
+    if not sources:
+        print(f"{build}: no sources of {root} in compile_commands.json")
+        return 1
+    version = subprocess.run([tool, "--version"], capture_output=True, check=True).stdout
+    with open(os.path.join(root, ".clang-tidy"), "rb") as file:
+        configuration = version + file.read()
+    headers = headers_of_objects(root, build)
+    memory = os.path.join(build, "tidy")
+    os.makedirs(memory, exist_ok=True)
+    stamps = {path: os.path.join(memory, key_of(root, entry, headers, configuration))
+              for path, entry in sources.items()}
+    due = [path for path in sorted(sources) if not os.path.exists(stamps[path])]
+    print(f"{len(sources)} sources, {len(sources) - len(due)} known to be clean", flush=True)
+    failed = 0
+    with concurrent.futures.ThreadPoolExecutor(int(jobs)) as pool:
+        runs = {path: pool.submit(tidy, tool, build, os.path.join(root, path)) for path in due}
+        for path, run in runs.items():
+            status, text = run.result()
+            if status == 0:
+                open(stamps[path], "w", encoding="utf-8").close()
+            else:
+                failed += 1
+                print(text, flush=True)
+    for stale in set(os.listdir(memory)) - {os.path.basename(stamp) for stamp in stamps.values()}:
+        os.remove(os.path.join(memory, stale))
+    print(f"{failed} of {len(sources)} sources with findings")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

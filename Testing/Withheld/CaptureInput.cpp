@@ -1,0 +1,65 @@
+#include "CaptureInput.h"
+
+#include <map>
+
+namespace withheld
+{
+
+namespace
+{
+std::vector<std::string> words(const msi::SampleTable& table, const char* name)
+{
+  const msi::MetadataColumn* column = table.findMetadata(name);
+  return column == nullptr ? std::vector<std::string>{} : column->text;
+}
+
+Eigen::VectorXd numbers(const msi::SampleTable& table, const char* name)
+{
+  const msi::MetadataColumn* column = table.findMetadata(name);
+  if (column == nullptr)
+  {
+    return {};
+  }
+  const std::vector<double> values = column->numbers();
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+}
+
+msi::GapCapture readGapCapture(const std::string& folder)
+{
+  const msi::Capture capture = msi::readCapture(folder);
+  const auto& darkList = capture.description.dark;
+  Eigen::VectorXd dark = Eigen::VectorXd::Zero(capture.camera.values.cols());
+  for (std::size_t k = 0; k < darkList.size(); ++k)
+  {
+    dark[static_cast<Eigen::Index>(k)] = darkList[k];
+  }
+  msi::SceneSamples samples;
+  samples.reflectance = capture.samples.reflectance;
+  samples.medium = words(capture.samples, "medium");
+  samples.scene = words(capture.samples, "scene");
+  samples.x = numbers(capture.samples, "x");
+  samples.y = numbers(capture.samples, "y");
+  samples.order = numbers(capture.samples, "order");
+  std::map<std::string, int> place;
+  for (const std::string& name : capture.samples.sampleNames())
+  {
+    place.emplace(name, static_cast<int>(place.size()));
+  }
+  std::vector<int> sampleOf;
+  for (const std::string& name : capture.readings.sample)
+  {
+    sampleOf.push_back(place.at(name));
+  }
+  std::optional<msi::ReadingNoise> noise;
+  if (capture.description.noise.read && capture.description.noise.shot)
+  {
+    noise = msi::ReadingNoise{ *capture.description.noise.read, *capture.description.noise.shot };
+  }
+  return { msi::CameraModel(capture.camera.wavelengths, capture.camera.values.transpose(), dark,
+             capture.camera.names),
+    *capture.samples.wavelengths, std::move(samples), capture.readings.responses,
+    std::move(sampleOf), noise };
+}
+
+} // namespace withheld

@@ -1,0 +1,122 @@
+// Diagnoses withheld cases without their key: DiagnoseWithheld FOLDER RESULTFILE [threads] [case]
+#include "CaptureInput.h"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+namespace
+{
+std::string lineOf(const msi::GapReport& report, double seconds)
+{
+  std::ostringstream line;
+  line << msi::nameOf(report.verdict) << ','
+       << (report.where.empty() ? std::string() : report.where.front().axis) << ',';
+  const char* separator = "";
+  for (const msi::GapAxis& axis : report.where)
+  {
+    line << separator << axis.axis << ':' << axis.share;
+    separator = ";";
+  }
+  line << ',' << report.gap.rmsBefore << ',' << report.gap.rmsAfter << ',' << report.gap.noiseFloor
+       << ',' << report.gap.shrink << ',' << report.gap.shrinkInterval[0] << ','
+       << report.gap.shrinkInterval[1] << ',';
+  separator = "";
+  for (const msi::GapCause& cause : report.causes)
+  {
+    line << separator << cause.effect << ':' << cause.share << ':';
+    for (std::size_t e = 0; e < cause.equivalent.size(); ++e)
+    {
+      line << (e > 0 ? "|" : "") << cause.equivalent[e];
+    }
+    line << ':' << cause.form << ':' << cause.shrink;
+    separator = ";";
+  }
+  line << ',' << report.unexplained.share << ',';
+  separator = "";
+  for (std::size_t c = 0; c < report.candidates.size() && c < 6; ++c)
+  {
+    line << separator << report.candidates[c].effect << ':' << report.candidates[c].shrink;
+    separator = ";";
+  }
+  line << ',' << seconds;
+  return line.str();
+}
+}
+
+int main(int argc, char** argv)
+{
+  if (argc < 3)
+  {
+    std::cerr << "usage: DiagnoseWithheld FOLDER RESULTFILE [threads] [case]\n";
+    return 2;
+  }
+  const std::string folder = argv[1];
+  const int threads = argc > 3 ? std::stoi(argv[3]) : 1;
+  const std::string only = argc > 4 ? argv[4] : "";
+  std::ifstream list(folder + "/cases.csv");
+  std::vector<std::pair<std::string, std::string>> cases;
+  std::string line;
+  std::getline(list, line);
+  while (std::getline(list, line))
+  {
+    const std::size_t comma = line.find(',');
+    const std::string name = line.substr(0, comma);
+    if (only.empty() || only == name)
+    {
+      cases.emplace_back(name, line.substr(comma + 1));
+    }
+  }
+  std::vector<std::string> results(cases.size());
+  std::atomic<std::size_t> next{ 0 };
+  std::atomic<int> failed{ 0 };
+  std::mutex console;
+  const auto work = [&]
+  {
+    for (std::size_t i = next++; i < cases.size(); i = next++)
+    {
+      try
+      {
+        msi::GapOptions options;
+        if (!cases[i].second.empty())
+        {
+          options.without = { cases[i].second };
+        }
+        const msi::GapCapture capture = withheld::readGapCapture(folder + "/" + cases[i].first);
+        const auto start = std::chrono::steady_clock::now();
+        const auto report = msi::diagnoseGap(capture, options);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        results[i] = lineOf(*report, seconds.count());
+      }
+      catch (const std::exception& error)
+      {
+        const std::lock_guard<std::mutex> lock(console);
+        std::cerr << cases[i].first << ": " << error.what() << '\n';
+        ++failed;
+      }
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int t = 0; t < threads; ++t)
+  {
+    pool.emplace_back(work);
+  }
+  for (std::thread& thread : pool)
+  {
+    thread.join();
+  }
+  std::ofstream output(argv[2]);
+  output << "case,verdict,axis,where,rms_before,rms_after,noise_floor,shrink,shrink_low,shrink_"
+            "high,causes,"
+            "unexplained,candidates,seconds\n";
+  for (std::size_t i = 0; i < cases.size(); ++i)
+  {
+    output << cases[i].first << ',' << results[i] << '\n';
+  }
+  return failed == 0 && output ? 0 : 1;
+}

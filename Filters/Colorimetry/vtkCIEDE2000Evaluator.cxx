@@ -216,6 +216,12 @@ int vtkCIEDE2000Evaluator::RequestData(
       if (auto* table = vtkTable::GetData(inputs[0]))
       {
         auto* second = vtkTable::GetData(inputs[1]);
+        if (!second && vtkDataObject::GetData(inputs[1]))
+        {
+          throw std::invalid_argument("the estimate is a table of samples, but the reference is an "
+                                      "image; give a table of the same samples, or none where the "
+                                      "estimate's table holds the measured reflectance");
+        }
         const auto estimate =
           msi::requireSpectra(table, msi::SampleQuantity::Estimate, "the estimate");
         const auto reference = msi::requireSpectra(second ? second : table,

@@ -11,8 +11,10 @@
 
 #include "Formats/EffectList.h"
 #include "Formats/GapReportFile.h"
+#include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Gap/GapProfile.h"
+#include "Kernels/Gap/SeparatingCapture.h"
 #include "Kernels/Spectra/Interpolation.h"
 
 #include <algorithm>
@@ -48,6 +50,35 @@ std::string named(const std::string& cell, const std::vector<std::string>& names
     }
   }
   return cell;
+}
+
+struct EffectTexts
+{
+  std::string title, meaning, formula;
+};
+
+EffectTexts textsOf(const std::string& effect, const std::string& form)
+{
+  const EffectDefinition* definition = findEffect(effect);
+  const EffectForm* found = definition ? findForm(*definition, form) : nullptr;
+  return { definition ? definition->title : effect, definition ? definition->meaning : "",
+    found ? found->meaning : "" };
+}
+
+// "gain[C3]" means what "gain" means.
+std::string meaningOf(const std::string& parameter, const GapCause& cause)
+{
+  const EffectDefinition* definition = findEffect(cause.effect);
+  const EffectForm* form = definition ? findForm(*definition, cause.form) : nullptr;
+  const std::string name = parameter.substr(0, parameter.find('['));
+  for (const EffectParameter& known : form ? form->parameters : std::vector<EffectParameter>{})
+  {
+    if (known.name == name)
+    {
+      return known.meaning;
+    }
+  }
+  return {};
 }
 
 Eigen::MatrixXd simulatedResponses(const GapCapture& capture)
@@ -134,11 +165,14 @@ void writeCauses(const GapReport& report, vtkTable* table)
     { { "rank", CountColumn }, { "effect", TextColumn }, { "form", TextColumn },
       { "medium", TextColumn }, { "share", NumberColumn }, { "shrink", NumberColumn },
       { "equivalent", TextColumn }, { "parameter", TextColumn }, { "value", NumberColumn },
-      { "unit", TextColumn }, { "standard_error", NumberColumn } });
+      { "unit", TextColumn }, { "standard_error", NumberColumn }, { "title", TextColumn },
+      { "meaning", TextColumn }, { "formula", TextColumn }, { "parameter_meaning", TextColumn },
+      { "next_capture", TextColumn } });
   int rank = 0;
   for (const GapCause& cause : report.causes)
   {
     ++rank;
+    const EffectTexts texts = textsOf(cause.effect, cause.form);
     auto parameters = cause.parameters;
     if (parameters.empty())
     {
@@ -148,7 +182,8 @@ void writeCauses(const GapReport& report, vtkTable* table)
     {
       rows.add({ rank, cause.effect, cause.form, cause.medium, cause.share, cause.shrink,
         joined(cause.equivalent), parameter.name, parameter.value, parameter.unit,
-        parameter.standardError });
+        parameter.standardError, texts.title, texts.meaning, texts.formula,
+        meaningOf(parameter.name, cause), separatingCapture(cause.effect) });
     }
   }
 }
@@ -159,7 +194,7 @@ void writeCandidates(const GapReport& report, vtkTable* table)
     { { "rank", CountColumn }, { "effect", TextColumn }, { "form", TextColumn },
       { "medium", TextColumn }, { "shrink", NumberColumn }, { "shrink_low", NumberColumn },
       { "shrink_high", NumberColumn }, { "cause", CountColumn },
-      { "equivalent_to_cause", CountColumn } });
+      { "equivalent_to_cause", CountColumn }, { "title", TextColumn } });
   int rank = 0;
   for (const GapCandidate& candidate : report.candidates)
   {
@@ -181,7 +216,8 @@ void writeCandidates(const GapReport& report, vtkTable* table)
       }
     }
     rows.add({ ++rank, candidate.effect, candidate.form, candidate.medium, candidate.shrink,
-      candidate.shrinkInterval[0], candidate.shrinkInterval[1], own, equivalent });
+      candidate.shrinkInterval[0], candidate.shrinkInterval[1], own, equivalent,
+      textsOf(candidate.effect, candidate.form).title });
   }
 }
 

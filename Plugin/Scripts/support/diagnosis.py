@@ -139,9 +139,8 @@ def sections(gap, folder):
 
 
 def verdict_section(figures, causes):
-    lines = [VERDICTS[figures["verdict"]], far(figures)[:1].upper() + far(figures)[1:] + "."]
-    lines += [f"{number}. {cause_line(cause)[:1].upper()}{cause_line(cause)[1:]}."
-              for number, cause in enumerate(causes, 1)]
+    lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures)}."]
+    lines += [f"Cause {number}: {cause_line(cause)}." for number, cause in enumerate(causes, 1)]
     if causes and figures["unexplained_share"] >= 0.005:
         lines.append(f"Left over: {100 * figures['unexplained_share']:.0f} % of the gap"
                      + (f", mostly along {figures['unexplained_where']}."

@@ -14,15 +14,17 @@ _STYLE = {"font.size": 11, "axes.spines.top": False, "axes.spines.right": False,
           "axes.axisbelow": True, "figure.dpi": 110, "savefig.bbox": "tight"}
 _NAMES = ("axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
 _MOST_LABELS = 40
+_MOST_SCENES = 4
 
 
 def draw_all(tables, summary, folder):
     """Those pictures for which there are data; one that an earlier run left behind is taken away."""
     with pyplot.rc_context(_STYLE):
-        pictures = {"axes.png": _axes(tables["where"]),
+        gap = summary["verdict"] != "no gap"
+        pictures = {"axes.png": _axes(tables["where"]) if gap else None,
                     "where.png": _heat_maps(tables["heat-map"], summary),
                     "map.png": _field(tables["samples"]), "trend.png": _trend(tables["trend"]),
-                    "which.png": _candidates(tables["candidates"]),
+                    "which.png": _candidates(tables["candidates"]) if gap else None,
                     "how-far.png": _far(summary)}
         for name, figure in pictures.items():
             path = os.path.join(folder, name)
@@ -102,19 +104,28 @@ def _group_name(group):
 def _field(samples):
     placed = [row for row in samples if _number(row.get("x")) and _number(row.get("y"))
               and _number(row["gap_before"])]
-    xs, ys = [row["x"] for row in placed], [row["y"] for row in placed]
-    if len(set(zip(xs, ys))) < 4:
+    if len({(row["x"], row["y"]) for row in placed}) < 4:
         return None
+    scenes = list(dict.fromkeys(row.get("scene", "") for row in placed))
+    if len(scenes) > _MOST_SCENES:
+        scenes = [None]  # one over the other
     limit = max(abs(row["gap_before"]) for row in placed)
-    figure, plots = pyplot.subplots(1, 2, sharey=True, layout="constrained", figsize=(12, 5))
-    for plot, value, title in ((plots[0], "gap_before", "Before"), (plots[1], "gap_after", "After")):
-        points = plot.scatter(xs, ys, c=[row[value] for row in placed], cmap="PuOr",
-                              norm=Normalize(-limit, limit), s=60, edgecolors="#606060", linewidths=0.4)
-        plot.set_title(title, fontsize=12)
-        plot.set_aspect("equal")
+    figure, plots = pyplot.subplots(len(scenes), 2, sharex=True, sharey=True, squeeze=False,
+                                    layout="compressed", figsize=(11, 4.2 * len(scenes)))
+    for scene, line in zip(scenes, plots):
+        shown = [row for row in placed if scene is None or row.get("scene", "") == scene]
+        for plot, value, title in zip(line, ("gap_before", "gap_after"), ("before", "after")):
+            points = plot.scatter([row["x"] for row in shown], [row["y"] for row in shown],
+                                  c=[row[value] for row in shown], cmap="PuOr",
+                                  norm=Normalize(-limit, limit), s=55, edgecolors="#606060",
+                                  linewidths=0.4)
+            plot.set_title(f"{scene}, {title}" if scene else title.capitalize(), fontsize=12)
+            plot.set_aspect("equal")
+    plots[0][0].invert_yaxis()
+    for plot in plots[-1]:
         plot.set_xlabel("x")
-    plots[0].invert_yaxis()
-    plots[0].set_ylabel("y (downwards, as in an image)")
+    for line in plots:
+        line[0].set_ylabel("y (downwards, as in an image)", fontsize=9)
     bar = figure.colorbar(points, ax=plots, format=matplotlib.ticker.PercentFormatter(1.0))
     bar.set_label("Gap relative to the simulated response")
     return figure

@@ -5,6 +5,7 @@ set(MULTISPECTRAL_MODULES
   Multispectral::FiltersCalibration
   Multispectral::FiltersColorimetry
   Multispectral::FiltersSimulation
+  Multispectral::FiltersDiagnosis
   Multispectral::Readers)
 set(MULTISPECTRAL_MODULE_FILES
   "${PROJECT_SOURCE_DIR}/Filters/DataModel/vtk.module"
@@ -12,4 +13,5 @@ set(MULTISPECTRAL_MODULE_FILES
   "${PROJECT_SOURCE_DIR}/Filters/Calibration/vtk.module"
   "${PROJECT_SOURCE_DIR}/Filters/Colorimetry/vtk.module"
   "${PROJECT_SOURCE_DIR}/Filters/Simulation/vtk.module"
+  "${PROJECT_SOURCE_DIR}/Filters/Diagnosis/vtk.module"
   "${PROJECT_SOURCE_DIR}/Readers/vtk.module")

@@ -386,4 +386,8 @@ void vtkSpectralImageWriter::WriteBlocks()
   {
     writer->finish();
   }
+  if (controller)
+  {
+    controller->Barrier(); // whoever reads the file next finds it
+  }
 }

@@ -122,13 +122,13 @@ def save_table(source, path):
     _write("SampleTableWriter", source, path)
 
 
-def save_image(source, path):
-    """Writes a spectral image through the plugin's writer: complete or absent."""
-    _write("SpectralImageWriter", source, path)
+def save_image(source, path, **properties):
+    """Writes a spectral image through the plugin's writer, block by block: complete or absent."""
+    _write("SpectralImageWriter", source, path, **properties)
 
 
-def _write(name, source, path):
-    writer = getattr(servermanager.writers, name)(Input=source, FileName=path)
+def _write(name, source, path, **properties):
+    writer = getattr(servermanager.writers, name)(Input=source, FileName=path, **properties)
     watch(writer)
     writer.UpdatePipeline()
     fail_on_error()

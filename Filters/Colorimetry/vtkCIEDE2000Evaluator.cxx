@@ -4,6 +4,7 @@
 #include "ErrorMetrics.h"
 #include "ErrorStatisticsReduction.h"
 #include "ErrorSummaryTable.h"
+#include "ImageBlocks.h"
 #include "ImagePieces.h"
 #include "NameList.h"
 #include "SampleColumns.h"
@@ -202,14 +203,17 @@ int vtkCIEDE2000Evaluator::RequestData(
         }
         return;
       }
-      auto* image = vtkImageData::GetData(inputs[0]);
-      auto* referenceImage = vtkImageData::GetData(inputs[1]);
+      vtkSmartPointer<vtkImageData> image = vtkImageData::GetData(inputs[0]);
+      vtkSmartPointer<vtkImageData> referenceImage = vtkImageData::GetData(inputs[1]);
       if (!image || !referenceImage)
       {
         throw std::invalid_argument(
           "an estimated image needs a reference image of the same region as "
           "second input (see Patch Reference Image)");
       }
+      const auto common = msi::commonExtent({ image, referenceImage });
+      image = msi::partOf(image, common);
+      referenceImage = msi::partOf(referenceImage, common);
       auto* controller = msi::controllerOfPieces(inputs[0]);
       auto* output = vtkImageData::GetData(outputs, 0);
       const auto errors = newErrorArrays(names, image->GetNumberOfPoints());

@@ -125,4 +125,25 @@ vtkSmartPointer<vtkImageData> partOf(vtkImageData* image, const Extent& block)
   return part;
 }
 
+Extent commonExtent(std::initializer_list<vtkImageData*> images)
+{
+  Extent common{};
+  bool first = true;
+  for (auto* image : images)
+  {
+    if (!image)
+    {
+      continue;
+    }
+    const int* held = image->GetExtent();
+    for (std::size_t axis = 0; axis < 6; axis += 2)
+    {
+      common[axis] = first ? held[axis] : std::max(common[axis], held[axis]);
+      common[axis + 1] = first ? held[axis + 1] : std::min(common[axis + 1], held[axis + 1]);
+    }
+    first = false;
+  }
+  return common;
+}
+
 } // namespace msi

@@ -61,6 +61,9 @@ private:
 // The image itself where it shows exactly the block, else a copy of the part. Null for null.
 vtkSmartPointer<vtkImageData> partOf(vtkImageData* image, const Extent& block);
 
+// What all of the images show, null ones aside: an input that was not computed anew may hold more than was asked for.
+Extent commonExtent(std::initializer_list<vtkImageData*> images);
+
 } // namespace msi
 
 #endif

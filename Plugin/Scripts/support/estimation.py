@@ -17,9 +17,10 @@ Judged = collections.namedtuple("Judged", "errors summary patches")
 
 
 def read_image(files, wavelengths=None, stride=1):
+    """Camera responses, whatever the file calls them."""
     options = {"Wavelengths": wavelengths} if wavelengths else {}
-    return pipeline.create("SpectralImageReader", FileNames=files, Stride=[stride, stride],
-                           **options)
+    return pipeline.create("SpectralImageReader", FileNames=files, ArrayKind="Responses",
+                           Stride=[stride, stride], **options)
 
 
 def read_labels(path, stride=1):

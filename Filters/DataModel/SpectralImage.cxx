@@ -123,7 +123,10 @@ void setAxis(vtkDataObject* data, vtkDataArray* array, const SpectralAxis& axis)
     const std::string name = axis.wavelengths ? axis.names[i] + " nm" : axis.names[i];
     array->SetComponentName(static_cast<vtkIdType>(i), name.c_str());
   }
-  data->GetFieldData()->RemoveArray(WavelengthArray);
+  for (const char* name : { WavelengthArray, FwhmArray, GoodBandsArray })
+  {
+    data->GetFieldData()->RemoveArray(name);
+  }
   if (axis.wavelengths)
   {
     vtkNew<vtkDoubleArray> wavelengths;

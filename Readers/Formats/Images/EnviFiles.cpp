@@ -115,6 +115,11 @@ std::optional<EnviFiles> findEnviFiles(const std::string& path)
   return std::nullopt;
 }
 
+bool isEnviName(const std::string& path)
+{
+  return !fs::path(path).has_extension() || hasHeaderExtension(path) || hasDataExtension(path);
+}
+
 EnviFiles enviFilesToWrite(const std::string& path)
 {
   if (hasHeaderExtension(path))

@@ -4,10 +4,12 @@ set(MULTISPECTRAL_MODULES
   Multispectral::FiltersSampling
   Multispectral::FiltersCalibration
   Multispectral::FiltersColorimetry
+  Multispectral::FiltersDiagnosis
   Multispectral::Readers)
 set(MULTISPECTRAL_MODULE_FILES
   "${PROJECT_SOURCE_DIR}/Filters/DataModel/vtk.module"
   "${PROJECT_SOURCE_DIR}/Filters/Sampling/vtk.module"
   "${PROJECT_SOURCE_DIR}/Filters/Calibration/vtk.module"
   "${PROJECT_SOURCE_DIR}/Filters/Colorimetry/vtk.module"
+  "${PROJECT_SOURCE_DIR}/Filters/Diagnosis/vtk.module"
   "${PROJECT_SOURCE_DIR}/Readers/vtk.module")

@@ -1,5 +1,6 @@
 #include "Formats/Capture.h"
 
+#include "Formats/CaptureAlignment.h"
 #include "Formats/FormatError.h"
 #include "Formats/Storage/WholeFile.h"
 #include "Formats/Tables/SampleColumns.h"
@@ -201,6 +202,8 @@ Capture readCapture(const std::string& folder)
   requireSameChannels(capture, folder);
   spreadDark(capture, folder);
   requireKnownSamples(capture, folder);
+  alignChannels(capture);
+  alignUnits(capture, folder);
   return capture;
 }
 

@@ -58,7 +58,9 @@ Curves readCameraCurves(const std::string& path);
 RepeatedResponses readRepeatedResponses(const std::string& path);
 
 // Reads the whole folder and refuses parts that disagree: channel counts, samples without a
-// reflectance, a dark list of another length. Errors: FormatError naming the file.
+// reflectance, a dark list of another length. Channels named alike are brought to the order of the
+// responses, counts to responses relative to white; description.notes tells. Errors: FormatError
+// naming the file.
 Capture readCapture(const std::string& folder);
 
 } // namespace msi

@@ -1,9 +1,12 @@
 #include "Kernels/Gap/GapCauses.h"
 
 #include "Kernels/Gap/Shapley.h"
+#include "Kernels/Gap/ShrinkInterval.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace msi
 {
@@ -107,6 +110,33 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
   }
   return names;
 }
+
+// Of the training samples.
+SampleEnergies energiesOf(const EffectFitter& fitter, const EffectFit& fit)
+{
+  const GapData& data = fitter.data();
+  SampleEnergies energies;
+  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  {
+    double before = 0.0;
+    double after = 0.0;
+    double noise = 0.0;
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      if (fitter.weight()(k, i) > 0.0)
+      {
+        const double gap = data.observed(k, i) - data.simulated(k, i);
+        before += gap * gap;
+        after += fit.heldOut(k, i) * fit.heldOut(k, i);
+        noise += data.variance(k, i);
+      }
+    }
+    energies.before.push_back(before);
+    energies.after.push_back(after);
+    energies.noise.push_back(noise);
+  }
+  return energies;
+}
 }
 
 double shrinkOf(double before, double after, double noise) noexcept
@@ -121,21 +151,10 @@ double shrinkOf(double before, double after, double noise) noexcept
 
 double shrinkOf(const EffectFitter& fitter, const EffectFit& fit)
 {
-  const GapData& data = fitter.data();
-  double before = 0.0;
-  double after = 0.0;
-  double noise = 0.0;
-  for (Eigen::Index i = 0; i < data.observed.size(); ++i)
-  {
-    if (fitter.weight()(i) > 0.0)
-    {
-      const double gap = data.observed(i) - data.simulated(i);
-      before += gap * gap;
-      after += fit.heldOut(i) * fit.heldOut(i);
-      noise += data.variance(i);
-    }
-  }
-  return shrinkOf(before, after, noise);
+  const SampleEnergies energies = energiesOf(fitter, fit);
+  const auto sum = [](const std::vector<double>& values)
+  { return std::accumulate(values.begin(), values.end(), 0.0); };
+  return shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
 }
 
 std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchResult& found,
@@ -185,14 +204,18 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
   return causes;
 }
 
-std::vector<GapCandidate> describeCandidates(const EffectFitter& fitter, const SearchResult& found)
+std::vector<GapCandidate> describeCandidates(
+  const EffectFitter& fitter, const SearchResult& found, std::uint64_t seed)
 {
   std::vector<GapCandidate> candidates;
   for (const EffectFit& single : found.singles)
   {
     const EffectChoice& choice = single.set.choices.front();
+    const double shrink = shrinkOf(fitter, single);
+    std::array<double, 2> interval = shrinkInterval(energiesOf(fitter, single), seed);
+    interval = { std::fmin(interval[0], shrink), std::fmax(interval[1], shrink) };
     candidates.push_back(
-      { choice.effect->name, choice.form->name, choice.medium, shrinkOf(fitter, single) });
+      { choice.effect->name, choice.form->name, choice.medium, shrink, interval });
   }
   std::stable_sort(candidates.begin(), candidates.end(),
     [](const GapCandidate& a, const GapCandidate& b) { return a.shrink > b.shrink; });

@@ -4,6 +4,7 @@
 #include "Kernels/Gap/EffectSearch.h"
 #include "Kernels/Gap/GapReport.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace msi
@@ -20,7 +21,8 @@ double shrinkOf(const EffectFitter& fitter, const EffectFit& fit);
 std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchResult& found,
   const std::vector<EffectChoice>& choices, double total);
 
-// The single effects by what each alone would do.
-std::vector<GapCandidate> describeCandidates(const EffectFitter& fitter, const SearchResult& found);
+// The single effects by what each alone would do. seed: of the intervals.
+std::vector<GapCandidate> describeCandidates(
+  const EffectFitter& fitter, const SearchResult& found, std::uint64_t seed);
 
 } // namespace msi

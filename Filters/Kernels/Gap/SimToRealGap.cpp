@@ -1,6 +1,5 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
-#include "Kernels/Camera/CounterRandom.h"
 #include "Kernels/Gap/EffectSearch.h"
 #include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/GapCauses.h"
@@ -9,6 +8,7 @@
 #include "Kernels/Gap/GapNotes.h"
 #include "Kernels/Gap/OrderBreaks.h"
 #include "Kernels/Gap/SeparatingCapture.h"
+#include "Kernels/Gap/ShrinkInterval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,6 @@ constexpr double PartlyShrink = 0.25;
 constexpr double PredictableDeviations = 4.0;
 constexpr double PredictablePart = 0.1; // of the noise energy
 constexpr double UnpredictableFactor = 1.3;
-constexpr int Resamplings = 400;
 constexpr int MostChangePoints = 6;
 
 // Progress over jobs that may run on several threads.
@@ -129,15 +128,10 @@ void setUnknownNoise(GapData& data)
 }
 
 // Per-sample energies before and after, and what noise allows.
-struct Energies
-{
-  std::vector<double> before, after, noise;
-};
-
-Energies energiesOf(
+SampleEnergies energiesOf(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
 {
-  Energies energies;
+  SampleEnergies energies;
   for (Eigen::Index i = 0; i < data.samples(); ++i)
   {
     if (data.usable[static_cast<std::size_t>(i)] != 0)
@@ -151,7 +145,7 @@ Energies energiesOf(
   return energies;
 }
 
-GapFigures figuresOf(const GapData& data, const Energies& energies, std::uint64_t seed)
+GapFigures figuresOf(const GapData& data, const SampleEnergies& energies, std::uint64_t seed)
 {
   double before = 0.0;
   double after = 0.0;
@@ -169,27 +163,7 @@ GapFigures figuresOf(const GapData& data, const Energies& energies, std::uint64_
   figures.rmsAfter = std::sqrt(after / elements);
   figures.noiseFloor = std::sqrt(noise / elements);
   figures.shrink = shrinkOf(before, after, noise);
-  const CounterRandom random(seed, 72);
-  std::vector<double> shrinks;
-  for (int draw = 0; draw < Resamplings; ++draw)
-  {
-    double b = 0.0;
-    double a = 0.0;
-    double n = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const auto index = static_cast<std::uint64_t>(draw) * count + i;
-      const auto pick = std::min(
-        count - 1, static_cast<std::size_t>(random.uniform(index) * static_cast<double>(count)));
-      b += energies.before[pick];
-      a += energies.after[pick];
-      n += energies.noise[pick];
-    }
-    shrinks.push_back(shrinkOf(b, a, n));
-  }
-  std::sort(shrinks.begin(), shrinks.end());
-  figures.shrinkInterval = { shrinks[Resamplings / 40],
-    shrinks[Resamplings - 1 - Resamplings / 40] };
+  figures.shrinkInterval = shrinkInterval(energies, seed);
   figures.shrinkInterval[0] = std::fmin(figures.shrinkInterval[0], figures.shrink);
   figures.shrinkInterval[1] = std::fmax(figures.shrinkInterval[1], figures.shrink);
   return figures;
@@ -383,7 +357,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     report.gap.shrinkInterval = { 0.0, 0.0 };
     after = before;
   }
-  report.candidates = describeCandidates(fitter, found);
+  report.candidates = describeCandidates(fitter, found, options.seed);
   addExcessNoise(report, data, noise, capture.noise, options.without);
   for (const GapCause& cause : report.causes)
   {

@@ -50,14 +50,15 @@ def watch(proxy):
     algorithm = proxy.SMProxy.GetClientSideObject()
     if sys.stderr.isatty():
         label = proxy.SMProxy.GetXMLLabel()
-        algorithm.AddObserver("ProgressEvent", lambda a, _: _show_progress(label, a.GetProgress()))
+        algorithm.AddObserver("ProgressEvent", lambda a, _: _show_progress(
+            label, a.GetProgress(), a.GetProgressText()))
         algorithm.AddObserver("EndEvent", lambda *_: _show_progress(None, 1.0))
 
 
-def _show_progress(label, share):
+def _show_progress(label, share, doing=None):
     if rank() == 0:
-        print(f"\r{label} {100 * share:3.0f} %" if label else "\r\033[K", end="", file=sys.stderr,
-              flush=True)
+        text = f"\r\033[K{label} {100 * share:3.0f} %" + (f", {doing}" if doing else "")
+        print(text if label else "\r\033[K", end="", file=sys.stderr, flush=True)
 
 
 def update(*proxies):
@@ -117,17 +118,27 @@ def _value(column, row):
     return column.GetValue(row)
 
 
+def tell_notes(reader):
+    """What a reader recognized, told once."""
+    reader.UpdatePropertyInformation()
+    for note in filter(None, str(reader.GetProperty("Notes").GetData() or "").split("\n")):
+        if note not in _noted and rank() == 0:
+            print(f"multispectral: note: {note}", file=sys.stderr, flush=True)
+        _noted.add(note)
+
+
 def save_table(source, path):
     """Writes CSV through the plugin's writer: complete or absent."""
-    _write("SampleTableWriter", source, path)
+    save("SampleTableWriter", source, path)
 
 
 def save_image(source, path):
     """Writes a spectral image through the plugin's writer: complete or absent."""
-    _write("SpectralImageWriter", source, path)
+    save("SpectralImageWriter", source, path)
 
 
-def _write(name, source, path):
+def save(name, source, path):
+    """Writes through the named writer of the plugin."""
     writer = getattr(servermanager.writers, name)(Input=source, FileName=path)
     watch(writer)
     writer.UpdatePipeline()

@@ -1,0 +1,109 @@
+#include "DiagnosisRun.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkSMPTools.h"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <future>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+namespace msi
+{
+
+namespace
+{
+constexpr std::chrono::milliseconds ShownEvery{ 100 };
+
+// What the working threads tell the pipeline's thread.
+class Messages
+{
+public:
+  bool tell(double fraction, const char* what)
+  {
+    const std::lock_guard<std::mutex> hold(Lock);
+    Fraction = fraction;
+    What = what;
+    return !Stop;
+  }
+  void show(vtkAlgorithm* algorithm)
+  {
+    std::string what;
+    double fraction = 0.0;
+    {
+      const std::lock_guard<std::mutex> hold(Lock);
+      what = What;
+      fraction = Fraction;
+    }
+    algorithm->SetProgressText(what.c_str());
+    algorithm->UpdateProgress(fraction);
+    Stop = Stop || algorithm->GetAbortExecute() != 0;
+  }
+  bool stopped() const { return Stop; }
+
+private:
+  std::mutex Lock;
+  double Fraction = 0.0;
+  std::string What;
+  std::atomic<bool> Stop{ false };
+};
+
+// vtkSMPTools::For whose body may throw: the first exception goes to the caller.
+void forEach(int count, const std::function<void(int)>& body)
+{
+  std::mutex lock;
+  std::exception_ptr failure;
+  vtkSMPTools::For(0, count, 1,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        try
+        {
+          body(static_cast<int>(i));
+        }
+        catch (...)
+        {
+          const std::lock_guard<std::mutex> hold(lock);
+          failure = failure ? failure : std::current_exception();
+        }
+      }
+    });
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
+}
+}
+
+GapReport runDiagnosis(vtkAlgorithm* algorithm, const GapCapture& capture, GapOptions options)
+{
+  Messages messages;
+  std::mutex exclusive;
+  options.progress = [&messages](double fraction, const char* what)
+  { return messages.tell(fraction, what); };
+  options.parallelFor = forEach;
+  options.exclusive = [&exclusive](const std::function<void()>& body)
+  {
+    const std::lock_guard<std::mutex> hold(exclusive);
+    body();
+  };
+  auto work =
+    std::async(std::launch::async, [&capture, &options] { return diagnoseGap(capture, options); });
+  while (work.wait_for(ShownEvery) != std::future_status::ready)
+  {
+    messages.show(algorithm);
+  }
+  messages.show(algorithm);
+  auto report = work.get();
+  if (!report || messages.stopped())
+  {
+    throw std::runtime_error("stopped by the user");
+  }
+  return std::move(*report);
+}
+
+} // namespace msi

@@ -1,0 +1,237 @@
+#include "Kernels/Gap/GapProfile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int Parts = 5;
+constexpr int FieldParts = 3;
+constexpr double Nothing = std::numeric_limits<double>::quiet_NaN();
+
+std::string range(const char* what, double low, double high)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << what << ' ' << low << ".." << high;
+  return text.str();
+}
+
+void addNamed(
+  std::vector<SampleGroup>& groups, const char* kind, const std::vector<std::string>& names)
+{
+  std::vector<SampleGroup> found;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const auto [at, first] = place.emplace(names[i], found.size());
+    if (first)
+    {
+      found.push_back({ kind, names[i], {} });
+    }
+    found[at->second].samples.push_back(static_cast<Eigen::Index>(i));
+  }
+  if (found.size() > 1)
+  {
+    groups.insert(groups.end(), found.begin(), found.end());
+  }
+}
+
+std::vector<Eigen::Index> sorted(const Eigen::VectorXd& values)
+{
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+  {
+    if (std::isfinite(values[i]))
+    {
+      order.push_back(i);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(),
+    [&values](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  return order;
+}
+
+// Parts of equal size, in the order of the values.
+void addParts(std::vector<SampleGroup>& groups, const char* kind, const Eigen::VectorXd& values)
+{
+  const std::vector<Eigen::Index> order = sorted(values);
+  if (order.empty() || values[order.front()] == values[order.back()])
+  {
+    return;
+  }
+  const std::size_t count = order.size();
+  for (std::size_t part = 0; part < Parts; ++part)
+  {
+    const std::size_t begin = part * count / Parts;
+    const std::size_t end = (part + 1) * count / Parts;
+    if (begin < end)
+    {
+      groups.push_back({ kind, range(kind, values[order[begin]], values[order[end - 1]]),
+        { order.begin() + static_cast<std::ptrdiff_t>(begin),
+          order.begin() + static_cast<std::ptrdiff_t>(end) } });
+    }
+  }
+}
+
+int third(double value, double low, double high)
+{
+  const double at = high > low ? FieldParts * (value - low) / (high - low) : 0.0;
+  return std::min(static_cast<int>(at), FieldParts - 1);
+}
+
+void addField(std::vector<SampleGroup>& groups, const Eigen::VectorXd& x, const Eigen::VectorXd& y)
+{
+  const std::vector<Eigen::Index> byX = sorted(x);
+  const std::vector<Eigen::Index> byY = sorted(y);
+  if (byX.empty() || byY.empty())
+  {
+    return;
+  }
+  const double left = x[byX.front()];
+  const double right = x[byX.back()];
+  const double low = y[byY.front()];
+  const double high = y[byY.back()];
+  if (left == right && low == high)
+  {
+    return;
+  }
+  std::vector<SampleGroup> cells;
+  for (int row = 0; row < FieldParts; ++row)
+  {
+    for (int column = 0; column < FieldParts; ++column)
+    {
+      const double width = (right - left) / FieldParts;
+      const double height = (high - low) / FieldParts;
+      cells.push_back({ "position",
+        range("x", left + column * width, left + (column + 1) * width) + ", " +
+          range("y", low + row * height, low + (row + 1) * height),
+        {} });
+    }
+  }
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+  {
+    if (std::isfinite(x[i]) && std::isfinite(y[i]))
+    {
+      const int cell = FieldParts * third(y[i], low, high) + third(x[i], left, right);
+      cells[static_cast<std::size_t>(cell)].samples.push_back(i);
+    }
+  }
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(groups),
+    [](const SampleGroup& cell) { return !cell.samples.empty(); });
+}
+
+double median(std::vector<double> values)
+{
+  if (values.empty())
+  {
+    return Nothing;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const double upper = *middle;
+  return values.size() % 2 == 1 ? upper
+                                : 0.5 * (upper + *std::max_element(values.begin(), middle));
+}
+}
+
+std::vector<SampleGroup> groupSamples(const SceneSamples& samples)
+{
+  std::vector<SampleGroup> groups;
+  addNamed(groups, "medium", samples.medium);
+  addNamed(groups, "scene", samples.scene);
+  addParts(groups, "reflectance", samples.reflectance.colwise().mean().transpose());
+  addParts(groups, "order", samples.order);
+  addField(groups, samples.x, samples.y);
+  return groups;
+}
+
+GroupedGap groupGap(const Eigen::MatrixXd& gap, const std::vector<SampleGroup>& groups)
+{
+  const auto count = static_cast<Eigen::Index>(groups.size());
+  GroupedGap result{ Eigen::MatrixXd(gap.rows(), count), Eigen::MatrixXd(gap.rows(), count) };
+  for (Eigen::Index g = 0; g < count; ++g)
+  {
+    for (Eigen::Index k = 0; k < gap.rows(); ++k)
+    {
+      double sum = 0.0;
+      double square = 0.0;
+      double number = 0.0;
+      for (const Eigen::Index i : groups[static_cast<std::size_t>(g)].samples)
+      {
+        const double value = gap(k, i);
+        if (std::isfinite(value))
+        {
+          sum += value;
+          square += value * value;
+          number += 1.0;
+        }
+      }
+      result.mean(k, g) = number > 0.0 ? sum / number : Nothing;
+      result.rms(k, g) = number > 0.0 ? std::sqrt(square / number) : Nothing;
+    }
+  }
+  return result;
+}
+
+Eigen::VectorXd relativeGap(const Eigen::MatrixXd& gap, const Eigen::MatrixXd& simulated)
+{
+  Eigen::VectorXd relative(gap.cols());
+  for (Eigen::Index i = 0; i < gap.cols(); ++i)
+  {
+    const auto measured = gap.col(i).array().isFinite() && simulated.col(i).array().isFinite();
+    const double size = measured.select(simulated.col(i).array(), 0.0).sum();
+    relative[i] = size > 0.0 ? measured.select(gap.col(i).array(), 0.0).sum() / size : Nothing;
+  }
+  return relative;
+}
+
+GapTrend trendOf(
+  const SceneSamples& samples, const GapReport& report, const Eigen::MatrixXd& simulated)
+{
+  const Eigen::VectorXd before = relativeGap(report.gapBefore, simulated);
+  const Eigen::VectorXd after = relativeGap(report.gapAfter, simulated);
+  GapTrend trend;
+  for (const Eigen::Index i : sorted(samples.order))
+  {
+    if (std::isfinite(before[i]))
+    {
+      trend.sample.push_back(i);
+    }
+  }
+  trend.order = samples.order(trend.sample);
+  trend.before = before(trend.sample);
+  trend.after = after(trend.sample);
+  std::vector<double> steps;
+  steps.reserve(report.changePoints.size());
+  for (const GapChangePoint& change : report.changePoints)
+  {
+    steps.push_back(change.order);
+  }
+  std::sort(steps.begin(), steps.end());
+  trend.level.resize(trend.before.size());
+  Eigen::Index begin = 0;
+  for (std::size_t step = 0; step <= steps.size(); ++step)
+  {
+    Eigen::Index end = begin;
+    while (end < trend.order.size() && (step == steps.size() || trend.order[end] < steps[step]))
+    {
+      ++end;
+    }
+    const auto stretch = trend.before.segment(begin, end - begin);
+    trend.level.segment(begin, end - begin)
+      .setConstant(median(std::vector<double>(stretch.begin(), stretch.end())));
+    begin = end;
+  }
+  return trend;
+}
+
+} // namespace msi

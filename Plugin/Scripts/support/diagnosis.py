@@ -1,0 +1,209 @@
+"""Diagnosing a capture: its files, and the report's sections in words."""
+
+import os
+
+from . import command, gap_pictures, pipeline, report
+
+SUMMARY, WHERE, CAUSES, CANDIDATES, HEAT_MAP, TREND, SAMPLES, CAMERA, NOTES = range(9)
+TABLES = {WHERE: "where", CAUSES: "causes", CANDIDATES: "candidates", HEAT_MAP: "heat-map",
+          TREND: "trend", SAMPLES: "samples"}
+
+VERDICTS = {
+    "no gap": "The simulated and the real camera agree: what is left between them is no more than noise "
+              "makes.",
+    "explained": "The two cameras disagree, and the causes below account for it: with them in the "
+                 "simulation the gap shrinks to little more than noise.",
+    "partly explained": "The two cameras disagree. The causes below account for a part of it; the rest "
+                        "has a cause that was not found.",
+    "unexplained": "The two cameras disagree, and no effect that is known here accounts for it.",
+}
+AXES = {
+    "channel": "some channels are off more than others, whatever the sample",
+    "medium": "some media are off more than others",
+    "scene": "some scenes are off more than others",
+    "position": "it depends on the place in the field",
+    "level": "it grows with the signal: bright and dark samples differ",
+    "order": "it changes in the course of the capture",
+    "spectral_shape": "it follows the slope and curvature of the reflectance: the wavelengths are off",
+    "sample": "single samples stand out",
+}
+
+
+def name_of(folder):
+    """What the capture's folder is called."""
+    place = os.path.abspath(folder)
+    return os.path.basename(os.path.dirname(place) if os.path.basename(place) == "capture.json" else place)
+
+
+def read_capture(folder):
+    capture = pipeline.create("CaptureReader", FileName=folder)
+    pipeline.update(capture)
+    pipeline.tell_notes(capture)
+    return capture
+
+
+def diagnose(capture, **options):
+    gap = pipeline.create("SimToRealGap", Camera=pipeline.port(capture, 0),
+                          Samples=pipeline.port(capture, 1), Responses=pipeline.port(capture, 2),
+                          **options)
+    pipeline.update(gap)
+    return gap
+
+
+def write(gap, folder):
+    """report.json, the corrected camera, the tables and the pictures."""
+    pipeline.save("GapReportWriter", pipeline.port(gap, SUMMARY), os.path.join(folder, "report.json"))
+    pipeline.save("CameraWriter", pipeline.port(gap, CAMERA),
+                  os.path.join(folder, "camera-corrected.json"))
+    for port, name in TABLES.items():
+        pipeline.save_table(pipeline.port(gap, port), os.path.join(folder, f"{name}.csv"))
+    if command.rank() == 0:
+        gap_pictures.draw_all({name: records(gap, port) for port, name in TABLES.items()},
+                              summary(gap), folder)
+    else:
+        for port in (*TABLES, SUMMARY):
+            records(gap, port)
+
+
+def records(gap, port):
+    """A table as a list of dictionaries; on rank 0, elsewhere empty."""
+    names, rows = pipeline.table(pipeline.port(gap, port))
+    return [dict(zip(names, row)) for row in rows]
+
+
+def summary(gap):
+    found = records(gap, SUMMARY)
+    return found[0] if found else {}
+
+
+def print_summary(gap):
+    figures, causes = summary(gap), first_rows(records(gap, CAUSES))
+    if not figures:
+        return
+    command.say(f"Verdict: {figures['verdict']}")
+    command.say(f"  {far(figures)}")
+    for cause in causes:
+        command.say(f"  {cause_line(cause)}")
+    if figures["next_capture"]:
+        command.say(f"  Next capture: {figures['next_capture']} (separates {figures['separates']})")
+
+
+def first_rows(rows):
+    """One row a cause, though a cause has a row for each parameter."""
+    seen = {}
+    for row in rows:
+        seen.setdefault(row["rank"], row)
+    return list(seen.values())
+
+
+def far(figures):
+    text = (f"rms {figures['rms_before']:.4f} before, {figures['rms_after']:.4f} after, noise alone "
+            f"{figures['noise_floor']:.4f} (response, 1 = white; samples held out)")
+    if figures["verdict"] != "no gap":
+        text += (f"; shrink {100 * figures['shrink']:.0f} % "
+                 f"({100 * figures['shrink_low']:.0f} to {100 * figures['shrink_high']:.0f} %)")
+    return text
+
+
+def cause_line(cause):
+    medium = f" of {cause['medium']}" if cause["medium"] else ""
+    text = f"{cause['effect']}{medium}: {100 * cause['share']:.0f} % of the gap"
+    if cause["equivalent"]:
+        text += f"; cannot be told from {cause['equivalent']}"
+    return text
+
+
+def sections(gap, folder):
+    """The report: verdict, where, which, how far, what cannot be decided, how to go on."""
+    figures = summary(gap)
+    if not figures:
+        return []
+    tables = {name: records(gap, port) for port, name in TABLES.items()}
+    notes = [row["note"] for row in records(gap, NOTES)]
+    drawn = gap_pictures.drawn(folder)
+    return [
+        verdict_section(figures, first_rows(tables["causes"])),
+        *where_sections(tables["where"], figures, drawn, folder),
+        *which_sections(tables["causes"], figures, drawn, folder),
+        report.pictures("How far it shrinks", folder, {
+            "how-far.png": "The gap before and after the causes are simulated, on samples that took no "
+                           "part in finding them, against what noise alone makes"}),
+        undecided_section(figures, first_rows(tables["causes"]), notes),
+        report.text("Going on with the corrected camera",
+                    "camera-corrected.json and camera-corrected.csv hold the simulated camera with the "
+                    "causes put back as effects: read camera-corrected.json as the camera of the "
+                    "filter Camera Simulator. report.json holds this page as data."
+                    if tables["causes"] else
+                    "camera-corrected.json and camera-corrected.csv hold the camera as it was given: "
+                    "there was nothing to put back. report.json holds this page as data.")]
+
+
+def verdict_section(figures, causes):
+    lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures)}."]
+    lines += [f"Cause {number}: {cause_line(cause)}." for number, cause in enumerate(causes, 1)]
+    if causes and figures["unexplained_share"] >= 0.005:
+        lines.append(f"Left over: {100 * figures['unexplained_share']:.0f} % of the gap"
+                     + (f", mostly along {figures['unexplained_where']}."
+                        if figures["unexplained_where"] else "."))
+    if figures["next_capture"]:
+        lines.append(f"Capture next: {figures['next_capture']}. It separates {figures['separates']}.")
+    return report.text(f"Verdict: {figures['verdict']}", *lines)
+
+
+def where_sections(where, figures, drawn, folder):
+    if figures["verdict"] == "no gap":
+        words = ["There is no gap beyond noise; the pictures show how evenly what is left is spread."]
+    else:
+        axes = [row for row in where if not row["cell"] and row["share"] >= 0.05][:3]
+        words = []
+        for axis in axes:
+            cells = [row for row in where if row["axis"] == axis["axis"] and row["cell"]][:3]
+            worst = ", ".join(f"{row['cell']} ({100 * row['share']:.0f} %)" for row in cells)
+            words.append(f"{axis['axis']}: {100 * axis['share']:.0f} % of the gap's energy: "
+                         f"{AXES.get(axis['axis'], '')}."
+                         + (f" Most of the energy is in {worst}." if worst else ""))
+        words = words or ["No axis stands out: the gap is spread over everything alike."]
+    captions = {
+        "axes.png": "How much of the gap's energy each axis predicts on samples held out; what two axes "
+                    "have in common is shared between them",
+        "where.png": "The gap of each channel and group of samples, before and after the correction",
+        "map.png": "The gap over the field, relative to the simulated response, before and after",
+        "trend.png": "The gap over the capture order, relative to the simulated response; the line is the "
+                     "median between places where the level changes"}
+    return [report.text("Where the gap lies", *words),
+            report.pictures("Where, in pictures", folder,
+                            {name: text for name, text in captions.items() if name in drawn})]
+
+
+def which_sections(causes, figures, drawn, folder):
+    parts = []
+    for cause in first_rows(causes):
+        medium = f" ({cause['medium']})" if cause["medium"] else ""
+        words = [cause["meaning"], f"As simulated: {cause['formula']}.",
+                 f"It makes {100 * cause['share']:.0f} % of the gap; simulated alone it shrinks the gap "
+                 f"by {100 * cause['shrink']:.0f} %."]
+        if cause["equivalent"]:
+            words.append(f"These data cannot tell it from {cause['equivalent']}: any of them does as well "
+                         f"on samples held out. A capture that tells: {cause['next_capture']}.")
+        parts.append(report.text(f"Cause {cause['rank']}: {cause['title']}{medium}", *words))
+    if not parts:
+        parts = [report.text("Which effects cause it",
+                             "None." if figures["verdict"] == "no gap" else
+                             "None of the known effects: naming one would be a guess.")]
+    columns = ["parameter", "value", "standard_error", "unit", "parameter_meaning"]
+    rows = [[row["effect"], *(row[name] for name in columns)] for row in causes if row["parameter"]]
+    parts.append(report.table("Parameters of the causes", ["effect", *columns], rows))
+    if "which.png" in drawn:
+        parts.append(report.pictures("Which effects were tried", folder, {
+            "which.png": "What each effect alone would do, with the 95 % interval over samples; "
+                         "filled: the causes found; brackets: effects that the data cannot tell from a "
+                         "cause"}))
+    return parts
+
+
+def undecided_section(figures, causes, notes):
+    words = [f"{cause['effect']} or {cause['equivalent']}: {cause['next_capture']} would tell."
+             for cause in causes if cause["equivalent"]]
+    words += notes
+    return report.text("What these data cannot decide, and why",
+                       *(words or ["Nothing stood in the way of the diagnosis."]))

@@ -1,0 +1,208 @@
+"""The pictures of a diagnosis, drawn from its tables: where, which, how far."""
+
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+from matplotlib.colors import Normalize  # noqa: E402
+
+# Okabe and Ito's palette: told apart with any color vision.
+_BEFORE, _AFTER, _FLOOR, _PLAIN = "#D55E00", "#0072B2", "#009E73", "#B0B0B0"
+_STYLE = {"font.size": 11, "axes.spines.top": False, "axes.spines.right": False,
+          "axes.axisbelow": True, "figure.dpi": 110, "savefig.bbox": "tight"}
+_NAMES = ("axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
+_MOST_LABELS = 40
+_MOST_SCENES = 4
+
+
+def draw_all(tables, summary, folder):
+    """Those pictures for which there are data; one that an earlier run left behind is taken away."""
+    with pyplot.rc_context(_STYLE):
+        gap = summary["verdict"] != "no gap"
+        pictures = {"axes.png": _axes(tables["where"]) if gap else None,
+                    "where.png": _heat_maps(tables["heat-map"], summary),
+                    "map.png": _field(tables["samples"]), "trend.png": _trend(tables["trend"]),
+                    "which.png": _candidates(tables["candidates"]) if gap else None,
+                    "how-far.png": _far(summary)}
+        for name, figure in pictures.items():
+            path = os.path.join(folder, name)
+            if figure is not None:
+                figure.savefig(path + ".part", format="png", metadata={"Software": None})
+                pyplot.close(figure)
+                os.replace(path + ".part", path)
+            elif os.path.exists(path):
+                os.remove(path)
+
+
+def drawn(folder):
+    return [name for name in _NAMES if os.path.exists(os.path.join(folder, name))]
+
+
+def _axes(where):
+    axes = [row for row in where if not row["cell"]]
+    if not axes:
+        return None
+    figure, plot = pyplot.subplots(figsize=(8, 0.5 + 0.42 * len(axes)))
+    plot.barh([row["axis"].replace("_", " ") for row in axes], [row["share"] for row in axes],
+              color=_BEFORE)
+    plot.invert_yaxis()
+    plot.set_xlim(0, 1)
+    plot.xaxis.set_major_formatter(matplotlib.ticker.PercentFormatter(1.0))
+    plot.set_xlabel("Share of the gap's energy")
+    plot.grid(axis="x", color="#E0E0E0")
+    return figure
+
+
+def _pivot(rows, value):
+    """Groups x channels."""
+    matrix = {}
+    for row in rows:
+        matrix.setdefault(row["column"], {})[row["row"]] = row[value]
+    return [[cells[k] for k in sorted(cells)] for _, cells in sorted(matrix.items())]
+
+
+def _heat_maps(rows, summary):
+    if not rows:
+        return None
+    groups = [next(row for row in rows if row["column"] == column)
+              for column in sorted({row["column"] for row in rows})]
+    channels = [next(row for row in rows if row["row"] == number)["channel"]
+                for number in sorted({row["row"] for row in rows})]
+    limit = max(abs(row["mean_before"]) for row in rows if row["mean_before"] == row["mean_before"])
+    top = max(row["rms_before"] for row in rows if row["rms_before"] == row["rms_before"])
+    panels = (("mean_before", "Mean gap (real - simulated)", "PuOr", Normalize(-limit, limit)),
+              ("rms_before", "rms before", "viridis", Normalize(0, top)),
+              ("rms_after", "rms after the correction", "viridis", Normalize(0, top)))
+    figure, plots = pyplot.subplots(1, 3, sharey=True, layout="constrained",
+                                    figsize=(13.5, 1.9 + 0.27 * len(groups)))
+    for plot, (value, title, colors, norm) in zip(plots, panels):
+        image = plot.imshow(_pivot(rows, value), aspect="auto", cmap=colors, norm=norm,
+                            interpolation="nearest")
+        plot.set_title(title, fontsize=12)
+        plot.set_xticks(range(len(channels)), channels, rotation=90, fontsize=8)
+        for number in range(1, len(groups)):
+            if groups[number]["kind"] != groups[number - 1]["kind"]:
+                plot.axhline(number - 0.5, color="white", linewidth=4)
+        bar = figure.colorbar(image, ax=plot, orientation="horizontal", shrink=0.9)
+        bar.ax.tick_params(labelsize=8)
+        if value != "mean_before":
+            bar.ax.axvline(summary["noise_floor"], color="white", linewidth=2)
+            bar.set_label("response, 1 = white; white line: noise alone", fontsize=9)
+        else:
+            bar.set_label("response, 1 = white", fontsize=9)
+    plots[0].set_yticks(range(len(groups)), [_group_name(group) for group in groups], fontsize=9)
+    return figure
+
+
+def _group_name(group):
+    name = group["group"]
+    return f"{group['kind']} {name}" if group["kind"] in ("medium", "scene") else name
+
+
+def _field(samples):
+    placed = [row for row in samples if _number(row.get("x")) and _number(row.get("y"))
+              and _number(row["gap_before"])]
+    if len({(row["x"], row["y"]) for row in placed}) < 4:
+        return None
+    scenes = list(dict.fromkeys(row.get("scene", "") for row in placed))
+    if len(scenes) > _MOST_SCENES:
+        scenes = [None]  # one over the other
+    limit = max(abs(row["gap_before"]) for row in placed)
+    figure, plots = pyplot.subplots(len(scenes), 2, sharex=True, sharey=True, squeeze=False,
+                                    layout="compressed", figsize=(11, 4.2 * len(scenes)))
+    for scene, line in zip(scenes, plots):
+        shown = [row for row in placed if scene is None or row.get("scene", "") == scene]
+        for plot, value, title in zip(line, ("gap_before", "gap_after"), ("before", "after")):
+            points = plot.scatter([row["x"] for row in shown], [row["y"] for row in shown],
+                                  c=[row[value] for row in shown], cmap="PuOr",
+                                  norm=Normalize(-limit, limit), s=55, edgecolors="#606060",
+                                  linewidths=0.4)
+            plot.set_title(f"{scene}, {title}" if scene else title.capitalize(), fontsize=12)
+            plot.set_aspect("equal")
+    plots[0][0].invert_yaxis()
+    for plot in plots[-1]:
+        plot.set_xlabel("x")
+    for line in plots:
+        line[0].set_ylabel("y (downwards, as in an image)", fontsize=9)
+    bar = figure.colorbar(points, ax=plots, format=matplotlib.ticker.PercentFormatter(1.0))
+    bar.set_label("Gap relative to the simulated response")
+    return figure
+
+
+def _trend(rows):
+    if len(rows) < 3:
+        return None
+    figure, plot = pyplot.subplots(figsize=(11, 4))
+    order = [row["order"] for row in rows]
+    plot.axhline(0, color="#808080", linewidth=0.8)
+    plot.plot(order, [row["gap_before"] for row in rows], ".", color=_BEFORE, label="before")
+    plot.plot(order, [row["gap_after"] for row in rows], ".", color=_AFTER, label="after")
+    plot.step(order, [row["level"] for row in rows], where="mid", color="black",
+              label="median before, between change points")
+    plot.yaxis.set_major_formatter(matplotlib.ticker.PercentFormatter(1.0))
+    plot.set_xlabel("Capture order")
+    plot.set_ylabel("Gap relative to the simulated response")
+    plot.grid(color="#E8E8E8")
+    plot.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, 1.14), ncols=3)
+    return figure
+
+
+def _candidates(rows):
+    rows = rows[:_MOST_LABELS]
+    if not rows:
+        return None
+    figure, plot = pyplot.subplots(figsize=(10, 1.0 + 0.34 * len(rows)))
+    for place, row in enumerate(rows):
+        color = _AFTER if row["cause"] else _PLAIN
+        plot.hlines(place, row["shrink_low"], row["shrink_high"], color=color, linewidth=3)
+        plot.plot(row["shrink"], place, "o", markersize=9, color=color,
+                  markerfacecolor=color if row["cause"] else "white", markeredgewidth=2)
+    plot.set_yticks(range(len(rows)), [
+        row["effect"] + (f" ({row['medium']})" if row["medium"] else "") for row in rows])
+    plot.invert_yaxis()
+    plot.set_xlim(min([-0.05] + [row["shrink_low"] for row in rows]), 1.02)
+    plot.axvline(0, color="#808080", linewidth=0.8)
+    plot.xaxis.set_major_formatter(matplotlib.ticker.PercentFormatter(1.0))
+    plot.set_xlabel("How far this effect alone shrinks the gap")
+    plot.grid(axis="x", color="#E8E8E8")
+    _brackets(plot, rows)
+    return figure
+
+
+def _brackets(plot, rows):
+    """To the right of the chart: each cause and the effects that the data cannot tell from it."""
+    across = plot.get_yaxis_transform()
+    at = 1.02
+    for cause in sorted({row["equivalent_to_cause"] for row in rows} - {0}):
+        members = [place for place, row in enumerate(rows)
+                   if cause in (row["cause"], row["equivalent_to_cause"])]
+        plot.plot([at, at], [min(members), max(members)], color="black", clip_on=False,
+                  transform=across, linewidth=1.5)
+        for place in members:
+            plot.plot([at - 0.012, at], [place, place], color="black", clip_on=False,
+                      transform=across, linewidth=1.5)
+        plot.text(at + 0.01, sum(members) / len(members), "alike", transform=across, va="center",
+                  rotation=270, fontsize=9)
+        at += 0.05
+
+
+def _far(summary):
+    bars = (("before", "rms_before", _BEFORE), ("after", "rms_after", _AFTER),
+            ("noise alone", "noise_floor", _FLOOR))
+    figure, plot = pyplot.subplots(figsize=(9, 2.4))
+    for name, key, color in bars:
+        plot.barh(name, summary[key], color=color)
+        plot.text(summary[key], name, f" {summary[key]:.4f}", va="center")
+    plot.invert_yaxis()
+    plot.set_xlabel("rms of the gap on samples held out (response, 1 = white)")
+    if summary["verdict"] != "no gap":
+        plot.set_title(f"Shrink {100 * summary['shrink']:.0f} % (95 % interval "
+                       f"{100 * summary['shrink_low']:.0f} to {100 * summary['shrink_high']:.0f} %)",
+                       fontsize=12, loc="left")
+    return figure
+
+
+def _number(value):
+    return isinstance(value, (int, float)) and value == value

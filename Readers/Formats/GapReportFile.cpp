@@ -1,0 +1,98 @@
+#include "Formats/GapReportFile.h"
+
+#include "Formats/Storage/AtomicFile.h"
+
+#include <nlohmann/json.hpp>
+
+namespace msi
+{
+
+namespace
+{
+// Keys in the order of writing.
+using Json = nlohmann::ordered_json;
+
+Json whereOf(const GapReport& report)
+{
+  Json where = Json::array();
+  for (const GapAxis& axis : report.where)
+  {
+    Json worst = Json::array();
+    for (const GapCell& cell : axis.worst)
+    {
+      worst.push_back({ { "cell", cell.cell }, { "share", cell.share } });
+    }
+    where.push_back({ { "axis", axis.axis }, { "share", axis.share }, { "worst", worst } });
+  }
+  return where;
+}
+
+Json causesOf(const GapReport& report)
+{
+  Json causes = Json::array();
+  for (const GapCause& cause : report.causes)
+  {
+    Json parameters = Json::array();
+    for (const GapParameter& parameter : cause.parameters)
+    {
+      parameters.push_back({ { "name", parameter.name }, { "value", parameter.value },
+        { "unit", parameter.unit }, { "standard_error", parameter.standardError } });
+    }
+    causes.push_back({ { "effect", cause.effect }, { "form", cause.form },
+      { "medium", cause.medium }, { "share", cause.share }, { "shrink", cause.shrink },
+      { "equivalent", cause.equivalent }, { "parameters", parameters } });
+  }
+  return causes;
+}
+
+Json candidatesOf(const GapReport& report)
+{
+  Json candidates = Json::array();
+  for (const GapCandidate& candidate : report.candidates)
+  {
+    candidates.push_back({ { "effect", candidate.effect }, { "form", candidate.form },
+      { "medium", candidate.medium }, { "shrink", candidate.shrink },
+      { "shrink_interval", candidate.shrinkInterval } });
+  }
+  return candidates;
+}
+
+Json changePointsOf(const GapReport& report)
+{
+  Json points = Json::array();
+  for (const GapChangePoint& point : report.changePoints)
+  {
+    points.push_back({ { "order", point.order }, { "change", point.change },
+      { "deviations", point.deviations } });
+  }
+  return points;
+}
+}
+
+std::string gapReportText(const GapReport& report)
+{
+  const GapFigures& gap = report.gap;
+  const GapNextCapture next = report.nextCapture.value_or(GapNextCapture{});
+  const Json json = { { "verdict", nameOf(report.verdict) },
+    { "gap",
+      { { "rms_before", gap.rmsBefore }, { "rms_after", gap.rmsAfter },
+        { "noise_floor", gap.noiseFloor }, { "shrink", gap.shrink },
+        { "shrink_interval", gap.shrinkInterval } } },
+    { "where", whereOf(report) }, { "change_points", changePointsOf(report) },
+    { "causes", causesOf(report) }, { "candidates", candidatesOf(report) },
+    { "unexplained",
+      { { "share", report.unexplained.share }, { "where", report.unexplained.where } } },
+    { "next_capture", { { "capture", next.capture }, { "separates", next.separates } } },
+    { "notes", report.notes } };
+  // Names come from the user's tables: bytes that are no UTF-8 must not end the writing.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeGapReportText(const std::string& path, const std::string& text)
+{
+  AtomicFile file(path);
+  file.append(text);
+  file.commit();
+}
+
+} // namespace msi

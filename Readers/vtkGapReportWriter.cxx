@@ -1,0 +1,57 @@
+#include "vtkGapReportWriter.h"
+
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include "Formats/GapReportFile.h"
+
+#include <exception>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkGapReportWriter);
+
+void vtkGapReportWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+}
+
+int vtkGapReportWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+  return 1;
+}
+
+void vtkGapReportWriter::WriteData()
+{
+  auto* table = vtkTable::SafeDownCast(this->GetInput());
+  auto* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller && controller->GetLocalProcessId() > 0)
+  {
+    return; // small tables stand whole on the first rank
+  }
+  try
+  {
+    if (this->FileName.empty())
+    {
+      throw std::invalid_argument("no file is given; set FileName");
+    }
+    auto* text = vtkStringArray::SafeDownCast(table->GetFieldData()->GetAbstractArray("Report"));
+    if (!text || text->GetNumberOfValues() == 0)
+    {
+      throw std::invalid_argument("the input has no field data 'Report'; expected the summary, "
+                                  "output 0 of Sim To Real Gap");
+    }
+    msi::writeGapReportText(this->FileName, text->GetValue(0));
+  }
+  catch (const std::exception& error)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+    vtkErrorMacro(<< error.what());
+  }
+}

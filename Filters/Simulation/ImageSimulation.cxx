@@ -4,6 +4,7 @@
 #include "SpectralImage.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -27,15 +28,15 @@ namespace
 {
 constexpr int LeastStripRows = 32;
 
-ImageWindow windowOf(const PixelExtent& extent, const PixelExtent& whole)
+ImageWindow windowOf(const Extent& extent, const Extent& whole)
 {
   return { extent[0] - whole[0], extent[2] - whole[2], extent[1] - extent[0] + 1,
     extent[3] - extent[2] + 1 };
 }
 
-PixelExtent extentOf(vtkImageData* image)
+Extent extentOf(vtkImageData* image)
 {
-  PixelExtent extent{};
+  Extent extent{};
   image->GetExtent(extent.data());
   return extent;
 }
@@ -106,9 +107,9 @@ void forStrips(vtkAlgorithm* algorithm, int rows, int stripRows, double progress
 }
 }
 
-PixelExtent grown(const PixelExtent& extent, int margin, const PixelExtent& whole)
+Extent grown(const Extent& extent, int margin, const Extent& whole)
 {
-  PixelExtent larger = extent;
+  Extent larger = extent;
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
     larger[2 * axis] = std::max(whole[2 * axis], extent[2 * axis] - margin);
@@ -117,7 +118,7 @@ PixelExtent grown(const PixelExtent& extent, int margin, const PixelExtent& whol
   return larger;
 }
 
-bool contains(const PixelExtent& outer, const PixelExtent& inner)
+bool contains(const Extent& outer, const Extent& inner)
 {
   return outer[0] <= inner[0] && outer[1] >= inner[1] && outer[2] <= inner[2] &&
     outer[3] >= inner[3];
@@ -196,6 +197,9 @@ void simulateImage(vtkAlgorithm* algorithm, const ImageSimulator& simulator,
     }
   }
   output->Crop(input.extent.data());
+  // Those of the margin; whoever asks for ghosts marks their own.
+  points->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  output->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   setAxis(output, responses, channelsOf(camera));
   replaceArray(output, nullptr, responses);
 }

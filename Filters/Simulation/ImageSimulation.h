@@ -2,10 +2,11 @@
 #ifndef ImageSimulation_h
 #define ImageSimulation_h
 
+#include "ImagePieces.h"
+
 #include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 
-#include <array>
 #include <string>
 
 class vtkAlgorithm;
@@ -14,20 +15,17 @@ class vtkImageData;
 namespace msi
 {
 
-// An extent as VTK counts it.
-using PixelExtent = std::array<int, 6>;
-
 // The extent with a margin of pixels in x and y, cut at the whole image.
-PixelExtent grown(const PixelExtent& extent, int margin, const PixelExtent& whole);
-bool contains(const PixelExtent& outer, const PixelExtent& inner);
+Extent grown(const Extent& extent, int margin, const Extent& whole);
+bool contains(const Extent& outer, const Extent& inner);
 
 struct ImageSimulationInput
 {
   vtkImageData* image; // at least the pixels of `extent` and the simulator's halo around them
   std::string reflectanceArray; // empty: the active scalars
   std::string mediumArray;      // empty: every pixel is of medium 0
-  PixelExtent whole;            // of the image in all pieces
-  PixelExtent extent;           // of the result
+  Extent whole;                 // of the image in all pieces
+  Extent extent;                // of the result
 };
 
 // Puts the responses (array "Responses") of `extent` into the output, with the other arrays and the frame of the

@@ -43,10 +43,10 @@ namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-msi::PixelExtent extentIn(vtkInformation* information, vtkInformationIntegerVectorKey* key)
+msi::Extent wholeExtent(vtkInformation* information)
 {
-  msi::PixelExtent extent{};
-  information->Get(key, extent.data());
+  msi::Extent extent{};
+  information->Get(Pipeline::WHOLE_EXTENT(), extent.data());
   return extent;
 }
 
@@ -111,16 +111,28 @@ int vtkCameraSimulator::RequestUpdateExtent(
   msi::requestWhole(inputs, 1);
   auto* input = inputs[0]->GetInformationObject(0);
   auto* output = outputs->GetInformationObject(0);
-  if (!input->Has(Pipeline::WHOLE_EXTENT()))
+  if (!input->Has(Pipeline::WHOLE_EXTENT()) || this->WholeImage)
   {
     msi::requestWhole(inputs, 0);
   }
-  else if (output->Has(Pipeline::UPDATE_EXTENT()))
+  if (!input->Has(Pipeline::WHOLE_EXTENT()))
   {
-    const auto whole = extentIn(input, Pipeline::WHOLE_EXTENT());
-    const auto extent = this->WholeImage
-      ? whole
-      : msi::grown(extentIn(output, Pipeline::UPDATE_EXTENT()), this->Margin, whole);
+    return 1;
+  }
+  const auto whole = wholeExtent(input);
+  if (this->WholeImage)
+  {
+    input->Set(Pipeline::UPDATE_EXTENT(), whole.data(), 6);
+  }
+  else if (output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) > 1)
+  {
+    // The source cuts its piece itself; ghosts are the margin.
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(),
+      output->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) + this->Margin);
+  }
+  else
+  {
+    const auto extent = msi::grown(msi::requestedExtent(output), this->Margin, whole);
     input->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
   }
   return 1;
@@ -206,8 +218,7 @@ bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* informa
       "the image has no wavelengths; expected reflectance with the field data 'Wavelength'");
   }
   msi::ImageSimulationInput input{ image, this->ReflectanceArray, this->MediumArray,
-    extentIn(information, Pipeline::WHOLE_EXTENT()),
-    extentIn(outputInformation, Pipeline::UPDATE_EXTENT()) };
+    wholeExtent(information), msi::requestedExtent(outputInformation) };
   if (input.whole[4] != input.whole[5])
   {
     throw std::invalid_argument("the image has " +
@@ -230,7 +241,7 @@ bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* informa
   }
   this->Margin = simulator.halo();
   this->WholeImage = simulator.needsSceneMean();
-  msi::PixelExtent available{};
+  msi::Extent available{};
   image->GetExtent(available.data());
   const auto needed =
     this->WholeImage ? input.whole : msi::grown(input.extent, this->Margin, input.whole);
@@ -239,6 +250,11 @@ bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* informa
     return false;
   }
   msi::simulateImage(this, simulator, input, work.camera, output);
+  if (outputInformation->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0)
+  {
+    auto own = msi::requestedExtentWithoutGhosts(outputInformation);
+    output->GenerateGhostArray(own.data());
+  }
   return true;
 }
 
@@ -261,6 +277,10 @@ int vtkCameraSimulator::RequestData(
       {
         throw std::invalid_argument(
           "the first input is neither an image of reflectance nor a sample table");
+      }
+      if (image->GetNumberOfPoints() == 0)
+      {
+        return; // a piece without pixels
       }
       const bool done = this->SimulateImage(work, inputs[0]->GetInformationObject(0), image,
         outputs->GetInformationObject(0), vtkImageData::GetData(outputs, 0));

@@ -52,7 +52,7 @@ std::string withoutExtension(const std::string& path)
 // NAME.img for NAME.hdr or NAME.img.hdr; the first of the known names that exists.
 std::string dataFileOf(const std::string& header)
 {
-  const std::string stem = withoutExtension(header);
+  std::string stem = withoutExtension(header);
   if (isFile(stem))
   {
     return stem;

@@ -83,8 +83,6 @@ int vtkCameraModelFit::RequestData(
       if (auto* table = vtkTable::GetData(inputs[1]))
       {
         const auto nominal = msi::readCamera(table, "the nominal camera");
-        msi::requireSameChannels(
-          msi::channelsOf(nominal.camera), "the nominal camera", response.axis, name);
         options.nominal = msi::resampled(nominal.camera, *reflectance.axis.wavelengths);
       }
       if (this->KeepDark)

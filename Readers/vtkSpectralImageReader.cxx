@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "SpectralImage.h"
+#include "SpectralPreview.h"
 
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
@@ -94,6 +95,7 @@ void vtkSpectralImageReader::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "WavelengthRange: " << this->WavelengthRange[0] << ", "
      << this->WavelengthRange[1] << "\n"
      << indent << "OnlyGoodBands: " << this->OnlyGoodBands << "\n"
+     << indent << "Preview: " << this->Preview << "\n"
      << indent << "Region: " << this->Region[0] << ", " << this->Region[1] << ", "
      << this->Region[2] << ", " << this->Region[3] << "\n"
      << indent << "Stride: " << this->Stride[0] << ", " << this->Stride[1] << "\n"
@@ -141,6 +143,7 @@ void vtkSpectralImageReader::Open()
     return;
   }
   this->File.reset();
+  this->Picture.reset();
   this->Notes.clear();
   if (this->FileNames.empty())
   {
@@ -242,5 +245,28 @@ int vtkSpectralImageReader::RequestData(
       output->GetPointData()->SetScalars(array);
 
       addDescription(output, info);
+      if (this->Preview)
+      {
+        this->AddPreview(output, array);
+      }
     });
+}
+
+void vtkSpectralImageReader::AddPreview(vtkImageData* image, vtkFloatArray* spectra)
+{
+  if (!this->Picture)
+  {
+    this->Picture = std::make_unique<msi::SpectralPreview>(*this->File);
+  }
+  vtkNew<vtkUnsignedCharArray> picture;
+  picture->SetName(msi::PictureArray);
+  picture->SetNumberOfComponents(3);
+  picture->SetNumberOfTuples(spectra->GetNumberOfTuples());
+  const float* in = spectra->GetPointer(0);
+  unsigned char* out = picture->GetPointer(0);
+  const vtkIdType bands = spectra->GetNumberOfComponents();
+  msi::forBlocks(this, spectra->GetNumberOfTuples(),
+    [&](vtkIdType begin, vtkIdType end)
+    { this->Picture->apply(in + begin * bands, end - begin, out + 3 * begin); });
+  msi::replaceArray(image, nullptr, picture);
 }

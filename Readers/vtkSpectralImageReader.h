@@ -23,7 +23,10 @@
 namespace msi
 {
 class SpectralImageFile;
+class SpectralPreview;
 }
+class vtkFloatArray;
+class vtkImageData;
 
 class MULTISPECTRALREADERS_EXPORT vtkSpectralImageReader : public vtkImageAlgorithm
 {
@@ -127,6 +130,16 @@ public:
   vtkGetVector2Macro(Stride, int);
   ///@}
 
+  ///@{
+  /**
+   * Add the point array "sRGB" (3 bytes a pixel), the picture that a view shows, and make it the active scalars; filters
+   * of spectra pass over it. Default on.
+   */
+  vtkSetMacro(Preview, bool);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
   /**
    * What was recognized when the files were opened, one remark a line.
    */
@@ -146,6 +159,7 @@ private:
   void operator=(const vtkSpectralImageReader&) = delete;
 
   void Open();
+  void AddPreview(vtkImageData* image, vtkFloatArray* spectra);
 
   std::vector<std::string> FileNames;
   std::vector<double> Wavelengths;
@@ -155,11 +169,13 @@ private:
   std::string Bands;
   double WavelengthRange[2] = { 0.0, 0.0 };
   bool OnlyGoodBands = false;
+  bool Preview = true;
   int Region[4] = { 0, -1, 0, -1 };
   int Stride[2] = { 1, 1 };
   double Origin[2] = { 0.0, 0.0 };
   std::string Notes;
   std::unique_ptr<msi::SpectralImageFile> File;
+  std::unique_ptr<msi::SpectralPreview> Picture;
   vtkMTimeType OpenTime = 0;
 };
 

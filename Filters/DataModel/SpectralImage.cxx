@@ -48,6 +48,16 @@ vtkDataArray* requireSpectralArray(
     return array;
   }
   array = points->GetScalars();
+  if (array && array->GetName() && std::string(array->GetName()) == PictureArray)
+  {
+    for (const char* name : { ReflectanceArray, ResponsesArray })
+    {
+      if (auto* spectra = points->GetArray(name))
+      {
+        return spectra;
+      }
+    }
+  }
   if (!array && points->GetNumberOfArrays() == 1)
   {
     array = points->GetArray(0);

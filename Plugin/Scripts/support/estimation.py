@@ -19,7 +19,7 @@ Judged = collections.namedtuple("Judged", "errors summary patches")
 def read_image(files, wavelengths=None, stride=1):
     """Camera responses, whatever the file calls them."""
     options = {"Wavelengths": wavelengths} if wavelengths else {}
-    return pipeline.create("SpectralImageReader", FileNames=files, ArrayKind="Responses",
+    return pipeline.create("SpectralImageReader", FileNames=files, ArrayKind="Responses", Preview=0,
                            Stride=[stride, stride], **options)
 
 
@@ -93,7 +93,7 @@ def judge(reflectance, labels, held_out, folder, tops=None, view=None):
     pipeline.save_image(error_maps(reflectance, labels, held_out), maps,
                         PointArrays=list(ERROR_ARRAYS))
     summary = pipeline.create("ErrorSummary",
-                              Input=pipeline.create("SpectralImageReader", FileNames=[maps]))
+                              Input=pipeline.create("SpectralImageReader", FileNames=[maps], Preview=0))
     pipeline.update(summary)
     pipeline.save_table(summary, os.path.join(folder, "errors-of-pixels.csv"))
 

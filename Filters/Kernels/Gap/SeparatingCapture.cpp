@@ -31,6 +31,7 @@ std::string separatingCapture(std::string_view effect)
     { "excess_noise", "more repeats" },
     { "misregistration", "grid target for each filter" },
     { "defocus", "grid target for each filter" },
+    { "banding", "flat field at two exposure times" },
   };
   for (const auto& [name, capture] : captures)
   {

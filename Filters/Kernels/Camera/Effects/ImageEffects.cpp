@@ -6,6 +6,10 @@ namespace msi
 
 std::vector<EffectEntry> imageEffects()
 {
+  const std::vector<EffectParameter> stripes = { { "period", "pixels", 32.0, 2.0, 4096.0, 8.0,
+                                                   "one cycle", false, true },
+    { "amplitude", "1", 0.0, 0.0, 0.45, 0.01, "relative", true },
+    { "start", "cycle", 0.0, 0.0, 1.0, 0.1, "phase at pixel 0", true, true } };
   return {
     { { "misregistration", "Misregistration",
       "The channels' images do not lie on one another: filters of different thickness and wedge, "
@@ -28,13 +32,16 @@ std::vector<EffectEntry> imageEffects()
       EffectStage::Image, EffectNeed::Nothing,
       { { "common", "u_k + retained u_k-1",
         { { "retained", "1", 0.0, 0.0, 0.3, 0.01, "share of the exposure before" } } } } } },
-    { { "banding", "Banding", "A gain that changes from row to row: flicker, readout.",
+    { { "banding", "Banding",
+      "A gain that changes from row to row or column to column: flicker, readout.",
       EffectStage::Image, EffectNeed::Nothing,
       { { "sine", "u (1 + amplitude sin(2 pi (row / period + phase k)))",
-        { { "amplitude", "1", 0.0, 0.0, 0.3, 0.01, "relative" },
-          { "period", "pixels", 32.0, 2.0, 4096.0, 8.0, "rows of one cycle", false, true },
-          { "phase", "cycle", 0.25, 0.0, 1.0, 0.1, "advance from channel to channel", false,
-            true } } } } } },
+          { { "amplitude", "1", 0.0, 0.0, 0.3, 0.01, "relative" },
+            { "period", "pixels", 32.0, 2.0, 4096.0, 8.0, "rows of one cycle", false, true },
+            { "phase", "cycle", 0.25, 0.0, 1.0, 0.1, "advance from channel to channel", false,
+              true } } },
+        { "rows", "u (1 + amplitude_k sin(2 pi (row / period + start_k)))", stripes },
+        { "columns", "u (1 + amplitude_k sin(2 pi (column / period + start_k)))", stripes } } } },
   };
 }
 

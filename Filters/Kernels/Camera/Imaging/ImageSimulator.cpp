@@ -39,11 +39,35 @@ Eigen::Map<Eigen::MatrixXf> blockOf(float* values, int rows, int columns)
   return { values, rows, columns };
 }
 
+// u_k (1 + amplitude_k sin(2 pi (position / period + start_k)))
 struct Banding
 {
-  double amplitude;
+  bool alongRows;
   double period;
-  double phase;
+  Eigen::ArrayXd amplitude;
+  Eigen::ArrayXd start;
+
+  explicit Banding(const BoundEffect& effect)
+    : alongRows(effect.form().name != "columns")
+    , period(effect.value("period"))
+    , amplitude(effect.perChannel("amplitude"))
+  {
+    if (effect.form().name == "sine")
+    {
+      start = effect.value("phase") *
+        Eigen::ArrayXd::LinSpaced(amplitude.size(), 0.0, static_cast<double>(amplitude.size() - 1));
+    }
+    else
+    {
+      start = effect.perChannel("start");
+    }
+  }
+  double factor(Eigen::Index channel, int x, int y) const noexcept
+  {
+    constexpr double TwoPi = 6.283185307179586;
+    const double cycles = (alongRows ? y : x) / period + start[channel];
+    return 1.0 + amplitude[channel] * std::sin(TwoPi * cycles);
+  }
 };
 }
 
@@ -100,8 +124,7 @@ struct ImageSimulator::Implementation
     }
     if (const auto effect = Chain.active("banding"))
     {
-      Bands =
-        Banding{ effect->value("amplitude"), effect->value("period"), effect->value("phase") };
+      Bands.emplace(*effect);
     }
   }
 
@@ -207,11 +230,17 @@ struct ImageSimulator::Implementation
     }
     if (Bands)
     {
-      constexpr double TwoPi = 6.283185307179586;
       for (Eigen::Index k = 0; k < block.rows(); ++k)
       {
-        const double cycles = y / Bands->period + Bands->phase * static_cast<double>(k);
-        block.row(k) *= static_cast<float>(1.0 + Bands->amplitude * std::sin(TwoPi * cycles));
+        if (Bands->alongRows)
+        {
+          block.row(k) *= static_cast<float>(Bands->factor(k, x, y));
+          continue;
+        }
+        for (int i = 0; i < count; ++i)
+        {
+          block(k, i) *= static_cast<float>(Bands->factor(k, x + i, y));
+        }
       }
     }
     Chain.detect<float>(block, {});
@@ -223,7 +252,7 @@ struct ImageSimulator::Implementation
 };
 
 ImageSimulator::ImageSimulator(CameraModel camera, std::vector<CameraEffect> effects,
-  const ImageExtent& extent, ImageSimulatorOptions options)
+  const ImageExtent& extent, const ImageSimulatorOptions& options)
   : Self(std::make_unique<Implementation>(std::move(camera), std::move(effects), extent, options))
 {
 }

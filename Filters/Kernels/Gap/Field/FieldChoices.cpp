@@ -1,0 +1,87 @@
+#include "Kernels/Gap/Field/FieldFit.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace msi
+{
+
+std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
+{
+  using P = FieldParameter;
+  const FieldTerm glare{ P::Glare, false, -0.1, 0.5, 0.01 };
+  const FieldTerm right{ P::Right, true, -20.0, 20.0, 0.5 };
+  const FieldTerm down{ P::Down, true, -20.0, 20.0, 0.5 };
+  const FieldTerm blur{ P::BlurVariance, false, 0.0, 16.0, 0.25 };
+  const auto perChannel = [](FieldTerm term)
+  {
+    term.perChannel = true;
+    return term;
+  };
+  std::vector<FieldChoice> all = {
+    { "exposure_gain", "common", { { P::Gain, false, 0.2, 5.0, 0.03 } } },
+    { "channel_gain", "per_channel", { { P::Gain, true, 0.2, 5.0, 0.03 } } },
+    { "dark_offset", "common", { { P::Dark, false, -0.2, 0.2, 0.005 } } },
+    { "dark_offset", "per_channel", { { P::Dark, true, -0.2, 0.2, 0.005 } } },
+    { "veiling_glare", "common", { glare } },
+    { "veiling_glare", "conserving", { { P::ConservingGlare, false, -0.1, 0.5, 0.01 } } },
+    { "veiling_glare", "per_channel", { perChannel(glare) } },
+    { "local_stray_light", "neighbours",
+      { { P::TailFraction, false, -0.1, 0.6, 0.01 }, { P::TailRadius, false, 1.0, 64.0, 4.0 } } },
+    { "vignetting", "quadratic", { { P::Falloff, false, -0.45, 0.45, 0.03 } } },
+    { "illumination_gradient", "plane",
+      { { P::GradientRight, false, -0.5, 0.5, 0.03 },
+        { P::GradientDown, false, -0.5, 0.5, 0.03 } } },
+    { "misregistration", "per_channel", { right, down } },
+    { "misregistration", "per_channel",
+      { right, down, { P::Magnification, true, -0.02, 0.02, 0.001 } } },
+    { "defocus", "common", { blur } },
+    { "defocus", "per_channel", { perChannel(blur) } },
+    { "banding", "rows",
+      { { P::RowSine, true, -0.3, 0.3, 0.01 }, { P::RowCosine, true, -0.3, 0.3, 0.01 } } },
+    { "banding", "columns",
+      { { P::ColumnSine, true, -0.3, 0.3, 0.01 }, { P::ColumnCosine, true, -0.3, 0.3, 0.01 } } },
+    { "detector_nonlinearity", "quadratic", { { P::Square, false, -0.45, 0.9, 0.05 } } },
+  };
+  for (const std::string& name : without)
+  {
+    if (findEffect(name) == nullptr)
+    {
+      throw std::invalid_argument("there is no effect '" + name + "' to leave out");
+    }
+    all.erase(std::remove_if(all.begin(), all.end(),
+                [&name](const FieldChoice& choice) { return choice.effect == name; }),
+      all.end());
+  }
+  return all;
+}
+
+bool compatible(const FieldSet& set, const FieldChoice& choice)
+{
+  for (const FieldChoice* other : set)
+  {
+    const bool bothBands = other->effect == "banding" && choice.effect == "banding";
+    if (other == &choice || (other->effect == choice.effect && !bothBands) ||
+      other->terms.front().parameter == choice.terms.front().parameter)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels)
+{
+  Eigen::Index count = 0;
+  for (const FieldChoice* choice : set)
+  {
+    for (const FieldTerm& term : choice->terms)
+    {
+      count += term.perChannel ? channels : 1;
+    }
+    count += choice->effect == "banding" ? 1 : 0; // the period
+  }
+  return count;
+}
+
+} // namespace msi

@@ -1,0 +1,59 @@
+// What each parameter would change in a block of pixels, at a given model.
+#pragma once
+
+#include "Kernels/Gap/Field/FieldData.h"
+#include "Kernels/Gap/Field/FieldModel.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace msi
+{
+
+// The columns of the linear model of a block's residual, one channel.
+namespace FieldColumn
+{
+enum Index : int
+{
+  Gain, // u
+  One,
+  GradientRight, // x u
+  GradientDown,  // y u
+  RadiusSquared, // rho^2 u
+  Square,        // u^2
+  Right,         // derivative by displacement
+  Down,
+  Magnification,
+  BlurVariance, // derivative by the blur's variance
+  Tail,         // the surround minus u, TailPasses columns
+  RowSine = Tail + TailPasses,
+  RowCosine,
+  ColumnSine,
+  ColumnCosine,
+  Diagonal, // x y u, (x^2 - y^2) u: only to see where a gap lies
+  Saddle,
+  Residual, // real - predicted
+  Count
+};
+}
+
+// The weights of the tail's passes for a radius (ScatterTail), and their derivative by the radius.
+Eigen::ArrayXd tailWeights(double radius);
+Eigen::ArrayXd tailSlope(double radius);
+
+// Memory of a thread.
+struct FieldScratch
+{
+  Eigen::MatrixXd columns; // usable pixels x FieldColumn::Count
+  Eigen::ArrayXd level;    // predicted, of each
+  std::vector<int> pixel;  // number in the block, of each
+};
+
+// Fills `scratch` for the usable pixels of a block in one channel.
+// Exact in the model but for one thing: the surround of the tail is that of the unmoved, unblurred image, and the
+// factors of gradient and vignetting come after the neighbourhood.
+void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
+  const FieldBlock& block, Eigen::Index channel, FieldScratch& scratch);
+
+} // namespace msi

@@ -1,0 +1,88 @@
+// Effects fitted to the normal equations of an image pair's blocks.
+#pragma once
+
+#include "Kernels/Gap/Field/FieldStatistics.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+// One number of an effect, or one for every channel.
+struct FieldTerm
+{
+  FieldParameter parameter;
+  bool perChannel;
+  double lower, upper, typical;
+};
+
+// One form of one effect; names are those of effectLibrary().
+struct FieldChoice
+{
+  std::string effect;
+  std::string form;
+  std::vector<FieldTerm> terms;
+};
+
+// Every effect that an image pair can show, without those named.
+std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without);
+
+using FieldSet = std::vector<const FieldChoice*>;
+
+// Neither the same effect nor parameters in common.
+bool compatible(const FieldSet& set, const FieldChoice& choice);
+Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels);
+
+struct FieldFit
+{
+  FieldSet set;
+  FieldModel next;             // what one Gauss-Newton step from the statistics' model gives
+  double step = 0.0;           // largest change, in typical sizes
+  Eigen::VectorXd blockEnergy; // cross-validated, weighted; 0 for test blocks
+  double energy = 0.0;         // its sum
+};
+
+// Everything that linear algebra needs from one set of statistics.
+class FieldFitter
+{
+public:
+  // Holds references.
+  FieldFitter(const FieldData& data, const FieldStatistics& statistics);
+
+  const FieldStatistics& statistics() const noexcept { return Statistics; }
+
+  // The effects of `set` free; every other effect of the model is taken back to neutral. Bounds by fixing what is
+  // beyond. Each parameter has a prior of ten times its typical size. The estimate without a fold comes from
+  // the normal equations without it: exact where the model is linear.
+  // radius: start of the tail's radius where the model has no tail.
+  FieldFit fit(const FieldSet& set, double radius = 0.0) const;
+
+  // Weighted energy of the training blocks at the model itself, and what noise allows of it.
+  double energy() const noexcept { return Energy; }
+  double chance() const noexcept { return Chance; }
+
+  // Standard deviation of each parameter of the set, terms in order, channels within a per-channel term.
+  // Sandwich over blocks.
+  Eigen::VectorXd standardErrors(const FieldSet& set) const;
+
+  // What one term changes in the columns of a channel.
+  Eigen::VectorXd coefficients(FieldParameter parameter, Eigen::Index channel, double radius) const;
+
+private:
+  struct Bound;
+  std::vector<Eigen::VectorXd> solve(const std::vector<Eigen::MatrixXd>& normal,
+    const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values, double radius) const;
+
+  const FieldData& Data;
+  const FieldStatistics& Statistics;
+  Eigen::ArrayXd Glare;
+  std::vector<Eigen::MatrixXd> Total;             // K
+  std::vector<std::vector<Eigen::MatrixXd>> Fold; // fold, K
+  double Energy = 0.0;
+  double Chance = 0.0;
+};
+
+} // namespace msi

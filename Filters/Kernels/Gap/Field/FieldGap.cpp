@@ -1,0 +1,241 @@
+#include "Kernels/Gap/Field/FieldGap.h"
+
+#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Gap/Field/FieldReport.h"
+#include "Kernels/Gap/Field/FieldSearch.h"
+#include "Kernels/Gap/Field/FieldWhere.h"
+#include "Kernels/Gap/GapCauses.h"
+#include "Kernels/Gap/SeparatingCapture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double ExplainedShrink = 0.85;
+constexpr double PartlyShrink = 0.25;
+constexpr double UnexplainedRms = 1.1;    // of the noise floor
+constexpr double UnexplainedBlocks = 2.0; // squared block means over what noise allows
+constexpr double ExplainedBlocks = 1.5;
+constexpr int Resamplings = 400;
+constexpr double FewUsable = 0.5;
+
+struct TestEnergies
+{
+  std::vector<double> before, after, noise;
+  double elements = 0.0;
+};
+
+TestEnergies energiesOf(const FieldData& data, const FieldSearchResult& found)
+{
+  TestEnergies energies;
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    if (data.blocks[b].fold >= 0)
+    {
+      continue;
+    }
+    double before = 0.0;
+    double after = 0.0;
+    double noise = 0.0;
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      before += found.before.at(b, k).energy;
+      after += found.after.at(b, k).energy;
+      noise += found.after.at(b, k).noise;
+      energies.elements += found.after.at(b, k).pixels;
+    }
+    energies.before.push_back(before);
+    energies.after.push_back(after);
+    energies.noise.push_back(noise);
+  }
+  return energies;
+}
+
+GapFigures figuresOf(const TestEnergies& energies, std::uint64_t seed)
+{
+  const std::size_t count = energies.before.size();
+  double before = 0.0;
+  double after = 0.0;
+  double noise = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    before += energies.before[i];
+    after += energies.after[i];
+    noise += energies.noise[i];
+  }
+  GapFigures figures;
+  const double elements = std::fmax(energies.elements, 1.0);
+  figures.rmsBefore = std::sqrt(before / elements);
+  figures.rmsAfter = std::sqrt(after / elements);
+  figures.noiseFloor = std::sqrt(noise / elements);
+  figures.shrink = shrinkOf(before, after, noise);
+  const CounterRandom random(seed, 83);
+  std::vector<double> shrinks;
+  for (int draw = 0; draw < Resamplings; ++draw)
+  {
+    double b = 0.0;
+    double a = 0.0;
+    double n = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const double u = random.uniform(static_cast<std::uint64_t>(draw) * count + i);
+      const auto pick =
+        std::min(count - 1, static_cast<std::size_t>(u * static_cast<double>(count)));
+      b += energies.before[pick];
+      a += energies.after[pick];
+      n += energies.noise[pick];
+    }
+    shrinks.push_back(shrinkOf(b, a, n));
+  }
+  std::sort(shrinks.begin(), shrinks.end());
+  figures.shrinkInterval = { std::fmin(shrinks[Resamplings / 40], figures.shrink),
+    std::fmax(shrinks[Resamplings - 1 - Resamplings / 40], figures.shrink) };
+  return figures;
+}
+
+std::string whereIs(const std::vector<GapAxis>& axes)
+{
+  if (axes.empty())
+  {
+    return "no axis stands out";
+  }
+  return axes.front().axis +
+    (axes.front().worst.empty() ? "" : " " + axes.front().worst.front().cell);
+}
+
+bool has(const FieldSet& set, const char* effect)
+{
+  return std::any_of(set.begin(), set.end(),
+    [effect](const FieldChoice* choice) { return choice->effect == effect; });
+}
+
+std::vector<std::string> notesOn(const FieldData& data, const FieldSearchResult& found)
+{
+  std::vector<std::string> notes;
+  for (const std::string& effect : found.indistinct)
+  {
+    notes.push_back(effect +
+      " cannot be decided: the simulated image has too few edges and too little texture in the "
+      "usable pixels");
+  }
+  if (data.usablePart < FewUsable)
+  {
+    std::ostringstream text;
+    text << "only " << std::lround(100.0 * data.usablePart)
+         << " % of the pixels can be used; the others have no value in one of the images, or none "
+            "beside them in the simulated one";
+    notes.push_back(text.str());
+  }
+  if (!data.filled.empty() && has(found.set, "local_stray_light"))
+  {
+    notes.emplace_back("the surround of the usable pixels is partly not simulated; "
+                       "local_stray_light takes it to be like its neighbours in the row");
+  }
+  if (has(found.set, "vignetting") && has(found.set, "illumination_gradient"))
+  {
+    notes.emplace_back("vignetting about a center off the middle looks like vignetting with "
+                       "illumination_gradient; the chart rotated by 180 degrees separates them");
+  }
+  if (has(found.set, "dark_offset") != has(found.set, "veiling_glare"))
+  {
+    notes.emplace_back("an offset of each channel may be dark_offset or veiling_glare: one image "
+                       "cannot tell unless the offsets go with the channels' means");
+  }
+  return notes;
+}
+}
+
+std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options)
+{
+  const std::vector<FieldChoice> choices = fieldChoices(options.without);
+  FieldLoop loop = options.parallelFor;
+  if (!loop)
+  {
+    loop = [](int count, const std::function<void(int)>& body)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        body(i);
+      }
+    };
+  }
+  double done = 0.0;
+  bool stopped = false;
+  const auto say = [&](double fraction, const char* what)
+  {
+    done = fraction;
+    stopped = stopped || (options.progress && !options.progress(done, what));
+    return stopped;
+  };
+  say(0.0, "reading the images");
+  const FieldData data = prepareFieldData(pair, options.seed, loop);
+  if (say(0.2, "searching for effects"))
+  {
+    return std::nullopt;
+  }
+  const FieldSearchResult found = searchField(data, choices, options.maximumCauses, loop,
+    [&] { return say(done + 0.5 * (0.9 - done) * 0.5, "searching for effects"); });
+  if (stopped || say(0.9, "describing what was found"))
+  {
+    return std::nullopt;
+  }
+
+  std::optional<FieldGap> gap(std::in_place);
+  gap->model = found.after.model;
+  GapReport& report = gap->report;
+  report.gap = figuresOf(energiesOf(data, found), options.seed);
+  report.where = fieldAxes(data, found.before, loop);
+  const std::vector<GapAxis> rest = fieldAxes(data, found.after, loop);
+  const double left = blockMeanExcess(data, found.after, false);
+  if (!found.set.empty() && report.gap.shrink > 0.0)
+  {
+    const bool noiseAlone =
+      report.gap.rmsAfter < UnexplainedRms * report.gap.noiseFloor && left < ExplainedBlocks;
+    const double shrink = report.gap.shrink;
+    report.verdict = shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained
+      : shrink >= PartlyShrink                               ? GapVerdict::PartlyExplained
+                                                             : GapVerdict::Unexplained;
+    // What is left has a cause that is not known, and may overlap with those found by as much as its own size.
+    const double certain =
+      report.verdict == GapVerdict::Explained ? shrink : std::fmax(2.0 * shrink - 1.0, 0.0);
+    report.causes = fieldCauses(data, found, choices, certain);
+    report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
+    report.unexplained.share = std::clamp(1.0 - certain, 0.0, 1.0);
+    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
+  }
+  else
+  {
+    gap->model = found.before.model;
+    const bool gapThere =
+      report.gap.rmsBefore > UnexplainedRms * report.gap.noiseFloor || left > UnexplainedBlocks;
+    report.verdict = gapThere ? GapVerdict::Unexplained : GapVerdict::NoGap;
+    if (gapThere)
+    {
+      report.unexplained.share = 1.0;
+      report.unexplained.where = whereIs(report.where);
+    }
+    report.gap.rmsAfter = report.gap.rmsBefore;
+    report.gap.shrink = 0.0;
+    report.gap.shrinkInterval = { 0.0, 0.0 };
+  }
+  report.candidates = fieldCandidates(data, found);
+  for (const GapCause& cause : report.causes)
+  {
+    if (!cause.equivalent.empty() && !report.nextCapture)
+    {
+      GapNextCapture next{ separatingCapture(cause.effect), { cause.effect } };
+      next.separates.insert(next.separates.end(), cause.equivalent.begin(), cause.equivalent.end());
+      report.nextCapture = std::move(next);
+    }
+  }
+  report.notes = notesOn(data, found);
+  say(1.0, "done");
+  return gap;
+}
+
+} // namespace msi

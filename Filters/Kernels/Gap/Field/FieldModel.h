@@ -1,0 +1,76 @@
+// The parameters of everything that an image pair can show.
+#pragma once
+
+#include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Gap/Field/FieldPair.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+enum class FieldParameter
+{
+  Gain,
+  Dark,
+  Glare,
+  ConservingGlare,
+  GradientRight,
+  GradientDown,
+  Falloff,
+  Square,
+  Right,
+  Down,
+  Magnification,
+  BlurVariance, // pixels^2
+  TailFraction,
+  TailRadius,
+  RowSine, // u (1 + sine sin(2 pi row / period) + cosine cos(2 pi row / period))
+  RowCosine,
+  ColumnSine,
+  ColumnCosine,
+  Count
+};
+
+inline constexpr std::size_t FieldParameters = static_cast<std::size_t>(FieldParameter::Count);
+
+// One number of each parameter for every channel; parameters common to the channels repeat.
+//
+// Order: gradient and vignetting; misregistration; defocus; local stray light; veiling glare; banding;
+//        gain; nonlinearity; dark offset: that of ImageSimulator.
+struct FieldModel
+{
+  explicit FieldModel(Eigen::Index channels = 0);
+
+  Eigen::ArrayXd& operator[](FieldParameter parameter)
+  {
+    return Values[static_cast<std::size_t>(parameter)];
+  }
+  const Eigen::ArrayXd& operator[](FieldParameter parameter) const
+  {
+    return Values[static_cast<std::size_t>(parameter)];
+  }
+  double at(FieldParameter parameter, Eigen::Index channel) const
+  {
+    return Values[static_cast<std::size_t>(parameter)][channel];
+  }
+  bool isNeutral(FieldParameter parameter) const;
+  // (1 + right x + down y) (1 - falloff rho^2)
+  double fieldFactor(double x, double y) const noexcept;
+  // 1 + the sines of row and column.
+  double bandFactor(Eigen::Index channel, double x, double y) const noexcept;
+
+  double rowPeriod = 0.0; // 0: none
+  double columnPeriod = 0.0;
+
+private:
+  std::array<Eigen::ArrayXd, FieldParameters> Values;
+};
+
+double neutralValue(FieldParameter parameter) noexcept;
+
+} // namespace msi

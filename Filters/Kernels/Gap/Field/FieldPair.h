@@ -1,0 +1,41 @@
+// A real and a simulated image of the same scene.
+#pragma once
+
+#include "Kernels/Camera/Imaging/ImageWindow.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+// Responses relative to white, pixel after pixel, all channels of a pixel together. NaN: no value. The simulated image is
+// without noise. labels: one number a pixel, 0 for none; may be null.
+struct FieldPair
+{
+  ImageExtent extent;
+  std::vector<std::string> channels; // K names
+  const float* real = nullptr;
+  const float* simulated = nullptr;
+  const int* labels = nullptr;
+
+  std::size_t pixels() const noexcept { return wholeImage(extent).pixels(); }
+  std::size_t index(int x, int y) const noexcept
+  {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width) +
+      static_cast<std::size_t>(x);
+  }
+  // (x, y) from -1 to 1 over the longer side, from pixel center to pixel center: as ImageSimulator.
+  double fieldX(double x) const noexcept { return (x - 0.5 * (extent.width - 1)) / half(); }
+  double fieldY(double y) const noexcept { return (y - 0.5 * (extent.height - 1)) / half(); }
+
+private:
+  double half() const noexcept
+  {
+    return 0.5 * std::max(1, std::max(extent.width, extent.height) - 1);
+  }
+};
+
+} // namespace msi

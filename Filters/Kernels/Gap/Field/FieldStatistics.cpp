@@ -1,0 +1,240 @@
+#include "Kernels/Gap/Field/FieldStatistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double HuberDeviations = 3.0;
+constexpr double Trimmed = 0.1; // on each side
+constexpr std::size_t LevelBins = 4;
+constexpr double Unequal = 1.1; // differences along one axis this much above the other's: banding
+constexpr double LeastNoise = 1e-5;
+constexpr double TolerancePart = 0.05; // of the gap
+
+double varianceOf(const ReadingNoise& noise, double level) noexcept
+{
+  return noise.read * noise.read + noise.shot * noise.shot * std::fmax(level, 0.0);
+}
+
+double trimmedMean(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  const auto cut = static_cast<std::size_t>(Trimmed * static_cast<double>(values.size()));
+  double sum = 0.0;
+  for (std::size_t i = cut; i < values.size() - cut; ++i)
+  {
+    sum += values[i];
+  }
+  return sum / static_cast<double>(values.size() - 2 * cut);
+}
+
+// Mean squared differences over the pairs of usable pixels that lie `lag` apart.
+void addDifferences(const FieldScratch& scratch, const ImageWindow& window, BlockSums& sums)
+{
+  std::vector<int> at(window.pixels(), -1);
+  for (std::size_t n = 0; n < scratch.pixel.size(); ++n)
+  {
+    at[static_cast<std::size_t>(scratch.pixel[n])] = static_cast<int>(n);
+  }
+  const auto residual = scratch.columns.col(FieldColumn::Residual);
+  double across = 0.0;
+  double down = 0.0;
+  double slope = 0.0;
+  double pairsAcross = 0.0;
+  double pairsDown = 0.0;
+  constexpr int lag = 2;
+  for (int i = 0; i < static_cast<int>(window.pixels()); ++i)
+  {
+    const int self = at[static_cast<std::size_t>(i)];
+    const int right =
+      i % window.width + lag < window.width ? at[static_cast<std::size_t>(i + lag)] : -1;
+    const int below = i / window.width + lag < window.height
+      ? at[static_cast<std::size_t>(i + lag * window.width)]
+      : -1;
+    if (self >= 0 && right >= 0)
+    {
+      across += std::pow(residual[self] - residual[right], 2);
+      slope += std::pow(scratch.level[self] - scratch.level[right], 2);
+      pairsAcross += 1.0;
+    }
+    if (self >= 0 && below >= 0)
+    {
+      down += std::pow(residual[self] - residual[below], 2);
+      slope += std::pow(scratch.level[self] - scratch.level[below], 2);
+      pairsDown += 1.0;
+    }
+  }
+  sums.difference = 0.5 * across / std::max(pairsAcross, 1.0);
+  sums.differenceDown = 0.5 * down / std::max(pairsDown, 1.0);
+  sums.gradient = slope / std::max(pairsAcross + pairsDown, 1.0);
+}
+
+// Straight line through (level, variance), neither end negative.
+ReadingNoise lineThrough(const std::vector<double>& level, const std::vector<double>& variance)
+{
+  double n = 0.0;
+  double x = 0.0;
+  double y = 0.0;
+  double xx = 0.0;
+  double xy = 0.0;
+  for (std::size_t i = 0; i < level.size(); ++i)
+  {
+    n += 1.0;
+    x += level[i];
+    y += variance[i];
+    xx += level[i] * level[i];
+    xy += level[i] * variance[i];
+  }
+  const double spread = n * xx - x * x;
+  double slope = spread > 1e-12 ? (n * xy - x * y) / spread : 0.0;
+  double base = (y - slope * x) / n;
+  if (slope < 0.0)
+  {
+    slope = 0.0;
+    base = y / n;
+  }
+  else if (base < 0.0)
+  {
+    base = 0.0;
+    slope = xx > 0.0 ? xy / xx : 0.0;
+  }
+  return { std::sqrt(base + LeastNoise * LeastNoise), std::sqrt(slope) };
+}
+}
+
+std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics)
+{
+  std::vector<ReadingNoise> noise;
+  const std::size_t blocks = statistics.sums.size() / static_cast<std::size_t>(statistics.channels);
+  for (Eigen::Index k = 0; k < statistics.channels; ++k)
+  {
+    std::vector<const BlockSums*> smooth;
+    for (std::size_t b = 0; b < blocks; ++b)
+    {
+      if (statistics.at(b, k).pixels >= 8.0)
+      {
+        smooth.push_back(&statistics.at(b, k));
+      }
+    }
+    if (smooth.empty())
+    {
+      noise.push_back({ LeastNoise, 0.0 });
+      continue;
+    }
+    std::stable_sort(smooth.begin(), smooth.end(),
+      [](const BlockSums* a, const BlockSums* b) { return a->gradient < b->gradient; });
+    smooth.resize((smooth.size() + 1) / 2);
+    std::vector<double> across;
+    std::vector<double> down;
+    for (const BlockSums* block : smooth)
+    {
+      across.push_back(block->difference);
+      down.push_back(block->differenceDown);
+    }
+    const double meanAcross = trimmedMean(across);
+    const double meanDown = trimmedMean(down);
+    std::stable_sort(smooth.begin(), smooth.end(),
+      [](const BlockSums* a, const BlockSums* b) { return a->level < b->level; });
+    std::vector<double> level;
+    std::vector<double> variance;
+    const std::size_t bins = std::min(LevelBins, smooth.size());
+    for (std::size_t bin = 0; bin < bins; ++bin)
+    {
+      std::vector<double> values;
+      double mean = 0.0;
+      for (std::size_t i = bin * smooth.size() / bins; i < (bin + 1) * smooth.size() / bins; ++i)
+      {
+        values.push_back(meanDown > Unequal * meanAcross ? smooth[i]->difference
+            : meanAcross > Unequal * meanDown
+            ? smooth[i]->differenceDown
+            : 0.5 * (smooth[i]->difference + smooth[i]->differenceDown));
+        mean += smooth[i]->level;
+      }
+      level.push_back(mean / static_cast<double>(values.size()));
+      variance.push_back(trimmedMean(values));
+    }
+    noise.push_back(lineThrough(level, variance));
+  }
+  return noise;
+}
+
+FieldWeights fieldWeights(const FieldStatistics& statistics, const Eigen::ArrayXd* tolerance)
+{
+  FieldWeights weights;
+  weights.noise = fieldNoise(statistics);
+  weights.limit.resize(statistics.channels);
+  weights.tolerance.resize(statistics.channels);
+  for (Eigen::Index k = 0; k < statistics.channels; ++k)
+  {
+    double energy = 0.0;
+    double noise = 0.0;
+    double pixels = 0.0;
+    for (std::size_t b = 0; b < statistics.blocks(); ++b)
+    {
+      const BlockSums& sums = statistics.at(b, k);
+      energy += sums.energy;
+      noise += sums.pixels * varianceOf(weights.noise[static_cast<std::size_t>(k)], sums.level);
+      pixels += sums.pixels;
+    }
+    const double variance = energy / std::fmax(pixels, 1.0);
+    weights.limit[k] = HuberDeviations * std::sqrt(variance);
+    weights.tolerance[k] =
+      TolerancePart * TolerancePart * std::fmax(variance - noise / std::fmax(pixels, 1.0), 0.0);
+  }
+  if (tolerance != nullptr)
+  {
+    weights.tolerance = *tolerance;
+  }
+  return weights;
+}
+
+FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
+  const FieldWeights* weights, const FieldLoop& loop)
+{
+  FieldStatistics statistics{ model, data.channels(), {} };
+  const auto K = static_cast<std::size_t>(data.channels());
+  statistics.sums.resize(data.blocks.size() * K);
+  const Eigen::ArrayXd glare = sceneMean(data, model);
+  const auto measure = [&](int b)
+  {
+    const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
+    FieldScratch scratch;
+    for (std::size_t k = 0; k < K; ++k)
+    {
+      const auto channel = static_cast<Eigen::Index>(k);
+      fieldColumns(data, model, glare, block, channel, scratch);
+      BlockSums& sums = statistics.sums[static_cast<std::size_t>(b) * K + k];
+      const auto residual = scratch.columns.col(FieldColumn::Residual);
+      sums.pixels = static_cast<double>(scratch.pixel.size());
+      sums.energy = residual.squaredNorm();
+      if (sums.pixels > 0.0)
+      {
+        sums.mean = residual.mean();
+        sums.level = scratch.level.mean();
+        addDifferences(scratch, block.window, sums);
+      }
+      for (Eigen::Index n = 0; weights != nullptr && n < scratch.columns.rows(); ++n)
+      {
+        const double variance = varianceOf(weights->noise[k], scratch.level[n]);
+        const double size = std::fabs(residual[n]);
+        const double limit = weights->limit[channel];
+        const double weight =
+          (size > limit ? limit / size : 1.0) / (variance + weights->tolerance[channel]);
+        sums.noise += variance;
+        sums.chance += variance * weight;
+        scratch.columns.row(n) *= std::sqrt(weight);
+      }
+      sums.normal.setZero(FieldColumn::Count, FieldColumn::Count);
+      sums.normal.selfadjointView<Eigen::Lower>().rankUpdate(scratch.columns.transpose());
+      sums.normal.triangularView<Eigen::StrictlyUpper>() = sums.normal.transpose();
+    }
+  };
+  loop(static_cast<int>(data.blocks.size()), measure);
+  return statistics;
+}
+
+} // namespace msi

@@ -1,0 +1,64 @@
+// Normal equations of every block, and what noise allows.
+#pragma once
+
+#include "Kernels/Gap/Field/FieldColumns.h"
+#include "Kernels/Gap/SimToRealGap.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace msi
+{
+
+// The numbers of one block in one channel.
+struct BlockSums
+{
+  Eigen::MatrixXd
+    normal;            // FieldColumn::Count^2, weighted columns' products; the last is the residual
+  double pixels = 0.0; // usable
+  double energy = 0.0; // sum of squared residuals, plain
+  double noise = 0.0;  // what noise allows of it
+  double chance = 0.0; // and of the weighted energy
+  double mean = 0.0;   // of the residual
+  double level = 0.0;  // mean prediction
+  double difference =
+    0.0; // half the mean squared difference of residuals two pixels apart: along x
+  double differenceDown = 0.0; // along y
+  double gradient = 0.0;       // mean squared gradient of the prediction
+};
+
+// How pixels are weighed, each of K channels: 1 / (noise variance + tolerance), less where a residual is beyond `limit`
+// (Huber).
+struct FieldWeights
+{
+  std::vector<ReadingNoise> noise;
+  Eigen::ArrayXd tolerance; // a variance: the forms are approximations
+  Eigen::ArrayXd limit;
+};
+
+struct FieldStatistics
+{
+  FieldModel model;
+  Eigen::Index channels = 0;
+  std::vector<BlockSums> sums; // block after block, all channels together
+
+  std::size_t blocks() const noexcept { return sums.size() / static_cast<std::size_t>(channels); }
+  const BlockSums& at(std::size_t block, Eigen::Index channel) const
+  {
+    return sums[block * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)];
+  }
+};
+
+// weights: null: all pixels the same.
+FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
+  const FieldWeights* weights, const FieldLoop& loop);
+
+// Weights that go by a model's residual; the tolerance is kept where one is given.
+FieldWeights fieldWeights(const FieldStatistics& statistics, const Eigen::ArrayXd* tolerance);
+
+// Noise from differences of residuals two pixels apart, in the smoother half of the blocks: a variance for each
+// quarter of the levels (trimmed mean over blocks), then read^2 + shot^2 u.
+std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics);
+
+} // namespace msi

@@ -4,6 +4,7 @@ set(MULTISPECTRAL_MODULES
   Multispectral::FiltersSampling
   Multispectral::FiltersCalibration
   Multispectral::FiltersColorimetry
+  Multispectral::FiltersSimulation
   Multispectral::FiltersDiagnosis
   Multispectral::Readers)
 set(MULTISPECTRAL_MODULE_FILES
@@ -11,5 +12,6 @@ set(MULTISPECTRAL_MODULE_FILES
   "${PROJECT_SOURCE_DIR}/Filters/Sampling/vtk.module"
   "${PROJECT_SOURCE_DIR}/Filters/Calibration/vtk.module"
   "${PROJECT_SOURCE_DIR}/Filters/Colorimetry/vtk.module"
+  "${PROJECT_SOURCE_DIR}/Filters/Simulation/vtk.module"
   "${PROJECT_SOURCE_DIR}/Filters/Diagnosis/vtk.module"
   "${PROJECT_SOURCE_DIR}/Readers/vtk.module")

@@ -1,6 +1,8 @@
 # The ParaView plugin: build/plugin/lib/Multispectral/Multispectral.so
 find_package(ParaView 5.11 REQUIRED)
 include(MultispectralModules)
+list(APPEND MULTISPECTRAL_MODULES Multispectral::Representations)
+list(APPEND MULTISPECTRAL_MODULE_FILES "${PROJECT_SOURCE_DIR}/Plugin/Representations/vtk.module")
 
 # The plugin itself is one loadable library; its modules are static inside it.
 set(BUILD_SHARED_LIBS ON)

@@ -41,14 +41,14 @@ void vtkCameraWriter::WriteData()
     {
       throw std::invalid_argument("no file is given; set FileName");
     }
-    msi::CameraTable camera = msi::readCamera(table, "the camera table");
+    const auto camera = msi::readCamera(table, "the camera");
     msi::CameraDescription description{ camera.camera };
     description.noise = camera.noise;
     description.whiteAfterEffects = camera.whiteAfterEffects;
     if (!camera.effects.empty())
     {
-      description.effects = msi::parseEffectList(
-        "the camera table's field data Effects", camera.effects, camera.camera.channels());
+      description.effects =
+        msi::parseEffectList("Effects", camera.effects, camera.camera.channels());
     }
     msi::writeCameraDescription(this->FileName, description);
   }

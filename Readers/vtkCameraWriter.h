@@ -1,9 +1,9 @@
 /**
  * @class   vtkCameraWriter
- * @brief   Writes a camera as NAME.json and NAME.csv, each complete or not at all
+ * @brief   Writes a camera: NAME.json with NAME.csv beside it
  *
- * The input is a camera table: wavelength and one column per channel, field data Dark, Noise, Effects and
- * WhiteAfterEffects. The CSV file holds the curves, the JSON file all else.
+ * The input is a camera as a table (DataModel/CameraTable.h). Numbers read back to the last bit; each file is complete
+ * or absent.
  */
 #ifndef vtkCameraWriter_h
 #define vtkCameraWriter_h
@@ -22,8 +22,7 @@ public:
 
   ///@{
   /**
-   * The JSON file to write, with the ending .json; the curves go beside it. Existing files are replaced when the new
-   * ones are complete.
+   * The file to write, a name that ends in .json; existing ones are replaced when the new ones are complete.
    */
   vtkSetStdStringFromCharMacro(FileName);
   vtkGetCharFromStdStringMacro(FileName);

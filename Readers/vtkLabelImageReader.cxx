@@ -12,7 +12,6 @@
 
 #include "Formats/LabelImage.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkLabelImageReader);
@@ -28,21 +27,30 @@ vtkLabelImageReader::~vtkLabelImageReader() = default;
 void vtkLabelImageReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "FileName: " << this->FileName << "\n"
+     << indent << "Stride: " << this->Stride[0] << ", " << this->Stride[1] << "\n";
+}
+
+// Where the last row lies that is read.
+double vtkLabelImageReader::Bottom() const
+{
+  return this->File->wholeHeight() - 1.0 -
+    (this->File->height() - 1.0) * this->Stride[1];
 }
 
 void vtkLabelImageReader::Open()
 {
-  if (this->Image && this->OpenTime == this->GetMTime())
+  if (this->File && this->OpenTime == this->GetMTime())
   {
     return;
   }
-  this->Image.reset();
+  this->File.reset();
   if (this->FileName.empty())
   {
     throw std::invalid_argument("no file is given; set FileName to a label image");
   }
-  this->Image = std::make_unique<msi::LabelImage>(msi::readLabelImage(this->FileName));
+  this->File =
+    std::make_unique<msi::LabelImageFile>(this->FileName, this->Stride[0], this->Stride[1]);
   this->OpenTime = this->GetMTime();
 }
 
@@ -54,12 +62,13 @@ int vtkLabelImageReader::RequestInformation(
     {
       this->Open();
       auto* out = outputs->GetInformationObject(0);
-      const int extent[] = { 0, this->Image->width - 1, 0, this->Image->height - 1, 0, 0 };
-      const double unit[] = { 1.0, 1.0, 1.0 };
-      const double zero[] = { 0.0, 0.0, 0.0 };
+      const int extent[] = { 0, this->File->width() - 1, 0, this->File->height() - 1, 0, 0 };
+      const double spacing[] = { static_cast<double>(this->Stride[0]),
+        static_cast<double>(this->Stride[1]), 1.0 };
+      const double origin[] = { 0.0, this->Bottom(), 0.0 };
       out->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
-      out->Set(vtkDataObject::SPACING(), unit, 3);
-      out->Set(vtkDataObject::ORIGIN(), zero, 3);
+      out->Set(vtkDataObject::SPACING(), spacing, 3);
+      out->Set(vtkDataObject::ORIGIN(), origin, 3);
       out->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
       out->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
       vtkDataObject::SetPointDataActiveScalarInfo(out, VTK_INT, 1);
@@ -78,19 +87,16 @@ int vtkLabelImageReader::RequestData(
       outputs->GetInformationObject(0)->Get(
         vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
       output->SetExtent(extent);
-      output->SetSpacing(1.0, 1.0, 1.0);
-      output->SetOrigin(0.0, 0.0, 0.0);
+      output->SetSpacing(this->Stride[0], this->Stride[1], 1.0);
+      output->SetOrigin(0.0, this->Bottom(), 0.0);
       vtkNew<vtkIntArray> labels;
       labels->SetName(msi::LabelArray);
       labels->SetNumberOfTuples(output->GetNumberOfPoints());
-      int* next = labels->GetPointer(0);
-      for (int y = extent[2]; y <= extent[3]; ++y)
-      {
-        const auto row =
-          static_cast<std::ptrdiff_t>(this->Image->height - 1 - y) * this->Image->width;
-        const auto* first = this->Image->labels.data() + row;
-        next = std::copy(first + extent[0], first + extent[1] + 1, next);
-      }
+      // VTK counts rows from the bottom, files from the top.
+      const int height = this->File->height();
+      const std::ptrdiff_t width = extent[1] - extent[0] + 1;
+      this->File->read({ extent[0], extent[1] + 1, height - 1 - extent[3], height - extent[2] },
+        labels->GetPointer((extent[3] - extent[2]) * width), -width);
       output->GetPointData()->SetScalars(labels);
     });
 }

@@ -3,7 +3,8 @@
  * @brief   Reads an image whose values name regions: 0 for none, 1, 2, ... for the patches of a chart
  *
  * PNG or TIFF with one integer channel, unscaled. The output has the point array "Label" (int). The top
- * row of the file is the last row of the image, as in the Spectral Image Reader.
+ * row of the file is the last row of the image, as in the Spectral Image Reader. Only the rows and columns
+ * asked for are read.
  */
 #ifndef vtkLabelImageReader_h
 #define vtkLabelImageReader_h
@@ -16,7 +17,7 @@
 
 namespace msi
 {
-struct LabelImage;
+class LabelImageFile;
 }
 
 class MULTISPECTRALREADERS_EXPORT vtkLabelImageReader : public vtkImageAlgorithm
@@ -34,6 +35,14 @@ public:
   vtkGetCharFromStdStringMacro(FileName);
   ///@}
 
+  ///@{
+  /**
+   * Read every n-th column and row. From 1 on, default 1, 1.
+   */
+  vtkSetVector2Macro(Stride, int);
+  vtkGetVector2Macro(Stride, int);
+  ///@}
+
 protected:
   vtkLabelImageReader();
   ~vtkLabelImageReader() override;
@@ -48,9 +57,11 @@ private:
   void operator=(const vtkLabelImageReader&) = delete;
 
   void Open();
+  double Bottom() const;
 
   std::string FileName;
-  std::unique_ptr<msi::LabelImage> Image;
+  int Stride[2] = { 1, 1 };
+  std::unique_ptr<msi::LabelImageFile> File;
   vtkMTimeType OpenTime = 0;
 };
 

@@ -2,19 +2,25 @@
 
 #include "AlgorithmSupport.h"
 #include "SpectralImage.h"
+#include "SpectralPreview.h"
 
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
 
+#include "Formats/ImageSelection.h"
 #include "Formats/SpectralImageFile.h"
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 vtkStandardNewMacro(vtkSpectralImageReader);
 
@@ -27,6 +33,36 @@ msi::SpectralAxis axisOfFile(const msi::SpectralImageInfo& info)
     return msi::axisOf(msi::WavelengthGrid(info.wavelengths));
   }
   return { info.bandNames, {} };
+}
+
+template <typename ArrayType, typename Values>
+void addField(vtkImageData* image, const char* name, const Values& values)
+{
+  if (values.empty())
+  {
+    return;
+  }
+  vtkNew<ArrayType> array;
+  array->SetName(name);
+  for (const auto& value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  image->GetFieldData()->AddArray(array);
+}
+
+// What else the file says, as field data.
+void addDescription(vtkImageData* image, const msi::SpectralImageInfo& info)
+{
+  addField<vtkDoubleArray>(image, msi::FwhmArray, info.fwhm);
+  addField<vtkUnsignedCharArray>(image, msi::GoodBandsArray, info.goodBands);
+  addField<vtkStringArray>(image, "Notes", info.notes);
+  std::vector<std::string> metadata;
+  for (const auto& [key, value] : info.metadata)
+  {
+    metadata.push_back(key + " = " + value);
+  }
+  addField<vtkStringArray>(image, "Metadata", metadata);
 }
 }
 
@@ -55,6 +91,14 @@ void vtkSpectralImageReader::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "ArrayKind: " << this->ArrayKind << "\n"
      << indent << "ScaleIntegers: " << this->ScaleIntegers << "\n"
      << indent << "Variable: " << this->Variable << "\n"
+     << indent << "Bands: " << this->Bands << "\n"
+     << indent << "WavelengthRange: " << this->WavelengthRange[0] << ", "
+     << this->WavelengthRange[1] << "\n"
+     << indent << "OnlyGoodBands: " << this->OnlyGoodBands << "\n"
+     << indent << "Preview: " << this->Preview << "\n"
+     << indent << "Region: " << this->Region[0] << ", " << this->Region[1] << ", "
+     << this->Region[2] << ", " << this->Region[3] << "\n"
+     << indent << "Stride: " << this->Stride[0] << ", " << this->Stride[1] << "\n"
      << indent << "Notes: " << this->Notes << "\n";
 }
 
@@ -99,6 +143,7 @@ void vtkSpectralImageReader::Open()
     return;
   }
   this->File.reset();
+  this->Picture.reset();
   this->Notes.clear();
   if (this->FileNames.empty())
   {
@@ -110,7 +155,20 @@ void vtkSpectralImageReader::Open()
   options.integers =
     this->ScaleIntegers ? msi::IntegerScaling::UnitRange : msi::IntegerScaling::Raw;
   options.variable = this->Variable;
-  this->File = msi::openSpectralImage(this->FileNames, options);
+  auto file = msi::openSpectralImage(this->FileNames, options);
+  const int height = file->info().height;
+  msi::ImageSelection selection;
+  selection.bands = this->Bands;
+  selection.shortestWavelength = this->WavelengthRange[0];
+  selection.longestWavelength = this->WavelengthRange[1];
+  selection.onlyGoodBands = this->OnlyGoodBands;
+  selection.region = { this->Region[0], this->Region[1] + 1, this->Region[2], this->Region[3] + 1 };
+  selection.strideX = this->Stride[0];
+  selection.strideY = this->Stride[1];
+  this->File = msi::selectFrom(std::move(file), selection, this->FileNames.front());
+  this->Origin[0] = selection.region.x0;
+  this->Origin[1] = height - 1 -
+    (selection.region.y0 + (this->File->info().height - 1) * static_cast<double>(selection.strideY));
   for (const auto& note : this->File->info().notes)
   {
     this->Notes += (this->Notes.empty() ? "" : "\n") + note;
@@ -128,11 +186,12 @@ int vtkSpectralImageReader::RequestInformation(
       const auto& info = this->File->info();
       auto* out = outputs->GetInformationObject(0);
       const int extent[] = { 0, info.width - 1, 0, info.height - 1, 0, 0 };
-      const double unit[] = { 1.0, 1.0, 1.0 };
-      const double zero[] = { 0.0, 0.0, 0.0 };
+      const double spacing[] = { static_cast<double>(this->Stride[0]),
+        static_cast<double>(this->Stride[1]), 1.0 };
+      const double origin[] = { this->Origin[0], this->Origin[1], 0.0 };
       out->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
-      out->Set(vtkDataObject::SPACING(), unit, 3);
-      out->Set(vtkDataObject::ORIGIN(), zero, 3);
+      out->Set(vtkDataObject::SPACING(), spacing, 3);
+      out->Set(vtkDataObject::ORIGIN(), origin, 3);
       out->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
       out->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
       vtkDataObject::SetPointDataActiveScalarInfo(out, VTK_FLOAT, info.bands());
@@ -152,8 +211,8 @@ int vtkSpectralImageReader::RequestData(
       int extent[6];
       outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
       output->SetExtent(extent);
-      output->SetSpacing(1.0, 1.0, 1.0);
-      output->SetOrigin(0.0, 0.0, 0.0);
+      output->SetSpacing(this->Stride[0], this->Stride[1], 1.0);
+      output->SetOrigin(this->Origin[0], this->Origin[1], 0.0);
 
       const bool reflectance = this->ArrayKind == REFLECTANCE ||
         (this->ArrayKind == FROM_FILE && info.quantity == "reflectance");
@@ -185,15 +244,29 @@ int vtkSpectralImageReader::RequestData(
       msi::setAxis(output, array, axisOfFile(info));
       output->GetPointData()->SetScalars(array);
 
-      vtkNew<vtkStringArray> notes;
-      notes->SetName("Notes");
-      for (const auto& note : info.notes)
+      addDescription(output, info);
+      if (this->Preview)
       {
-        notes->InsertNextValue(note);
-      }
-      if (!info.notes.empty())
-      {
-        output->GetFieldData()->AddArray(notes);
+        this->AddPreview(output, array);
       }
     });
+}
+
+void vtkSpectralImageReader::AddPreview(vtkImageData* image, vtkFloatArray* spectra)
+{
+  if (!this->Picture)
+  {
+    this->Picture = std::make_unique<msi::SpectralPreview>(*this->File);
+  }
+  vtkNew<vtkUnsignedCharArray> picture;
+  picture->SetName(msi::PictureArray);
+  picture->SetNumberOfComponents(3);
+  picture->SetNumberOfTuples(spectra->GetNumberOfTuples());
+  const float* in = spectra->GetPointer(0);
+  unsigned char* out = picture->GetPointer(0);
+  const vtkIdType bands = spectra->GetNumberOfComponents();
+  msi::forBlocks(this, spectra->GetNumberOfTuples(),
+    [&](vtkIdType begin, vtkIdType end)
+    { this->Picture->apply(in + begin * bands, end - begin, out + 3 * begin); });
+  msi::replaceArray(image, nullptr, picture);
 }

@@ -23,7 +23,10 @@
 namespace msi
 {
 class SpectralImageFile;
+class SpectralPreview;
 }
+class vtkFloatArray;
+class vtkImageData;
 
 class MULTISPECTRALREADERS_EXPORT vtkSpectralImageReader : public vtkImageAlgorithm
 {
@@ -68,8 +71,9 @@ public:
 
   ///@{
   /**
-   * Scale 8 and 16 bit integers of image stacks so that the largest value of the type is 1 (default);
-   * off gives the stored counts.
+   * Scale the integers of image stacks (TIFF, PNG, EXR) so that the largest value of their type is 1 (default);
+   * off gives the stored counts. ENVI, MAT and HDF5 are read as stored, over the scale factor that an ENVI header
+   * states.
    */
   vtkSetMacro(ScaleIntegers, bool);
   vtkGetMacro(ScaleIntegers, bool);
@@ -82,6 +86,58 @@ public:
    */
   vtkSetStdStringFromCharMacro(Variable);
   vtkGetCharFromStdStringMacro(Variable);
+  ///@}
+
+  ///@{
+  /**
+   * The bands to read, counted from 1 in the order of the wavelengths: "1-16, 20". Empty (default): all.
+   */
+  vtkSetStdStringFromCharMacro(Bands);
+  vtkGetCharFromStdStringMacro(Bands);
+  ///@}
+
+  ///@{
+  /**
+   * Read the bands from the first to the second wavelength, nm, both included. 0, 0 (default): all.
+   */
+  vtkSetVector2Macro(WavelengthRange, double);
+  vtkGetVector2Macro(WavelengthRange, double);
+  ///@}
+
+  ///@{
+  /**
+   * Leave out the bands that the file marks as bad (bbl of ENVI). Default off.
+   */
+  vtkSetMacro(OnlyGoodBands, bool);
+  vtkGetMacro(OnlyGoodBands, bool);
+  vtkBooleanMacro(OnlyGoodBands, bool);
+  ///@}
+
+  ///@{
+  /**
+   * First and last column, first and last row to read, counted from 0 at the top left of the image. The output
+   * keeps its place: its origin is that of the region. 0, -1, 0, -1 (default): the whole image.
+   */
+  vtkSetVector4Macro(Region, int);
+  vtkGetVector4Macro(Region, int);
+  ///@}
+
+  ///@{
+  /**
+   * Read every n-th column and row of the region. From 1 on, default 1, 1.
+   */
+  vtkSetVector2Macro(Stride, int);
+  vtkGetVector2Macro(Stride, int);
+  ///@}
+
+  ///@{
+  /**
+   * Add the point array "sRGB" (3 bytes a pixel), the picture that a view shows, and make it the active scalars; filters
+   * of spectra pass over it. Default on.
+   */
+  vtkSetMacro(Preview, bool);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
   ///@}
 
   /**
@@ -103,14 +159,23 @@ private:
   void operator=(const vtkSpectralImageReader&) = delete;
 
   void Open();
+  void AddPreview(vtkImageData* image, vtkFloatArray* spectra);
 
   std::vector<std::string> FileNames;
   std::vector<double> Wavelengths;
   int ArrayKind = FROM_FILE;
   bool ScaleIntegers = true;
   std::string Variable;
+  std::string Bands;
+  double WavelengthRange[2] = { 0.0, 0.0 };
+  bool OnlyGoodBands = false;
+  bool Preview = true;
+  int Region[4] = { 0, -1, 0, -1 };
+  int Stride[2] = { 1, 1 };
+  double Origin[2] = { 0.0, 0.0 };
   std::string Notes;
   std::unique_ptr<msi::SpectralImageFile> File;
+  std::unique_ptr<msi::SpectralPreview> Picture;
   vtkMTimeType OpenTime = 0;
 };
 

@@ -12,8 +12,6 @@
 namespace msi
 {
 
-namespace
-{
 std::vector<std::int64_t> sumOverRanks(
   const std::vector<std::int64_t>& mine, vtkMultiProcessController* controller)
 {
@@ -27,7 +25,6 @@ std::vector<std::int64_t> sumOverRanks(
   controller->AllReduce(
     sent.data(), all.data(), static_cast<vtkIdType>(sent.size()), vtkCommunicator::SUM_OP);
   return std::vector<std::int64_t>(all.begin(), all.end());
-}
 }
 
 ErrorSummary summarize(vtkFloatArray* values, vtkMultiProcessController* controller)

@@ -3,19 +3,19 @@
 #include "AlgorithmSupport.h"
 #include "ErrorMetrics.h"
 #include "ErrorStatisticsReduction.h"
+#include "ErrorSummaryTable.h"
+#include "ImageBlocks.h"
 #include "ImagePieces.h"
 #include "NameList.h"
 #include "SampleColumns.h"
 #include "SpectralImage.h"
 
-#include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <algorithm>
@@ -26,42 +26,6 @@ vtkStandardNewMacro(vtkCIEDE2000Evaluator);
 
 namespace
 {
-// One row per metric.
-class SummaryTable
-{
-public:
-  explicit SummaryTable(vtkTable* table)
-  {
-    const char* names[] = { "mean", "median", "p95", "max", "count", "left_out" };
-    Metric->SetName("metric");
-    Illuminant->SetName("illuminant");
-    table->AddColumn(Metric);
-    table->AddColumn(Illuminant);
-    for (int i = 0; i < 6; ++i)
-    {
-      Figures[i]->SetName(names[i]);
-      table->AddColumn(Figures[i]);
-    }
-  }
-
-  void add(const msi::ErrorName& name, const msi::ErrorSummary& summary)
-  {
-    Metric->InsertNextValue(name.metric);
-    Illuminant->InsertNextValue(name.illuminant);
-    const double figures[] = { summary.mean, summary.median, summary.p95, summary.max,
-      static_cast<double>(summary.count), static_cast<double>(summary.nonFinite) };
-    for (int i = 0; i < 6; ++i)
-    {
-      Figures[i]->InsertNextValue(figures[i]);
-    }
-  }
-
-private:
-  vtkNew<vtkStringArray> Metric;
-  vtkNew<vtkStringArray> Illuminant;
-  vtkNew<vtkDoubleArray> Figures[6];
-};
-
 using ErrorArrays = std::vector<vtkSmartPointer<vtkFloatArray>>;
 
 ErrorArrays newErrorArrays(const std::vector<msi::ErrorName>& names, vtkIdType pixels)
@@ -216,6 +180,12 @@ int vtkCIEDE2000Evaluator::RequestData(
       if (auto* table = vtkTable::GetData(inputs[0]))
       {
         auto* second = vtkTable::GetData(inputs[1]);
+        if (!second && vtkDataObject::GetData(inputs[1]))
+        {
+          throw std::invalid_argument("the estimate is a table of samples, but the reference is an "
+                                      "image; give a table of the same samples, or none where the "
+                                      "estimate's table holds the measured reflectance");
+        }
         const auto estimate =
           msi::requireSpectra(table, msi::SampleQuantity::Estimate, "the estimate");
         const auto reference = msi::requireSpectra(second ? second : table,
@@ -230,7 +200,7 @@ int vtkCIEDE2000Evaluator::RequestData(
         auto* output = vtkTable::GetData(outputs, 0);
         output->ShallowCopy(table);
         const msi::ErrorMetrics metrics(estimate.axis, illuminants, this->Observer, factors);
-        SummaryTable summary(vtkTable::GetData(outputs, 1));
+        msi::ErrorSummaryTable summary(vtkTable::GetData(outputs, 1));
         const auto errors = metrics(estimate.values, reference.values);
         for (std::size_t i = 0; i < errors.size(); ++i)
         {
@@ -239,14 +209,17 @@ int vtkCIEDE2000Evaluator::RequestData(
         }
         return;
       }
-      auto* image = vtkImageData::GetData(inputs[0]);
-      auto* referenceImage = vtkImageData::GetData(inputs[1]);
+      vtkSmartPointer<vtkImageData> image = vtkImageData::GetData(inputs[0]);
+      vtkSmartPointer<vtkImageData> referenceImage = vtkImageData::GetData(inputs[1]);
       if (!image || !referenceImage)
       {
         throw std::invalid_argument(
           "an estimated image needs a reference image of the same region as "
           "second input (see Patch Reference Image)");
       }
+      const auto common = msi::commonExtent({ image, referenceImage });
+      image = msi::partOf(image, common);
+      referenceImage = msi::partOf(referenceImage, common);
       auto* controller = msi::controllerOfPieces(inputs[0]);
       auto* output = vtkImageData::GetData(outputs, 0);
       const auto errors = newErrorArrays(names, image->GetNumberOfPoints());
@@ -279,7 +252,7 @@ int vtkCIEDE2000Evaluator::RequestData(
       output->GetPointData()->SetActiveScalars(errors.back()->GetName());
 
       vtkNew<vtkTable> whole;
-      SummaryTable summary(whole);
+      msi::ErrorSummaryTable summary(whole);
       const auto owned = msi::ownedExtent(inputs[0]->GetInformationObject(0), image);
       for (std::size_t i = 0; i < errors.size(); ++i)
       {

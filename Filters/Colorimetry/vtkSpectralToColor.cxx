@@ -168,7 +168,7 @@ vtkIdType vtkSpectralToColor::ColorImage(vtkImageData* image, vtkImageData* outp
   const auto xyzArray = this->ComputeXYZ ? addVectors(output, "XYZ", pixels) : nullptr;
   const auto labArray = this->ComputeLab ? addVectors(output, "Lab", pixels) : nullptr;
   vtkNew<vtkUnsignedCharArray> srgb;
-  srgb->SetName("sRGB");
+  srgb->SetName(msi::PictureArray);
   srgb->SetNumberOfComponents(3);
   srgb->SetNumberOfTuples(pixels);
 

@@ -35,6 +35,43 @@ std::string sizeText(const Extent& extent)
   }
   return text.str();
 }
+
+constexpr Extent NoPixels = { 0, -1, 0, -1, 0, -1 };
+
+bool isEmpty(const Extent& extent)
+{
+  return extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5];
+}
+
+// As the executive splits an image.
+Extent extentOfPiece(vtkInformation* information, int ghosts)
+{
+  Extent whole = wholeExtent(information);
+  Extent extent = whole;
+  const int mode = information->Has(vtkExtentTranslator::UPDATE_SPLIT_MODE())
+    ? information->Get(vtkExtentTranslator::UPDATE_SPLIT_MODE())
+    : static_cast<int>(vtkExtentTranslator::BLOCK_MODE);
+  vtkNew<vtkExtentTranslator> translator;
+  const int any = translator->PieceToExtentThreadSafe(information->Get(SDDP::UPDATE_PIECE_NUMBER()),
+    information->Get(SDDP::UPDATE_NUMBER_OF_PIECES()), ghosts, whole.data(), extent.data(), mode,
+    0);
+  return any ? extent : NoPixels;
+}
+
+Extent requested(vtkInformation* output, int ghosts)
+{
+  if (output->Get(SDDP::UPDATE_NUMBER_OF_PIECES()) > 1)
+  {
+    return extentOfPiece(output, ghosts);
+  }
+  if (!output->Has(SDDP::UPDATE_EXTENT()))
+  {
+    return wholeExtent(output);
+  }
+  Extent extent{};
+  output->Get(SDDP::UPDATE_EXTENT(), extent.data());
+  return isEmpty(extent) ? NoPixels : extent;
+}
 }
 
 void requireSameSize(vtkInformation* a, const std::string& nameOfA, vtkInformation* b,
@@ -54,20 +91,14 @@ void requireSameSize(vtkInformation* a, const std::string& nameOfA, vtkInformati
 
 Extent ownedExtent(vtkInformation* input, vtkImageData* image)
 {
-  Extent whole = wholeExtent(input);
+  const Extent whole = wholeExtent(input);
   Extent owned = whole;
-  const int pieces = input->Get(SDDP::UPDATE_NUMBER_OF_PIECES());
-  if (pieces > 1)
+  if (input->Get(SDDP::UPDATE_NUMBER_OF_PIECES()) > 1)
   {
-    // As the executive splits it, without ghosts.
-    const int mode = input->Has(vtkExtentTranslator::UPDATE_SPLIT_MODE())
-      ? input->Get(vtkExtentTranslator::UPDATE_SPLIT_MODE())
-      : static_cast<int>(vtkExtentTranslator::BLOCK_MODE);
-    vtkNew<vtkExtentTranslator> translator;
-    if (!translator->PieceToExtentThreadSafe(
-          input->Get(SDDP::UPDATE_PIECE_NUMBER()), pieces, 0, whole.data(), owned.data(), mode, 0))
+    owned = extentOfPiece(input, 0);
+    if (isEmpty(owned))
     {
-      return { 0, -1, 0, -1, 0, -1 };
+      return owned;
     }
   }
   const int* held = image->GetExtent();
@@ -81,6 +112,16 @@ Extent ownedExtent(vtkInformation* input, vtkImageData* image)
     owned[axis + 1] = std::min(owned[axis + 1], held[axis + 1]);
   }
   return owned;
+}
+
+Extent requestedExtent(vtkInformation* output)
+{
+  return requested(output, output->Get(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS()));
+}
+
+Extent requestedExtentWithoutGhosts(vtkInformation* output)
+{
+  return requested(output, 0);
 }
 
 } // namespace msi

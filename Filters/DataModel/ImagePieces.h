@@ -24,6 +24,13 @@ using Extent = std::array<int, 6>;
 // 'input' is the information of the input port that the image came through.
 Extent ownedExtent(vtkInformation* input, vtkImageData* image);
 
+// The pixels that are asked for of an output: of its piece with its ghosts, or of its extent where it is one piece.
+// Empty (first index above last) where the piece has none.
+Extent requestedExtent(vtkInformation* output);
+
+// The same without the ghosts.
+Extent requestedExtentWithoutGhosts(vtkInformation* output);
+
 } // namespace msi
 
 #endif

@@ -100,6 +100,7 @@ std::optional<SampleSpectra> findSpectra(vtkTable* table, SampleQuantity quantit
   if (columns.front().number >= FirstWavelength)
   {
     std::vector<double> wavelengths;
+    wavelengths.reserve(columns.size());
     for (const auto& column : columns)
     {
       wavelengths.push_back(column.number);

@@ -48,6 +48,16 @@ vtkDataArray* requireSpectralArray(
     return array;
   }
   array = points->GetScalars();
+  if (array && array->GetName() && std::string(array->GetName()) == PictureArray)
+  {
+    for (const char* name : { ReflectanceArray, ResponsesArray })
+    {
+      if (auto* spectra = points->GetArray(name))
+      {
+        return spectra;
+      }
+    }
+  }
   if (!array && points->GetNumberOfArrays() == 1)
   {
     array = points->GetArray(0);
@@ -123,7 +133,10 @@ void setAxis(vtkDataObject* data, vtkDataArray* array, const SpectralAxis& axis)
     const std::string name = axis.wavelengths ? axis.names[i] + " nm" : axis.names[i];
     array->SetComponentName(static_cast<vtkIdType>(i), name.c_str());
   }
-  data->GetFieldData()->RemoveArray(WavelengthArray);
+  for (const char* name : { WavelengthArray, FwhmArray, GoodBandsArray })
+  {
+    data->GetFieldData()->RemoveArray(name);
+  }
   if (axis.wavelengths)
   {
     vtkNew<vtkDoubleArray> wavelengths;

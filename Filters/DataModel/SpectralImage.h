@@ -22,9 +22,13 @@ inline constexpr const char* ReflectanceArray = "Reflectance";
 inline constexpr const char* ResponsesArray = "Responses";
 inline constexpr const char* UncertaintyArray = "Uncertainty";
 inline constexpr const char* LabelArray = "Label";
+inline constexpr const char* PictureArray = "sRGB"; // 3 bytes a pixel, for views
 inline constexpr const char* WavelengthArray = "Wavelength";
+inline constexpr const char* FwhmArray = "FWHM";          // field data: nm, one value per component
+inline constexpr const char* GoodBandsArray = "GoodBands"; // field data: 0 where a file marks a band as bad
 
-// The spectral array of an image: the named one, else the active scalars, else the only point array.
+// The spectral array of an image: the named one, else the active scalars (where they are a picture: "Reflectance" or
+// "Responses" beside it), else the only point array.
 // Throws std::invalid_argument, naming what the image holds, where there is none.
 vtkDataArray* requireSpectralArray(
   vtkImageData* image, const std::string& nameOfImage, const char* arrayName = nullptr);
@@ -43,7 +47,8 @@ vtkSmartPointer<vtkFloatArray> asFloats(vtkDataArray* array);
 // stay; vtkPointData::SetScalars would drop the ones that were active before.
 void replaceArray(vtkImageData* image, vtkDataArray* old, vtkDataArray* array);
 
-// Names the array's components and stores the wavelengths as field data.
+// Names the array's components and stores the wavelengths as field data; what else the field data said of the
+// bands that were there before is dropped.
 void setAxis(vtkDataObject* data, vtkDataArray* array, const SpectralAxis& axis);
 
 } // namespace msi

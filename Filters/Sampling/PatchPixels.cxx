@@ -63,9 +63,8 @@ PatchMap mapFromGrid(const PatchGrid& grid)
   return { grid.patches(), [grid](vtkIdType, double x, double y) { return grid.labelAt(x, y); } };
 }
 
-// Adds the pixels within 'owned', in threads.
 void addPixels(vtkAlgorithm* self, vtkImageData* image, vtkDataArray* array, const PatchMap& map,
-  const Extent& owned, PatchStatistics& statistics)
+  PatchStatistics& statistics)
 {
   int extent[6];
   image->GetExtent(extent);
@@ -90,9 +89,7 @@ void addPixels(vtkAlgorithm* self, vtkImageData* image, vtkDataArray* array, con
         const auto row = extent[2] + point / width;
         const double x = origin[0] + spacing[0] * static_cast<double>(column);
         const double y = origin[1] + spacing[1] * static_cast<double>(row);
-        const bool mine =
-          column >= owned[0] && column <= owned[1] && row >= owned[2] && row <= owned[3];
-        const int label = mine ? map.labelAt(point, x, y) : 0;
+        const int label = map.labelAt(point, x, y);
         if (label == 0)
         {
           continue;

@@ -2,8 +2,6 @@
 #ifndef PatchPixels_h
 #define PatchPixels_h
 
-#include "ImagePieces.h"
-
 #include "vtkType.h"
 
 #include "Kernels/Sampling/PatchGrid.h"
@@ -31,9 +29,9 @@ struct PatchMap
 PatchMap mapFromLabels(vtkImageData* labelImage, vtkImageData* image);
 PatchMap mapFromGrid(const PatchGrid& grid);
 
-// Adds the pixels within 'owned', in threads. Throws std::runtime_error where 'self' was stopped.
+// Adds all pixels of the image, in threads. Throws std::runtime_error where 'self' was stopped.
 void addPixels(vtkAlgorithm* self, vtkImageData* image, vtkDataArray* array, const PatchMap& map,
-  const Extent& owned, PatchStatistics& statistics);
+  PatchStatistics& statistics);
 
 // Both collective; 'controller' null: this process holds everything.
 int maximumOverRanks(int mine, vtkMultiProcessController* controller);

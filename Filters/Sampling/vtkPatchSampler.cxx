@@ -1,6 +1,7 @@
 #include "vtkPatchSampler.h"
 
 #include "AlgorithmSupport.h"
+#include "ImageBlocks.h"
 #include "ImagePieces.h"
 #include "PatchPixels.h"
 #include "SampleColumns.h"
@@ -17,6 +18,7 @@
 #include "Kernels/Sampling/PatchStatistics.h"
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -117,11 +119,34 @@ void writeRows(const msi::PatchStatistics& statistics, const msi::SpectralAxis& 
 }
 }
 
+// What is known of the image so far.
+struct vtkPatchSampler::Sampling
+{
+  msi::ImageBlocks blocks;
+  std::optional<msi::PatchStatistics> statistics;
+  msi::SpectralAxis axis;
+  bool isReflectance = false;
+  int patches = 0;
+  std::string failure;
+
+  void reset()
+  {
+    statistics.reset();
+    axis = {};
+    isReflectance = false;
+    patches = 0;
+    failure.clear();
+  }
+};
+
 vtkPatchSampler::vtkPatchSampler()
+  : Current(std::make_unique<Sampling>())
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(1);
 }
+
+vtkPatchSampler::~vtkPatchSampler() = default;
 
 void vtkPatchSampler::PrintSelf(ostream& os, vtkIndent indent)
 {
@@ -129,7 +154,8 @@ void vtkPatchSampler::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SpectralArray: " << this->SpectralArray << "\n"
      << indent << "GridColumns: " << this->GridColumns << "\n"
      << indent << "GridRows: " << this->GridRows << "\n"
-     << indent << "PatchFraction: " << this->PatchFraction << "\n";
+     << indent << "PatchFraction: " << this->PatchFraction << "\n"
+     << indent << "BlockSize: " << this->BlockSize << "\n";
   const double* corners[] = { this->Corner1, this->Corner2, this->Corner3, this->Corner4 };
   for (int i = 0; i < 4; ++i)
   {
@@ -162,85 +188,101 @@ int vtkPatchSampler::RequestInformation(
 int vtkPatchSampler::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  // Each rank samples its own piece of the image, whatever piece of the table is asked for: the sums are
+  // Each rank samples its own rows of the image, whatever piece of the table is asked for: the sums are
   // reduced over all ranks.
-  auto* controller = vtkMultiProcessController::GetGlobalController();
-  for (int port = 0; port < 2; ++port)
+  auto& blocks = this->Current->blocks;
+  blocks.setBlockBytes(static_cast<long long>(this->BlockSize) << 20);
+  if (blocks.request(inputs, { 0, 1 }))
   {
-    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      auto* info = inputs[port]->GetInformationObject(i);
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(),
-        controller ? controller->GetLocalProcessId() : 0);
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(),
-        controller ? controller->GetNumberOfProcesses() : 1);
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    }
+    this->Current->reset();
   }
   msi::requestWhole(inputs, 2);
   return 1;
 }
 
 int vtkPatchSampler::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  auto& sampling = *this->Current;
+  // What fails on one rank is told where the ranks meet.
+  try
+  {
+    this->AddBlock(inputs);
+    this->UpdateProgress(sampling.blocks.progress());
+    if (sampling.blocks.next(request))
+    {
+      return 1;
+    }
+  }
+  catch (const std::exception& error)
+  {
+    sampling.failure = error.what();
+    sampling.blocks.stop(request);
+  }
   return msi::runAlgorithm(this, outputs,
     [&]
-    {
-      auto* image = vtkImageData::GetData(inputs[0]);
-      auto* labelImage = vtkImageData::GetData(inputs[1]);
-      auto* patchTable = vtkTable::GetData(inputs[2]);
-      auto* controller = msi::controllerOfPieces(inputs[0]);
+    { this->WriteTable(vtkTable::GetData(inputs[2]), outputs->GetInformationObject(0)); });
+}
 
-      // With more ranks than pixels some hold nothing.
-      const bool holdsPixels = !controller || image->GetNumberOfPoints() > 0;
-      vtkDataArray* array = nullptr;
-      msi::SpectralAxis axis;
-      msi::PatchMap map;
-      msi::beforeRanksMeet(controller,
-        [&]
-        {
-          if (holdsPixels)
-          {
-            array = msi::requireSpectralArray(image, "the image", this->SpectralArray.c_str());
-            axis = msi::axisOf(image, array);
-            map = labelImage ? msi::mapFromLabels(labelImage, image)
-                             : msi::mapFromGrid(this->MakeGrid(inputs[0]->GetInformationObject(0)));
-          }
-        });
-      const int patches = msi::maximumOverRanks(map.patches, controller);
-      if (patches == 0)
-      {
-        throw std::invalid_argument("the label image is 0 everywhere; expected patches 1, 2, ..");
-      }
-      msi::PatchStatistics statistics(
-        patches, msi::maximumOverRanks(static_cast<int>(axis.size()), controller));
-      msi::beforeRanksMeet(controller,
-        [&]
-        {
-          if (holdsPixels)
-          {
-            msi::addPixels(this, image, array, map,
-              msi::ownedExtent(inputs[0]->GetInformationObject(0), image), statistics);
-          }
-        });
-      msi::sumOverRanks(statistics, controller);
+void vtkPatchSampler::AddBlock(vtkInformationVector** inputs)
+{
+  auto& sampling = *this->Current;
+  if (sampling.blocks.isEmpty())
+  {
+    return; // more ranks than rows
+  }
+  const auto& block = sampling.blocks.block();
+  const auto image = msi::partOf(vtkImageData::GetData(inputs[0]), block);
+  const auto labels = msi::partOf(vtkImageData::GetData(inputs[1]), block);
+  auto* array = msi::requireSpectralArray(image, "the image", this->SpectralArray.c_str());
+  const auto map = labels ? msi::mapFromLabels(labels, image)
+                          : msi::mapFromGrid(this->MakeGrid(inputs[0]->GetInformationObject(0)));
+  if (!sampling.statistics)
+  {
+    sampling.axis = msi::axisOf(image, array);
+    sampling.isReflectance =
+      array->GetName() && std::string(array->GetName()) == msi::ReflectanceArray;
+    sampling.statistics.emplace(std::max(1, map.patches), array->GetNumberOfComponents());
+  }
+  sampling.patches = std::max(sampling.patches, map.patches);
+  if (map.patches > 0)
+  {
+    sampling.statistics->grow(map.patches);
+    msi::addPixels(this, image, array, map, *sampling.statistics);
+  }
+}
 
-      // A piece of the table: the first rank of many has all rows, a rank that asked for the whole too.
-      auto* outInfo = outputs->GetInformationObject(0);
-      if (outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
-      {
-        return;
-      }
-      const bool reflectance =
-        array->GetName() && std::string(array->GetName()) == msi::ReflectanceArray;
-      const bool measured =
-        patchTable && msi::findSpectra(patchTable, msi::SampleQuantity::Reflectance);
-      const auto quantity = !reflectance ? msi::SampleQuantity::Response
-        : measured                       ? msi::SampleQuantity::Estimate
-                                         : msi::SampleQuantity::Reflectance;
-      writeRows(statistics, axis, quantity, patchTable, vtkTable::GetData(outputs, 0));
-    });
+void vtkPatchSampler::WriteTable(vtkTable* patchTable, vtkInformation* outInfo)
+{
+  auto& sampling = *this->Current;
+  auto* controller = msi::controllerOfTables();
+  msi::throwOnAnyRank(sampling.failure, controller);
+  const int patches = msi::maximumOverRanks(sampling.patches, controller);
+  const int channels =
+    msi::maximumOverRanks(static_cast<int>(sampling.axis.size()), controller);
+  if (patches == 0)
+  {
+    throw std::invalid_argument("the label image is 0 everywhere; expected patches 1, 2, ..");
+  }
+  if (!sampling.statistics)
+  {
+    sampling.statistics.emplace(patches, channels);
+  }
+  auto& statistics = *sampling.statistics;
+  statistics.grow(patches);
+  msi::sumOverRanks(statistics, controller);
+
+  // A piece of the table: the first rank of many has all rows, a rank that asked for the whole too.
+  if (outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) == 0)
+  {
+    const bool measured =
+      patchTable && msi::findSpectra(patchTable, msi::SampleQuantity::Reflectance);
+    const auto quantity = !sampling.isReflectance ? msi::SampleQuantity::Response
+      : measured                                  ? msi::SampleQuantity::Estimate
+                                                  : msi::SampleQuantity::Reflectance;
+    writeRows(statistics, sampling.axis, quantity, patchTable, vtkTable::GetData(outInfo));
+  }
+  sampling.reset();
 }
 
 msi::PatchGrid vtkPatchSampler::MakeGrid(vtkInformation* imageInfo) const

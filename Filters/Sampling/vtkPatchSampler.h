@@ -11,7 +11,8 @@
  * "left_out" (pixels that are not finite), then C400, .. (of an array "Reflectance": R400, .., or E400, ..
  * where the joined table has measured reflectance) and "deviation C400", .. (of the sample).
  *
- * Where ranks hold pieces of the image the sums are exact: the same bytes for any number of ranks.
+ * The images are taken in blocks of rows, which the ranks share; the sums are exact: the same bytes for any
+ * number of ranks and any size of the blocks.
  */
 #ifndef vtkPatchSampler_h
 #define vtkPatchSampler_h
@@ -19,6 +20,7 @@
 #include "MultispectralFiltersSamplingModule.h"
 #include "vtkTableAlgorithm.h"
 
+#include <memory>
 #include <string>
 
 namespace msi
@@ -76,9 +78,17 @@ public:
   vtkGetMacro(PatchFraction, double);
   ///@}
 
+  ///@{
+  /**
+   * Memory in MiB that one block of rows may take. Range 1 .. 65536, default 64.
+   */
+  vtkSetClampMacro(BlockSize, int, 1, 65536);
+  vtkGetMacro(BlockSize, int);
+  ///@}
+
 protected:
   vtkPatchSampler();
-  ~vtkPatchSampler() override = default;
+  ~vtkPatchSampler() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
@@ -92,7 +102,11 @@ private:
   vtkPatchSampler(const vtkPatchSampler&) = delete;
   void operator=(const vtkPatchSampler&) = delete;
 
+  struct Sampling;
+
   msi::PatchGrid MakeGrid(vtkInformation* imageInfo) const;
+  void AddBlock(vtkInformationVector** inputs);
+  void WriteTable(vtkTable* patchTable, vtkInformation* outInfo);
 
   std::string SpectralArray;
   int GridColumns = 6;
@@ -102,6 +116,8 @@ private:
   double Corner3[2] = { 0.0, 0.0 };
   double Corner4[2] = { 0.0, 0.0 };
   double PatchFraction = 0.5;
+  int BlockSize = 64;
+  std::unique_ptr<Sampling> Current;
 };
 
 #endif

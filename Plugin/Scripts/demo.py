@@ -47,13 +47,14 @@ def estimate_image(chart, fabric, folder):
         reflectance = estimation.estimate(image, transforms, place)
         reflectances[name] = reflectance
         results[name] = estimation.judge(reflectance, labels, patches, place, tops)
-        tops = tops or estimation.top_errors(results[name][0])
+        tops = tops or estimation.top_errors(results[name].summary)
+        estimation.save_view(reflectance, place)
         estimation.print_summary(f"Swatches in the image, {name}",
-                                 pipeline.port(results[name][1], 1))
+                                 pipeline.port(results[name].patches, 1))
         if name == "transfer":
             estimation.save_reflectance(reflectance, place)
     estimation.save_state(os.path.join(folder, "state.pvsm"), reflectances["transfer"],
-                          results["transfer"][0])
+                          results["transfer"])
     return results
 
 
@@ -84,7 +85,7 @@ def main():
                         ("transfer", "The image corrected by the tuning swatches")):
         place = os.path.join(folder, name)
         sections.append(report.pictures(title, place, {"rgb.png": "sRGB view under D65"}))
-        sections += estimation.report_errors(*results[name], place)
+        sections += estimation.report_errors(results[name], place)
     report.write(folder, "Multispectral: demo", sections)
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 

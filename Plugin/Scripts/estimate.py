@@ -51,21 +51,27 @@ def read_tables(options):
     return tables
 
 
+def responses(options, stride=1):
+    """The image with its frames, which nothing has read yet."""
+    def read(files):
+        return estimation.read_image(files, options.wavelengths, stride) if files else None
+    return estimation.flat_field(read(options.image), read(options.white), read(options.dark))
+
+
 def main():
     options = arguments()
     require_inputs(options)
     folder = command.make_folder(options.output)
     pipeline.load_plugin()
 
-    def read(files):
-        return estimation.read_image(files, options.wavelengths) if files else None
-    image = estimation.flat_field(read(options.image), read(options.white), read(options.dark))
+    image = responses(options)
+    stride = estimation.stride_of_pictures(image)
+    pipeline.fail_on_error()
     calibration, tuning, patches = read_tables(options)
 
     labels = held_out = None
     if options.labels:
-        labels = pipeline.create("LabelImageReader", FileName=options.labels)
-        pipeline.update(labels)
+        labels = estimation.read_labels(options.labels)
         sampled = pipeline.create("PatchSampler", Input=image, Labels=labels, PatchTable=patches)
         pipeline.update(sampled)
         held_out = sampled
@@ -82,15 +88,23 @@ def main():
     transforms, summary = estimation.correction(calibration, tuning, METHODS[options.method])
     reflectance = estimation.estimate(image, transforms, folder)
     estimation.save_reflectance(reflectance, folder)
+    view = reflectance, labels
+    if stride > 1:
+        command.say(f"the pictures show every {stride}th pixel of the image")
+        view = (pipeline.create("ReflectanceEstimation", Input=responses(options, stride),
+                                **transforms),
+                labels and estimation.read_labels(options.labels, stride))
+    estimation.save_view(view[0], folder)
     pages = [report.pictures("Reflectance", folder, {"rgb.png": "sRGB view under D65"}),
              report.table("The fit", *pipeline.table(summary))]
-    errors = None
+    judged = None
     if labels is not None:
-        errors, held = estimation.judge(reflectance, labels, held_out, folder)
-        estimation.print_summary("Held-out patches, mean spectrum of each", pipeline.port(held, 1))
-        estimation.print_summary("Held-out pixels", pipeline.port(errors, 1))
-        pages += estimation.report_errors(errors, held, folder)
-    estimation.save_state(os.path.join(folder, "state.pvsm"), reflectance, errors)
+        judged = estimation.judge(reflectance, labels, held_out, folder, view=view)
+        estimation.print_summary("Held-out patches, mean spectrum of each",
+                                 pipeline.port(judged.patches, 1))
+        estimation.print_summary("Held-out pixels", judged.summary)
+        pages += estimation.report_errors(judged, folder)
+    estimation.save_state(os.path.join(folder, "state.pvsm"), view[0], judged)
     report.write(folder, "Spectral reflectance of an image", pages)
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 

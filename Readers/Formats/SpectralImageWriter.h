@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace msi
@@ -61,12 +62,17 @@ std::unique_ptr<SpectralImageWriter> createEnviImage(
   const std::string& path, const SpectralImageInfo& info, const EnviWriteOptions& options = {});
 
 // Writes a spectral OpenEXR (float32, scan lines). info.wavelengths must be known; info.quantity
-// "emission" gives S0 channels, else T.
+// "emission" gives S0 channels, else T. The layout knows no camera responses: with info.quantity
+// "responses" an attribute says that the T channels are that.
 // Source: A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral Images", JCGT 10 (2021).
 std::unique_ptr<SpectralImageWriter> createSpectralExr(
   const std::string& path, const SpectralImageInfo& info);
 
-// By the extension of path: .exr, else ENVI (.hdr, .img, .dat, .raw, .bsq, .bil, .bip).
+// What the extension .bsq, .bil or .bip says; nothing for any other.
+std::optional<Interleave> interleaveOfName(const std::string& path);
+
+// By the extension of path: .exr or ENVI (.hdr, .img, .dat, .raw, .bin, .cube, .bsq, .bil, .bip or none).
+// Errors: FormatError for any other extension.
 std::unique_ptr<SpectralImageWriter> createSpectralImage(
   const std::string& path, const SpectralImageInfo& info, const EnviWriteOptions& options = {});
 

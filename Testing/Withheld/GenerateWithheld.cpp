@@ -18,6 +18,7 @@ struct Plan
   std::string set; // single, several, clean, stranger, removed, ...
   CaseRequest request;
   std::string without;
+  int twin = -1; // the plan with the same capture and the whole library
 };
 
 std::string joined(const std::vector<std::string>& words, const char* separator)
@@ -28,6 +29,11 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
     text += (text.empty() ? "" : separator) + word;
   }
   return text;
+}
+
+std::string caseName(int number)
+{
+  return "case-" + std::to_string(1001 + number);
 }
 
 std::vector<std::string> someEffects(Random& random, int count)
@@ -84,13 +90,15 @@ std::vector<Plan> plans(bool full, std::uint64_t seed)
     request.stranger = strangerNames()[static_cast<std::size_t>(n) % strangerNames().size()];
     add("stranger", request);
   }
+  // The first single cases again, without what was planted.
+  const int each = full ? 5 : 1;
   for (std::size_t e = 0; e < plantableNames().size(); ++e)
   {
     for (int n = 0; n < (full ? 2 : (e % 4 == 1 ? 1 : 0)); ++n)
     {
-      CaseRequest request;
-      request.effects = { plantableNames()[e] };
-      add("removed", request, plantableNames()[e]);
+      const int twin = static_cast<int>(e) * each + n;
+      list.push_back(
+        { "removed", list[static_cast<std::size_t>(twin)].request, plantableNames()[e], twin });
     }
   }
   singles("nominal", full ? 3 : 0, 1.0, 200, true);
@@ -126,11 +134,11 @@ int main(int argc, char** argv)
     return 1;
   }
   cases << "case,without\n";
-  key << "case,set,effects,kinds,axes,gap_rms,best_shrink,without\n";
+  key << "case,set,effects,kinds,axes,gap_rms,best_shrink,without,twin\n";
   int number = 0;
   for (const Plan& plan : plans(full, seed))
   {
-    const std::string name = "case-" + std::to_string(1000 + ++number);
+    const std::string name = caseName(number++);
     const WithheldCase made = makeCase(plan.request);
     writeCapture(made.capture, name, (folder / name).string());
     cases << name << ',' << plan.without << '\n';
@@ -141,7 +149,8 @@ int main(int argc, char** argv)
     }
     key << name << ',' << plan.set << ',' << joined(made.key.effects, ";") << ','
         << joined(made.key.kinds, ";") << ',' << joined(axes, ";") << ',' << made.key.gapRms << ','
-        << made.key.bestShrink << ',' << plan.without << '\n';
+        << made.key.bestShrink << ',' << plan.without << ','
+        << (plan.twin < 0 ? "" : caseName(plan.twin)) << '\n';
   }
   std::cout << number << " cases in " << argv[1] << '\n';
   return 0;

@@ -57,6 +57,16 @@ TEST(CIEDE2000EvaluatorErrors, NameTheBandsThatDiffer)
     "nm); resample one of them first");
 }
 
+TEST(CIEDE2000EvaluatorErrors, RefuseAReferenceOfTheOtherKind)
+{
+  EXPECT_EQ(errorWith(grayTable('E', { 0.1 }), grayImage({ 0.1 })),
+    "the estimate is a table of samples, but the reference is an image; give a table of the same "
+    "samples, or none where the estimate's table holds the measured reflectance");
+  EXPECT_EQ(errorWith(grayImage({ 0.1 }), grayTable('R', { 0.1 })),
+    "an estimated image needs a reference image of the same region as second input (see Patch "
+    "Reference Image)");
+}
+
 TEST(CIEDE2000EvaluatorErrors, NameTheNumbersOfSamplesThatDiffer)
 {
   EXPECT_EQ(errorWith(grayTable('E', { 0.1, 0.2, 0.3 }), grayTable('R', { 0.1, 0.2 })),

@@ -1,6 +1,6 @@
 #include "Kernels/Estimation/RidgeCalibration.h"
 
-#include <Eigen/SVD>
+#include "Kernels/Estimation/ThinSvd.h"
 
 #include <cmath>
 #include <limits>
@@ -47,15 +47,14 @@ CenteredSystem centeredSystem(const SampleSet& samples)
     }
   }
   inputs *= system.responseScale.cwiseInverse().asDiagonal();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(inputs, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const ThinSvd svd = thinSvd(inputs);
   const double tolerance = std::numeric_limits<double>::epsilon() *
     static_cast<double>(std::max(inputs.rows(), inputs.cols()));
-  system.singularLargest = svd.singularValues().size() > 0 ? svd.singularValues()[0] : 0.0;
-  const Eigen::Index rank =
-    (svd.singularValues().array() > tolerance * system.singularLargest).count();
-  system.left = svd.matrixU().leftCols(rank);
-  system.singular = svd.singularValues().head(rank);
-  system.right = svd.matrixV().leftCols(rank);
+  system.singularLargest = svd.singular.size() > 0 ? svd.singular[0] : 0.0;
+  const Eigen::Index rank = (svd.singular.array() > tolerance * system.singularLargest).count();
+  system.left = svd.left.leftCols(rank);
+  system.singular = svd.singular.head(rank);
+  system.right = svd.right.leftCols(rank);
   for (Eigen::Index k = 0; k < inputs.cols(); ++k)
   {
     if (inputs.col(k).isZero(0.0))

@@ -1,7 +1,8 @@
 #include "Kernels/Estimation/TransferObjective.h"
 
+#include "Kernels/Estimation/ThinSvd.h"
+
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -69,17 +70,16 @@ TransferObjective::TransferObjective(const TransferFeatures& start,
 {
   X.leftCols(Chart) = Features.ofChart(chartResponses);
   // The likelihood sees the outputs through their Gram matrix alone: leading components suffice.
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(outputs, Eigen::ComputeThinU);
-  const double total = svd.singularValues().squaredNorm();
+  const ThinSvd svd = thinSvd(outputs);
+  const double total = svd.singular.squaredNorm();
   Eigen::Index kept = 0;
   double energy = 0.0;
-  while (kept < svd.singularValues().size() && energy < (1.0 - 1e-5) * total)
+  while (kept < svd.singular.size() && energy < (1.0 - 1e-5) * total)
   {
-    energy += std::pow(svd.singularValues()[kept++], 2);
+    energy += std::pow(svd.singular[kept++], 2);
   }
-  Y = svd.matrixU().leftCols(kept) *
-    (svd.singularValues().head(kept) * std::sqrt(static_cast<double>(Chart + Tuning) / total))
-      .asDiagonal();
+  Y = svd.left.leftCols(kept) *
+    (svd.singular.head(kept) * std::sqrt(static_cast<double>(Chart + Tuning) / total)).asDiagonal();
 }
 
 Eigen::VectorXd TransferObjective::start() const

@@ -13,6 +13,7 @@ constexpr std::size_t PlacesKept = 3;
 constexpr double PlacesApart = 0.05;
 constexpr double Significant = 5.0;
 constexpr std::size_t ShortestSegment = 4;
+constexpr double Rounding = 1e-16; // squared relative gap that numbers of this length have anyway
 
 std::vector<Eigen::Index> inOrder(const EffectFitter& fitter)
 {
@@ -114,83 +115,119 @@ std::vector<std::vector<double>> OrderBreaks::startsFor(const std::string& form)
   return starts;
 }
 
-std::vector<GapChangePoint> OrderBreaks::significant(
-  const EffectFitter& fitter, const Eigen::MatrixXd& predicted, int most)
+namespace
+{
+// Relative gap of each sample along the order, and its weight.
+struct Series
+{
+  std::vector<double> value, weight;
+};
+
+Series relativeGaps(const EffectFitter& fitter, const Eigen::MatrixXd& predicted,
+  const std::vector<Eigen::Index>& order)
 {
   const GapData& data = fitter.data();
-  const std::vector<Eigen::Index> order = inOrder(fitter);
-  std::vector<GapChangePoint> found;
-  // Relative gap of each sample, and its weight.
-  std::vector<double> relative(order.size());
-  std::vector<double> weight(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
+  Series series;
+  for (const Eigen::Index j : order)
   {
-    const Eigen::Index j = order[i];
     const Eigen::ArrayXd w = fitter.weight().col(j).array();
     const Eigen::ArrayXd u = (w > 0.0).select(predicted.col(j).array(), 0.0);
     const Eigen::ArrayXd residual = (w > 0.0).select(data.observed.col(j).array() - u, 0.0);
-    weight[i] = (w * u.square()).sum();
-    relative[i] = weight[i] > 0.0 ? (w * u * residual).sum() / weight[i] : 0.0;
+    const double weight = (w * u.square()).sum();
+    series.weight.push_back(weight);
+    series.value.push_back(weight > 0.0 ? (w * u * residual).sum() / weight : 0.0);
   }
-  struct Segment
+  return series;
+}
+
+// Weighted sums over the samples first .. last - 1.
+struct Segment
+{
+  Segment(const Series& series, std::size_t from, std::size_t to)
+    : first(from)
+    , last(to)
   {
-    std::size_t first, last;
-  };
-  std::vector<Segment> open{ { 0, order.size() } };
-  while (!open.empty() && static_cast<int>(found.size()) < most)
+    for (std::size_t i = first; i < last; ++i)
+    {
+      add(series.value[i], series.weight[i]);
+    }
+  }
+  void add(double value, double factor)
+  {
+    weight += factor;
+    sum += factor * value;
+    square += factor * value * value;
+  }
+  double mean() const { return weight > 0.0 ? sum / weight : 0.0; }
+  double scatter() const { return std::fmax(square - sum * mean(), 0.0); }
+
+  std::size_t first, last;
+  double weight = 0.0, sum = 0.0, square = 0.0;
+};
+
+// The place behind which the segment breaks best; 0 where it does not break significantly.
+std::size_t breakOf(const Series& series, const Segment& segment)
+{
+  Segment left(series, segment.first, segment.first);
+  double best = 0.0;
+  std::size_t place = 0;
+  for (std::size_t i = segment.first; i + 1 < segment.last; ++i)
+  {
+    left.add(series.value[i], series.weight[i]);
+    const double right = segment.weight - left.weight;
+    const bool room =
+      i + 1 >= segment.first + ShortestSegment && i + 1 + ShortestSegment <= segment.last;
+    if (room && left.weight > 0.0 && right > 0.0)
+    {
+      const double change = (segment.sum - left.sum) / right - left.mean();
+      const double explained = change * change * left.weight * right / segment.weight;
+      place = explained > best ? i + 1 : place;
+      best = std::fmax(best, explained);
+    }
+  }
+  const auto count = static_cast<double>(segment.last - segment.first);
+  const double spread =
+    std::fmax((segment.scatter() - best) / (count - 2.0), Rounding * segment.weight / count);
+  return best >= Significant * Significant * spread ? place : 0;
+}
+}
+
+std::vector<GapChangePoint> OrderBreaks::significant(
+  const EffectFitter& fitter, const Eigen::MatrixXd& predicted, int most)
+{
+  const std::vector<Eigen::Index> order = inOrder(fitter);
+  const Series series = relativeGaps(fitter, predicted, order);
+  std::vector<std::size_t> places;
+  std::vector<Segment> open{ { series, 0, order.size() } };
+  while (!open.empty() && static_cast<int>(places.size()) < most)
   {
     const Segment segment = open.back();
     open.pop_back();
-    if (segment.last - segment.first < 2 * ShortestSegment)
+    const std::size_t place =
+      segment.last - segment.first < 2 * ShortestSegment ? 0 : breakOf(series, segment);
+    if (place > 0)
     {
-      continue;
-    }
-    double total = 0.0;
-    double sum = 0.0;
-    double square = 0.0;
-    for (std::size_t i = segment.first; i < segment.last; ++i)
-    {
-      total += weight[i];
-      sum += weight[i] * relative[i];
-      square += weight[i] * relative[i] * relative[i];
-    }
-    double left = 0.0;
-    double leftSum = 0.0;
-    double best = 0.0;
-    double bestChange = 0.0;
-    std::size_t place = segment.first;
-    for (std::size_t i = segment.first; i + 1 < segment.last; ++i)
-    {
-      left += weight[i];
-      leftSum += weight[i] * relative[i];
-      const bool room =
-        i + 1 >= segment.first + ShortestSegment && i + 1 + ShortestSegment <= segment.last;
-      if (!room || left <= 0.0 || total - left <= 0.0)
-      {
-        continue;
-      }
-      const double change = (sum - leftSum) / (total - left) - leftSum / left;
-      const double explained = change * change * left * (total - left) / total;
-      if (explained > best)
-      {
-        best = explained;
-        bestChange = change;
-        place = i;
-      }
-    }
-    const auto count = static_cast<double>(segment.last - segment.first);
-    const double spread = total > 0.0 ? (square - sum * sum / total - best) / (count - 2.0) : 0.0;
-    const double deviations = spread > 0.0 ? std::sqrt(best / spread) : 0.0;
-    if (deviations >= Significant)
-    {
-      const Eigen::VectorXd& at = data.scene.samples().order;
-      found.push_back({ 0.5 * (at[order[place]] + at[order[place + 1]]), bestChange, deviations });
-      open.push_back({ segment.first, place + 1 });
-      open.push_back({ place + 1, segment.last });
+      places.push_back(place);
+      open.emplace_back(series, segment.first, place);
+      open.emplace_back(series, place, segment.last);
     }
   }
-  std::sort(found.begin(), found.end(),
-    [](const GapChangePoint& a, const GapChangePoint& b) { return a.order < b.order; });
+  std::sort(places.begin(), places.end());
+  // Sizes between neighbours, now that all places are known.
+  std::vector<GapChangePoint> found;
+  const Eigen::VectorXd& at = fitter.data().scene.samples().order;
+  for (std::size_t p = 0; p < places.size(); ++p)
+  {
+    const Segment before(series, p > 0 ? places[p - 1] : 0, places[p]);
+    const Segment after(
+      series, places[p], p + 1 < places.size() ? places[p + 1] : series.value.size());
+    const double change = after.mean() - before.mean();
+    const double spread = (before.scatter() + after.scatter()) /
+      (static_cast<double>(after.last - before.first) - 2.0);
+    const double error = std::sqrt(spread * (1.0 / before.weight + 1.0 / after.weight));
+    found.push_back({ 0.5 * (at[order[places[p] - 1]] + at[order[places[p]]]), change,
+      error > 0.0 ? std::fabs(change) / error : 0.0 });
+  }
   return found;
 }
 

@@ -127,6 +127,20 @@ void setUnknownNoise(GapData& data)
   }
 }
 
+// The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
+// it allows, only as much of it stays in the variance as what is left shows.
+void limitIntegration(
+  GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
+{
+  const double allowed = measuredOnly(data, integration).sum();
+  const double other = measuredOnly(data, data.variance).sum() - allowed;
+  if (allowed > 0.0)
+  {
+    const double kept = std::fmin(std::fmax((unpredicted - other) / allowed, 0.0), 1.0);
+    data.variance -= (1.0 - kept) * integration;
+  }
+}
+
 // Per-sample energies before and after, and what noise allows.
 SampleEnergies energiesOf(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
@@ -307,11 +321,12 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   }
 
   const AxisShares rest = shareOverAxes(data, after, true);
+  const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
+  limitIntegration(data, integration, unpredicted);
   double reflectanceNoise = options.reflectanceNoise.value_or(0.0);
   if (!options.reflectanceNoise && !noise.unknown)
   {
     const Eigen::VectorXd gain = reflectanceErrorGain(data.camera);
-    const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
     const double beyond = unpredicted - measuredOnly(data, data.variance).sum();
     const double perUnit = measuredOnly(data, gain.replicate(1, data.samples())).sum();
     reflectanceNoise =

@@ -87,6 +87,16 @@ void PatchStatistics::merge(const PatchStatistics& other) noexcept
   }
 }
 
+void PatchStatistics::grow(int patches)
+{
+  if (patches > Patches)
+  {
+    Patches = patches;
+    Counts.resize(static_cast<std::size_t>(patches));
+    Sums.resize(static_cast<std::size_t>(patches) * static_cast<std::size_t>(2 * Channels + 2));
+  }
+}
+
 std::int64_t PatchStatistics::count(int label) const noexcept
 {
   return Counts[static_cast<std::size_t>(label - 1)].count;

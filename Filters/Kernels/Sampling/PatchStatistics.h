@@ -27,6 +27,8 @@ public:
   void add(int label, double x, double y, const float* pixel) noexcept;
   void add(int label, double x, double y, const double* pixel) noexcept;
   void merge(const PatchStatistics& other) noexcept;
+  // Makes room for labels up to 'patches'; fewer than there are change nothing.
+  void grow(int patches);
 
   // For label 1..patches(). Mean, deviation and center are NaN where count is 0.
   std::int64_t count(int label) const noexcept;

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import resource
 import sys
 
 
@@ -90,8 +91,17 @@ def run(main):
     _finish()
 
 
+def _write_peak():
+    """For tests: the largest resident set of this process in KiB, into the folder MULTISPECTRAL_PEAKS."""
+    folder = os.environ.get("MULTISPECTRAL_PEAKS")
+    if folder:
+        with open(os.path.join(folder, str(rank())), "w", encoding="ascii") as file:
+            print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=file)
+
+
 def _finish():
     """A normal end, which lets MPI close down; a single process leaves at once."""
     from paraview import servermanager
+    _write_peak()
     if servermanager.vtkProcessModule.GetProcessModule().GetNumberOfLocalPartitions() == 1:
         leave("", 0)

@@ -1,5 +1,6 @@
 """From images and samples to a reflectance image, its RGB view and its error maps."""
 
+import collections
 import os
 
 from paraview import simple
@@ -9,11 +10,21 @@ from . import command, pictures, pipeline, report
 ERROR_ARRAYS = ("rms", "dE00 D65", "dE00 F2")
 
 
-def read_image(files, wavelengths=None):
+# Pictures show at most so many pixels along a side; of a larger image every n-th one.
+MOST_PIXELS_OF_PICTURE = 1600
+
+Judged = collections.namedtuple("Judged", "errors summary patches")
+
+
+def read_image(files, wavelengths=None, stride=1):
+    """Camera responses, whatever the file calls them."""
     options = {"Wavelengths": wavelengths} if wavelengths else {}
-    image = pipeline.create("SpectralImageReader", FileNames=files, **options)
-    pipeline.update(image)
-    return image
+    return pipeline.create("SpectralImageReader", FileNames=files, ArrayKind="Responses", Preview=0,
+                           Stride=[stride, stride], **options)
+
+
+def read_labels(path, stride=1):
+    return pipeline.create("LabelImageReader", FileName=path, Stride=[stride, stride])
 
 
 def flat_field(image, white, dark):
@@ -25,9 +36,12 @@ def flat_field(image, white, dark):
         frames["White"] = white
     if dark is not None:
         frames["Dark"] = dark
-    corrected = pipeline.create("FlatFieldCorrection", Input=image, **frames)
-    pipeline.update(corrected)
-    return corrected
+    return pipeline.create("FlatFieldCorrection", Input=image, **frames)
+
+
+def stride_of_pictures(image):
+    """1, or every how many pixels a picture of this image shows."""
+    return -(-max(pictures.size(image)) // MOST_PIXELS_OF_PICTURE)
 
 
 def correction(calibration, tuning, method):
@@ -47,33 +61,46 @@ def correction(calibration, tuning, method):
 
 
 def estimate(image, transforms, folder):
-    """The reflectance image, written with its transforms, and its RGB view as rgb.png."""
-    reflectance = pipeline.create("ReflectanceEstimation", Input=image, **transforms)
-    pipeline.update(reflectance)
+    """The reflectance image, which nothing has computed yet; its transforms are written."""
     for name, source in transforms.items():
         words = "".join("-" + c.lower() if c.isupper() else c for c in name).lstrip("-")
         pipeline.save_table(source, os.path.join(folder, f"{words}.csv"))
+    return pipeline.create("ReflectanceEstimation", Input=image, **transforms)
+
+
+def save_view(reflectance, folder):
+    """The RGB view as rgb.png."""
     color = pipeline.create("SpectralToColor", Input=reflectance)
     pipeline.update(color)
     pictures.image(color, "sRGB", os.path.join(folder, "rgb.png"), rgb=True)
-    return reflectance
 
 
 def save_reflectance(reflectance, folder):
-    path = os.path.join(folder, "reflectance.exr")
-    pipeline.save_image(reflectance, path)
-    return path
+    """Block by block: the image never stands in memory whole."""
+    pipeline.save_image(reflectance, os.path.join(folder, "reflectance.exr"))
 
 
-def judge(reflectance, labels, held_out, folder, tops=None):
-    """Error maps over the held-out patches, and the errors of the patches' mean spectra."""
+def error_maps(reflectance, labels, held_out):
     reference = pipeline.create("PatchReferenceImage", Input=labels, PatchTable=held_out)
-    errors = pipeline.create("CIEDE2000Evaluator", Input=reflectance, Reference=reference)
+    return pipeline.create("CIEDE2000Evaluator", Input=reflectance, Reference=reference)
+
+
+def judge(reflectance, labels, held_out, folder, tops=None, view=None):
+    """Error maps over the held-out patches, their statistics, and the errors of the patches' mean spectra.
+
+    view: reflectance and labels for the pictures, where the image is too large to be shown pixel by pixel."""
+    maps = os.path.join(folder, "error-maps.img")
+    pipeline.save_image(error_maps(reflectance, labels, held_out), maps,
+                        PointArrays=list(ERROR_ARRAYS))
+    summary = pipeline.create("ErrorSummary",
+                              Input=pipeline.create("SpectralImageReader", FileNames=[maps], Preview=0))
+    pipeline.update(summary)
+    pipeline.save_table(summary, os.path.join(folder, "errors-of-pixels.csv"))
+
+    errors = error_maps(*(view or (reflectance, labels)), held_out)
     pipeline.update(errors)
-    tops = tops or top_errors(errors)
-    for array, top in zip(ERROR_ARRAYS, tops):
+    for array, top in zip(ERROR_ARRAYS, tops or top_errors(summary)):
         pictures.image(errors, array, error_picture(folder, array), value_range=(0.0, top))
-    pipeline.save_table(pipeline.port(errors, 1), os.path.join(folder, "errors-of-pixels.csv"))
 
     sampled = pipeline.create("PatchSampler", Input=reflectance, Labels=labels,
                               PatchTable=held_out)
@@ -81,7 +108,7 @@ def judge(reflectance, labels, held_out, folder, tops=None):
     pipeline.update(patches)
     pipeline.save_table(patches, os.path.join(folder, "patches.csv"))
     pipeline.save_table(pipeline.port(patches, 1), os.path.join(folder, "errors-of-patches.csv"))
-    return errors, patches
+    return Judged(errors, summary, patches)
 
 
 def print_summary(title, source):
@@ -98,9 +125,9 @@ def print_summary(title, source):
         command.say(f"  {label:<10}{figures}   ({row[at('count')]:.0f})")
 
 
-def top_errors(errors):
+def top_errors(summary):
     """The 95th percentile of each error: where the color scale of its map ends."""
-    names, rows = pipeline.table(pipeline.port(errors, 1))
+    names, rows = pipeline.table(summary)
     return pipeline.share([row[names.index("p95")] for row in rows], len(ERROR_ARRAYS))
 
 
@@ -108,18 +135,18 @@ def error_picture(folder, array):
     return os.path.join(folder, f"error-{array.replace(' ', '-')}.png")
 
 
-def report_errors(errors, patches, folder):
+def report_errors(judged, folder):
     """The report's sections on where the result is wrong."""
     maps = {os.path.basename(error_picture(folder, array)):
             f"{array} over the held-out patches; the color scale ends at the 95th percentile"
             for array in ERROR_ARRAYS}
     return [report.pictures("Where it is wrong", folder, maps),
             report.table("Errors of the held-out patches (mean spectrum of each)",
-                         *pipeline.table(pipeline.port(patches, 1))),
+                         *pipeline.table(pipeline.port(judged.patches, 1))),
             report.table("Errors of the held-out pixels",
-                         *pipeline.table(pipeline.port(errors, 1))),
-            report.table("Each held-out patch", *pipeline.table(patches),
-                         columns=patch_columns(patches))]
+                         *pipeline.table(judged.summary)),
+            report.table("Each held-out patch", *pipeline.table(judged.patches),
+                         columns=patch_columns(judged.patches))]
 
 
 def patch_columns(patches):
@@ -127,13 +154,14 @@ def patch_columns(patches):
     return [name for name in ("sample", "label", "medium", "count", *ERROR_ARRAYS) if name in names]
 
 
-def save_state(path, reflectance, errors=None):
+def save_state(path, reflectance, judged=None):
     """The pipeline as a ParaView state that opens with the RGB view and the error map side by side."""
     color = pipeline.create("SpectralToColor", Input=reflectance)
     pipeline.update(color)
     views = [pictures.image_view(color, "sRGB", rgb=True)]
-    if errors is not None:
-        views.append(pictures.image_view(errors, "dE00 D65", (0.0, top_errors(errors)[1])))
+    if judged is not None:
+        views.append(pictures.image_view(judged.errors, "dE00 D65",
+                                         (0.0, top_errors(judged.summary)[1])))
     pictures.side_by_side(views)
     if command.rank() == 0:
         simple.SaveState(path)

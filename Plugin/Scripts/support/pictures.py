@@ -1,6 +1,7 @@
 """Pictures of pipelines: images with a color legend, and charts of tables."""
 
 from paraview import simple
+from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 # Okabe and Ito's palette: told apart with any color vision.
@@ -36,6 +37,21 @@ def _whole_extent(source):
     return information.Get(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT())
 
 
+def _frame(source):
+    """Extent, origin and spacing of the whole image."""
+    information = source.SMProxy.GetClientSideObject().GetOutputInformation(
+        getattr(source, "Port", 0))
+    return (_whole_extent(source), information.Get(vtkDataObject.ORIGIN()),
+            information.Get(vtkDataObject.SPACING()))
+
+
+def size(source):
+    """Columns and rows of an image."""
+    source.UpdatePipelineInformation()
+    extent = _whole_extent(source)
+    return extent[1] - extent[0] + 1, extent[3] - extent[2] + 1
+
+
 def image(source, array, path, value_range=None, rgb=False):
     """A picture of one array of an image, upright, each pixel enlarged by a whole number."""
     view = image_view(source, array, value_range, rgb)
@@ -43,7 +59,7 @@ def image(source, array, path, value_range=None, rgb=False):
 
 
 def image_view(source, array, value_range=None, rgb=False):
-    extent = _whole_extent(source)
+    extent, origin, spacing = _frame(source)
     width, height = extent[1] - extent[0] + 1, extent[3] - extent[2] + 1
     scale = max(1, round(1000 / max(width, height)))
     legend = 0 if rgb else 150
@@ -62,9 +78,9 @@ def image_view(source, array, value_range=None, rgb=False):
     else:
         _map_errors(display, view, array, value_range)
     # The image fills the view but for the legend at the right.
-    units = 1.0 / scale
-    center_x = 0.5 * (extent[0] + extent[1]) + 0.5 * legend * units
-    center_y = 0.5 * (extent[2] + extent[3])
+    units = spacing[0] / scale
+    center_x = origin[0] + 0.5 * (extent[0] + extent[1]) * spacing[0] + 0.5 * legend * units
+    center_y = origin[1] + 0.5 * (extent[2] + extent[3]) * spacing[1]
     view.CameraFocalPoint = [center_x, center_y, 0.0]
     view.CameraPosition = [center_x, center_y, 1000.0]
     view.CameraParallelScale = 0.5 * view.ViewSize[1] * units

@@ -132,14 +132,14 @@ def save_table(source, path):
     save("SampleTableWriter", source, path)
 
 
-def save_image(source, path):
-    """Writes a spectral image through the plugin's writer: complete or absent."""
-    save("SpectralImageWriter", source, path)
+def save_image(source, path, **properties):
+    """Writes a spectral image through the plugin's writer, block by block: complete or absent."""
+    save("SpectralImageWriter", source, path, **properties)
 
 
-def save(name, source, path):
+def save(name, source, path, **properties):
     """Writes through the named writer of the plugin."""
-    writer = getattr(servermanager.writers, name)(Input=source, FileName=path)
+    writer = getattr(servermanager.writers, name)(Input=source, FileName=path, **properties)
     watch(writer)
     writer.UpdatePipeline()
     fail_on_error()

@@ -202,7 +202,8 @@ private:
         ++leftOut;
       }
     }
-    Found.quantity = reflective ? "reflectance" : "emission";
+    const bool responses = spec.get_string_attribute(QuantityAttribute) == "responses";
+    Found.quantity = !reflective ? "emission" : responses ? "responses" : "reflectance";
     note(preview, " channels without a wavelength (a color preview) were left out");
     note(reradiating, " fluorescence channels were left out");
     note(leftOut,

@@ -52,7 +52,7 @@ std::string withoutExtension(const std::string& path)
 // NAME.img for NAME.hdr or NAME.img.hdr; the first of the known names that exists.
 std::string dataFileOf(const std::string& header)
 {
-  const std::string stem = withoutExtension(header);
+  std::string stem = withoutExtension(header);
   if (isFile(stem))
   {
     return stem;
@@ -113,6 +113,11 @@ std::optional<EnviFiles> findEnviFiles(const std::string& path)
       "put the ENVI header beside the data file");
   }
   return std::nullopt;
+}
+
+bool isEnviName(const std::string& path)
+{
+  return !fs::path(path).has_extension() || hasHeaderExtension(path) || hasDataExtension(path);
 }
 
 EnviFiles enviFilesToWrite(const std::string& path)

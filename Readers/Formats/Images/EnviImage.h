@@ -21,6 +21,9 @@ struct EnviFiles
 // Nothing where 'path' is neither a header nor has one beside it.
 std::optional<EnviFiles> findEnviFiles(const std::string& path);
 
+// True for a name without an extension, or with .hdr or one of those above.
+bool isEnviName(const std::string& path);
+
 // Where an image named 'path' is written: NAME.hdr beside NAME.EXT for the extensions above, .img where
 // there is none, NAME.EXT.hdr beside NAME.EXT for any other.
 EnviFiles enviFilesToWrite(const std::string& path);

@@ -21,6 +21,9 @@ struct SpectralExrName
 //         2021, section 4.
 std::optional<SpectralExrName> parseSpectralExrName(std::string_view name);
 
+// The attribute that says, as "responses", that T channels are no reflectance but camera responses.
+inline constexpr const char* QuantityAttribute = "multispectralQuantity";
+
 // The name of a channel at a wavelength, with the shortest decimals: T.400nm, S0.400,5nm.
 std::string spectralExrName(char kind, double nanometres);
 

@@ -33,6 +33,10 @@ OIIO::ImageSpec specFor(const SpectralImageInfo& info)
   spec.attribute("DateTime", ""); // the same image gives the same bytes at any time
   spec.attribute("compression", "zip");
   spec.attribute("spectralLayoutVersion", "1.0");
+  if (info.quantity == "responses")
+  {
+    spec.attribute(QuantityAttribute, info.quantity);
+  }
   if (emission)
   {
     spec.attribute("emissiveUnits", "W.m^-2.sr^-1");

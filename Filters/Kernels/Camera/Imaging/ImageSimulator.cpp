@@ -252,7 +252,7 @@ struct ImageSimulator::Implementation
 };
 
 ImageSimulator::ImageSimulator(CameraModel camera, std::vector<CameraEffect> effects,
-  const ImageExtent& extent, ImageSimulatorOptions options)
+  const ImageExtent& extent, const ImageSimulatorOptions& options)
   : Self(std::make_unique<Implementation>(std::move(camera), std::move(effects), extent, options))
 {
 }

@@ -48,7 +48,7 @@ class ImageSimulator
 {
 public:
   ImageSimulator(CameraModel camera, std::vector<CameraEffect> effects, const ImageExtent& extent,
-    ImageSimulatorOptions options = {});
+    const ImageSimulatorOptions& options = {});
   ~ImageSimulator();
   ImageSimulator(ImageSimulator&&) noexcept;
   ImageSimulator& operator=(ImageSimulator&&) noexcept;

@@ -1,0 +1,303 @@
+#include "Kernels/Gap/SimToRealGap.h"
+
+#include "Kernels/Gap/GapTestData.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace
+{
+
+using namespace msi::test;
+using msi::GapVerdict;
+
+constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+TEST(SimToRealGap, NoGapIsQuiet)
+{
+  const msi::GapReport report = diagnosisOf(captureWith({}));
+  EXPECT_EQ(report.verdict, GapVerdict::NoGap);
+  EXPECT_STREQ(msi::nameOf(report.verdict), "no gap");
+  EXPECT_TRUE(report.causes.empty());
+  EXPECT_TRUE(report.correction.empty());
+  EXPECT_EQ(report.gap.shrink, 0.0);
+  EXPECT_TRUE(report.changePoints.empty());
+  // The mean of two readings of 0.0005 each.
+  EXPECT_NEAR(report.gap.rmsBefore, TestReadNoise / std::sqrt(2.0), 0.1 * TestReadNoise);
+  EXPECT_NEAR(report.gap.noiseFloor, report.gap.rmsBefore, 0.1 * TestReadNoise);
+}
+
+TEST(SimToRealGap, OneEffectIsNamedMeasuredAndPutBack)
+{
+  const msi::GapCapture capture = captureWith({ { "filter_shift", "", "", { 2.5 } } });
+  const msi::GapReport report = diagnosisOf(capture);
+  ASSERT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_EQ(report.causes.size(), 1U);
+  const msi::GapCause& cause = report.causes.front();
+  EXPECT_EQ(cause.effect, "filter_shift");
+  EXPECT_LE(cause.equivalent.size(), 2U);
+  ASSERT_EQ(cause.parameters.front().name, "shift");
+  EXPECT_EQ(cause.parameters.front().unit, "nm");
+  EXPECT_NEAR(
+    cause.parameters.front().value, 2.5, 3.0 * cause.parameters.front().standardError + 0.01);
+  EXPECT_GT(report.gap.shrink, 0.95);
+  EXPECT_LE(report.gap.shrinkInterval[0], report.gap.shrink);
+  EXPECT_GE(report.gap.shrinkInterval[1], report.gap.shrink);
+  EXPECT_NEAR(cause.share + report.unexplained.share, 1.0, 1e-9);
+  // The corrected simulator reproduces the real camera.
+  const Eigen::MatrixXd corrected =
+    msi::CameraSimulator(capture.camera, report.correction, { report.whiteAfterEffects })
+      .respond(rasterScene(96));
+  const Eigen::MatrixXd real =
+    msi::CameraSimulator(capture.camera, { { "filter_shift", "", "", { 2.5 } } })
+      .respond(rasterScene(96));
+  const Eigen::MatrixXd nominal = msi::CameraSimulator(capture.camera, {}).respond(rasterScene(96));
+  EXPECT_LT((corrected - real).norm(), 0.03 * (nominal - real).norm());
+  EXPECT_EQ(report.gapBefore.rows(), 7);
+  EXPECT_EQ(report.gapBefore.cols(), 96);
+  EXPECT_LT(report.gapAfter.norm(), 0.2 * report.gapBefore.norm());
+}
+
+TEST(SimToRealGap, TwoEffectsShareTheGap)
+{
+  const msi::GapReport report = diagnosisOf(captureWith(
+    { { "illumination_gradient", "", "", { 0.05, 0.0 } }, { "dark_offset", "", "", { 0.01 } } }));
+  ASSERT_EQ(report.verdict, GapVerdict::Explained);
+  std::vector<std::string> names;
+  double sum = report.unexplained.share;
+  for (const msi::GapCause& cause : report.causes)
+  {
+    names.push_back(cause.effect);
+    sum += cause.share;
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{ "dark_offset", "illumination_gradient" }));
+  EXPECT_NEAR(sum, 1.0, 1e-9);
+}
+
+// With one medium a gain of the medium and of the exposure are the same numbers.
+TEST(SimToRealGap, WhatThisCaptureCannotTellApartIsSaid)
+{
+  msi::SceneSamples samples = rasterSamples(96);
+  samples.medium.assign(96, "paper");
+  const msi::GapReport report =
+    diagnosisOf(captureOf(samples, { { "exposure_gain", "", "", { 1.05 } } }));
+  ASSERT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_EQ(report.causes.front().effect, "exposure_gain");
+  EXPECT_TRUE(says(report.causes.front().equivalent, "medium_gain"));
+  ASSERT_TRUE(report.nextCapture.has_value());
+  EXPECT_EQ(report.nextCapture->capture, "repeated white");
+  EXPECT_TRUE(says(report.nextCapture->separates, "medium_gain"));
+  EXPECT_TRUE(says(report.notes, "One medium only"));
+}
+
+// A gain of its own for each sample: in no library.
+TEST(SimToRealGap, UnknownIsCalledUnknown)
+{
+  msi::GapCapture capture = captureWith({});
+  for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
+  {
+    const int sample = capture.sampleOf[static_cast<std::size_t>(j)];
+    capture.readings.col(j) *= sample * 7 % 12 < 6 ? 1.04 : 0.96;
+  }
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_EQ(report.verdict, GapVerdict::Unexplained);
+  EXPECT_TRUE(report.causes.empty());
+  EXPECT_DOUBLE_EQ(report.unexplained.share, 1.0);
+  EXPECT_FALSE(report.unexplained.where.empty());
+  ASSERT_FALSE(report.where.empty());
+  EXPECT_EQ(report.where.front().axis, "sample");
+}
+
+TEST(SimToRealGap, AnEffectLeftOutIsNotBlamed)
+{
+  const msi::GapCapture capture =
+    captureWith({ { "illumination_gradient", "", "", { 0.06, 0.02 } } });
+  ASSERT_EQ(diagnosisOf(capture).causes.front().effect, "illumination_gradient");
+  msi::GapOptions options;
+  options.without = { "illumination_gradient" };
+  const msi::GapReport report = diagnosisOf(capture, options);
+  EXPECT_TRUE(
+    report.verdict == GapVerdict::Unexplained || report.verdict == GapVerdict::PartlyExplained);
+  for (const msi::GapCause& cause : report.causes)
+  {
+    EXPECT_NE(cause.effect, "illumination_gradient");
+    EXPECT_LT(cause.share, 0.5);
+  }
+  EXPECT_EQ(report.where.front().axis, "position");
+}
+
+TEST(SimToRealGap, ScatterBeyondTheNoiseModelIsExcessNoise)
+{
+  msi::GapCapture capture = captureOf(rasterSamples(96), {}, 4, 0.002);
+  capture.noise = msi::ReadingNoise{ 0.001, 0.0 };
+  const msi::GapReport report = diagnosisOf(capture);
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "excess_noise");
+  EXPECT_NEAR(report.causes.front().parameters.front().value, 2.0,
+    4.0 * report.causes.front().parameters.front().standardError);
+}
+
+TEST(SimToRealGap, TheSameBytesOnManyThreadsAndOne)
+{
+  const msi::GapCapture capture = captureWith({ { "medium_gain", "", "fabric", { 0.94 } } }, 48);
+  const msi::GapReport alone = diagnosisOf(capture);
+  std::mutex mutex;
+  msi::GapOptions options;
+  std::atomic<int> steps{ 0 };
+  options.progress = [&steps](double fraction, const char*)
+  {
+    ++steps;
+    return fraction >= 0.0 && fraction <= 1.0;
+  };
+  options.exclusive = [&mutex](const std::function<void()>& body)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    body();
+  };
+  options.parallelFor = [](int count, const std::function<void(int)>& body)
+  {
+    std::vector<std::thread> threads;
+    for (int i = count - 1; i >= 0; --i)
+    {
+      threads.emplace_back([&body, i] { body(i); });
+    }
+    for (std::thread& thread : threads)
+    {
+      thread.join();
+    }
+  };
+  const msi::GapReport parallel = diagnosisOf(capture, options);
+  EXPECT_GT(steps, 0);
+  EXPECT_EQ(alone.verdict, parallel.verdict);
+  EXPECT_EQ(alone.gap.shrink, parallel.gap.shrink);
+  EXPECT_EQ(alone.gap.shrinkInterval, parallel.gap.shrinkInterval);
+  EXPECT_EQ(alone.gapAfter, parallel.gapAfter);
+  ASSERT_EQ(alone.causes.size(), parallel.causes.size());
+  EXPECT_EQ(alone.causes.front().parameters.front().value,
+    parallel.causes.front().parameters.front().value);
+}
+
+TEST(SimToRealGap, StopsWhenAskedTo)
+{
+  msi::GapOptions options;
+  options.progress = [](double, const char*) { return false; };
+  EXPECT_FALSE(msi::diagnoseGap(captureWith({}, 24), options).has_value());
+}
+
+TEST(SimToRealGap, RefusesWhatDisagreesAndSaysWhat)
+{
+  const auto message = [](const auto& change)
+  {
+    msi::GapCapture capture = captureWith({}, 12);
+    msi::GapOptions options;
+    change(capture, options);
+    return messageOf([&] { msi::diagnoseGap(capture, options); });
+  };
+  using Capture = msi::GapCapture;
+  using Options = msi::GapOptions;
+  EXPECT_EQ(message([](Capture& c, Options&) { c.readings = c.readings.topRows(6).eval(); }),
+    "the camera has 7 channels but the readings have 6");
+  EXPECT_EQ(message([](Capture& c, Options&) { c.sampleOf.pop_back(); }),
+    "there are 24 readings but 23 sample numbers for them");
+  EXPECT_EQ(message([](Capture& c, Options&) { c.sampleOf[4] = 12; }),
+    "reading 5 belongs to sample number 12 but there are only 12 samples, counted from 0");
+  EXPECT_EQ(message([](Capture& c, Options&)
+              { c.wavelengths = msi::WavelengthGrid::uniform(400.0, 700.0, 20.0); }),
+    "the samples' reflectances have 31 wavelengths, their grid 16");
+  EXPECT_EQ(message([](Capture&, Options& o) { o.without = { "gremlins" }; }),
+    "there is no effect 'gremlins' to leave out");
+  EXPECT_EQ(message([](Capture& c, Options&)
+              { c.readings.rightCols(22).setConstant(NotMeasured); }),
+    "a diagnosis needs 2 samples or more with reading and reflectance; 1 of 12 have both");
+}
+
+TEST(DegenerateCapture, OneReadingAndNoNoiseModel)
+{
+  msi::GapCapture capture =
+    captureOf(rasterSamples(96), { { "exposure_gain", "", "", { 1.06 } } }, 1);
+  capture.noise.reset();
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "No noise model and one reading a sample"));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_EQ(report.causes.front().effect, "exposure_gain");
+}
+
+TEST(DegenerateCapture, NoMediaNoPositionsNoOrder)
+{
+  msi::SceneSamples samples;
+  samples.reflectance = rasterSamples(96).reflectance;
+  const msi::GapReport report =
+    diagnosisOf(captureOf(samples, { { "detector_nonlinearity", "gamma", "", { 0.9 } } }));
+  EXPECT_TRUE(says(report.notes, "The samples name no medium"));
+  EXPECT_TRUE(says(report.notes, "No positions"));
+  EXPECT_TRUE(says(report.notes, "No capture order"));
+  EXPECT_TRUE(says(report.notes, "One scene only"));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "detector_nonlinearity");
+}
+
+TEST(DegenerateCapture, FewerSamplesThanParameters)
+{
+  const msi::GapReport report =
+    diagnosisOf(captureWith({ { "exposure_gain", "", "", { 1.08 } } }, 4));
+  EXPECT_TRUE(says(report.notes, "samples are few"));
+  EXPECT_NE(report.verdict, GapVerdict::NoGap);
+  EXPECT_TRUE(report.gapAfter.allFinite());
+  EXPECT_TRUE(std::isfinite(report.gap.shrink));
+}
+
+TEST(DegenerateCapture, TwoSamplesAndOneChannel)
+{
+  msi::GapCapture whole = captureWith({ { "exposure_gain", "", "", { 1.1 } } }, 2);
+  const msi::CameraModel one(visibleGrid(), whole.camera.responsivity().topRows(1),
+    whole.camera.dark().head(1));
+  const msi::GapCapture capture{ one, whole.wavelengths, whole.samples, whole.readings.topRows(1),
+    whole.sampleOf, whole.noise };
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "samples are few"));
+  EXPECT_TRUE(std::isfinite(report.gap.rmsBefore));
+}
+
+TEST(DegenerateCapture, ConstantReflectance)
+{
+  msi::SceneSamples samples = rasterSamples(48);
+  samples.reflectance.setConstant(0.5);
+  const msi::GapReport report =
+    diagnosisOf(captureOf(samples, { { "illumination_gradient", "", "", { 0.05, 0.0 } } }));
+  EXPECT_TRUE(says(report.notes, "hardly change with wavelength"));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "illumination_gradient");
+}
+
+TEST(DegenerateCapture, SaturatedReadings)
+{
+  msi::GapCapture capture = captureWith({});
+  const double limit = 0.8 * capture.readings.maxCoeff();
+  capture.readings = capture.readings.cwiseMin(limit);
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "look clipped"));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "saturation");
+}
+
+TEST(DegenerateCapture, PartsThatWereNotMeasured)
+{
+  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } });
+  capture.readings.row(2).setConstant(NotMeasured);
+  capture.readings.leftCols(20).setConstant(NotMeasured);
+  capture.samples.reflectance(3, 50) = NotMeasured;
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "11 of 96 samples have no reading or no reflectance"));
+  EXPECT_EQ(report.causes.front().effect, "exposure_gain");
+  EXPECT_TRUE(report.gapBefore.row(2).array().isNaN().all());
+  EXPECT_TRUE(std::isfinite(report.gapBefore(0, 20)));
+}
+
+} // namespace

@@ -127,6 +127,11 @@ def save_image(source, path):
     _write("SpectralImageWriter", source, path)
 
 
+def save_camera(source, path):
+    """Writes a camera's description and curves through the plugin's writer."""
+    _write("CameraWriter", source, path)
+
+
 def _write(name, source, path):
     writer = getattr(servermanager.writers, name)(Input=source, FileName=path)
     watch(writer)

@@ -10,7 +10,7 @@
 #include "vtkTable.h"
 
 #include "Formats/EffectList.h"
-#include "Formats/GapReportFile.h"
+#include "Formats/GapReportText.h"
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Gap/GapProfile.h"

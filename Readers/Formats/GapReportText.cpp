@@ -1,6 +1,4 @@
-#include "Formats/GapReportFile.h"
-
-#include "Formats/Storage/AtomicFile.h"
+#include "Formats/GapReportText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -86,13 +84,6 @@ std::string gapReportText(const GapReport& report)
     { "notes", report.notes } };
   // Names come from the user's tables: bytes that are no UTF-8 must not end the writing.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-void writeGapReportText(const std::string& path, const std::string& text)
-{
-  AtomicFile file(path);
-  file.append(text);
-  file.commit();
 }
 
 } // namespace msi

@@ -38,8 +38,9 @@ def rms_of(simulator):
     return math.sqrt(sum(squares) / len(squares))
 
 
-before = rms_of(simple.CameraSimulator(Input=capture[1], Camera=capture[0]))
-after = rms_of(simple.CameraSimulator(Input=capture[1], Camera=simple.CameraReader(FileName=str(path))))
+before = rms_of(simple.CameraSimulator(Input=capture[1], Camera=capture[0], Noise="None"))
+after = rms_of(simple.CameraSimulator(Input=capture[1], Camera=simple.CameraReader(FileName=str(path)),
+                                     Noise="None"))
 print(f"rms {before:.5f} before, {after:.5f} after")
 held_out = servermanager.Fetch(gap, idx=0).GetValueByName(0, "rms_before").ToDouble()
 faults = []

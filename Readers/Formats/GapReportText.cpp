@@ -48,9 +48,9 @@ Json candidatesOf(const GapReport& report)
   Json candidates = Json::array();
   for (const GapCandidate& candidate : report.candidates)
   {
-    candidates.push_back({ { "effect", candidate.effect }, { "form", candidate.form },
-      { "medium", candidate.medium }, { "shrink", candidate.shrink },
-      { "shrink_interval", candidate.shrinkInterval } });
+    candidates.push_back(
+      { { "effect", candidate.effect }, { "form", candidate.form }, { "medium", candidate.medium },
+        { "shrink", candidate.shrink }, { "shrink_interval", candidate.shrinkInterval } });
   }
   return candidates;
 }
@@ -60,8 +60,8 @@ Json changePointsOf(const GapReport& report)
   Json points = Json::array();
   for (const GapChangePoint& point : report.changePoints)
   {
-    points.push_back({ { "order", point.order }, { "change", point.change },
-      { "deviations", point.deviations } });
+    points.push_back(
+      { { "order", point.order }, { "change", point.change }, { "deviations", point.deviations } });
   }
   return points;
 }

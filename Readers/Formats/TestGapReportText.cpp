@@ -19,7 +19,8 @@ msi::GapReport filledReport()
     { { "shift", 2.9, "nm", 0.05 } } } };
   report.candidates = { { "filter_shift", "common", "", 0.85, { 0.8, 0.9 } } };
   report.unexplained = { 0.06, "medium fabric" };
-  report.nextCapture = msi::GapNextCapture{ "lamp spectrum", { "filter_shift", "illuminant_drift" } };
+  report.nextCapture =
+    msi::GapNextCapture{ "lamp spectrum", { "filter_shift", "illuminant_drift" } };
   report.notes = { "One medium only." };
   return report;
 }

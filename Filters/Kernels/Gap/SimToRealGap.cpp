@@ -129,8 +129,7 @@ void setUnknownNoise(GapData& data)
 
 // The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
 // it allows, only as much of it stays in the variance as what is left shows.
-void limitIntegration(
-  GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
+void limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
 {
   const double allowed = measuredOnly(data, integration).sum();
   const double other = measuredOnly(data, data.variance).sum() - allowed;

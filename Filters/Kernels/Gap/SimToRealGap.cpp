@@ -22,6 +22,7 @@ namespace
 {
 constexpr double LargestReflectanceNoise = 0.003;
 constexpr double ExplainedShrink = 0.85;
+constexpr double ExplainedShare = 0.7; // of the causes together
 constexpr double NegligiblePart = 0.25; // of what is left
 constexpr double PartlyShrink = 0.25;
 constexpr double PredictableDeviations = 4.0;
@@ -352,10 +353,15 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     report.causes = describeCauses(fitter, found, choices, certain);
     report.correction = found.best.set.simulated();
     report.whiteAfterEffects = found.best.set.whiteAfterEffects();
-    report.verdict = report.gap.shrink >= ExplainedShrink ? GapVerdict::Explained
-      : report.gap.shrink >= PartlyShrink                 ? GapVerdict::PartlyExplained
-                                                          : GapVerdict::Unexplained;
-    report.unexplained.share = std::fmin(std::fmax(1.0 - certain, 0.0), 1.0);
+    double share = 0.0;
+    for (const GapCause& cause : report.causes)
+    {
+      share += cause.share;
+    }
+    report.unexplained.share = std::fmin(std::fmax(1.0 - share, 0.0), 1.0);
+    report.verdict = shrink >= ExplainedShrink && share >= ExplainedShare ? GapVerdict::Explained
+      : shrink >= PartlyShrink ? GapVerdict::PartlyExplained
+                               : GapVerdict::Unexplained;
     report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
   }
   else if ((predictable(data, before, where) &&

@@ -43,7 +43,7 @@ double commonFraction(const Eigen::VectorXd& deviations)
   }
   Eigen::MatrixXd basis(channels, CommonDirections);
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(channels, -1.0, 1.0);
-  basis << Eigen::VectorXd::Ones(channels), x.matrix(), x.square().matrix();
+  basis << Eigen::VectorXd::Ones(channels), x.matrix(), x.square().matrix(), x.cube().matrix();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
   const Eigen::MatrixXd q =
     qr.householderQ() * Eigen::MatrixXd::Identity(channels, CommonDirections);

@@ -11,9 +11,9 @@ namespace msi
 // 1 where there are not more channels than directions.
 double chanceOfFraction(double fraction, int directions, int channels);
 
-// The part of the deviations' energy in a constant, a slope and a curve over the channels.
+// The part of the deviations' energy in a cubic over the channels: what a smooth change of the light does to them.
 double commonFraction(const Eigen::VectorXd& deviations);
-constexpr int CommonDirections = 3;
+constexpr int CommonDirections = 4;
 
 // Below this chance deviations count as one error common to the channels.
 constexpr double StructuredChance = 0.003;

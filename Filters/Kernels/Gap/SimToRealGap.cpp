@@ -347,9 +347,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     NegligiblePart * meanOverMeasured(data, after.array().square().matrix()));
   if (found.best.set.size() > 0 && explained > negligible && report.gap.shrink > 0.0)
   {
-    // What is left has a cause that is not known, and may overlap with those found by as much as its own size.
+    // What is left has a cause that is not known, and may overlap with those found by as much as its own size: of what
+    // they do, only that part is certain.
     const double shrink = report.gap.shrink;
-    const double certain = shrink >= ExplainedShrink ? shrink : std::fmax(2.0 * shrink - 1.0, 0.0);
+    const double certain =
+      shrink >= ExplainedShrink ? shrink : shrink * std::fmax(2.0 * shrink - 1.0, 0.0);
     report.causes = describeCauses(fitter, found, choices, certain);
     report.correction = found.best.set.simulated();
     report.whiteAfterEffects = found.best.set.whiteAfterEffects();

@@ -21,12 +21,12 @@ TEST(ChannelStructure, ChanceHasItsClosedForms)
 TEST(ChannelStructure, CurvesOverTheChannelsAreCommonAlternationIsNot)
 {
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(12, 0.0, 1.0);
-  EXPECT_NEAR(msi::commonFraction((0.02 + 0.1 * x - 0.3 * x.square()).matrix()), 1.0, 1e-12);
+  EXPECT_NEAR(msi::commonFraction((0.02 + 0.1 * x - 0.3 * x.square() + x.cube()).matrix()), 1.0, 1e-12);
   Eigen::VectorXd alternating(12);
   alternating << 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1;
   EXPECT_LT(msi::commonFraction(alternating), 0.1);
   EXPECT_EQ(msi::commonFraction(Eigen::VectorXd::Zero(12)), 0.0);
-  EXPECT_EQ(msi::commonFraction(Eigen::VectorXd::Ones(3)), 0.0);
+  EXPECT_EQ(msi::commonFraction(Eigen::VectorXd::Ones(4)), 0.0);
 }
 
 } // namespace

@@ -51,12 +51,11 @@ Bench drawBench(Random& random)
   return bench;
 }
 
-void drawPatches(Random& random, const CaseRequest& request, bool mediumMatters,
-  int fewestMedia, std::vector<Patch>& patches, std::vector<std::string>& media)
+void drawPatches(Random& random, const CaseRequest& request, bool mediumMatters, int fewestMedia,
+  std::vector<Patch>& patches, std::vector<std::string>& media)
 {
-  const int mediaCount =
-    mediumMatters ? (chance(random, 0.85) ? integer(random, 2, 4) : 1)
-                  : integer(random, fewestMedia, 3);
+  const int mediaCount = mediumMatters ? (chance(random, 0.85) ? integer(random, 2, 4) : 1)
+                                       : integer(random, fewestMedia, 3);
   std::vector<SwatchBook> books;
   std::vector<SwatchBook> real = realSwatches();
   std::shuffle(real.begin(), real.end(), random);

@@ -98,16 +98,16 @@ std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& sh
 std::vector<double> undoneParts(const EffectFitter& fitter, const EffectFit& fit)
 {
   const GapData& data = fitter.data();
-  const auto weighted = [&fitter](const Eigen::MatrixXd& m) -> Eigen::ArrayXXd
-  { return (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt() * m.array(), 0.0); };
+  const auto weighted = [&fitter](const Eigen::MatrixXd& m) -> Eigen::ArrayXXd {
+    return (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt() * m.array(), 0.0);
+  };
   const Eigen::ArrayXXd all = weighted(fit.predicted - data.simulated);
   std::vector<double> undone;
   for (std::size_t e = 0; e < fit.set.size(); ++e)
   {
     EffectSet rest = fit.set;
     rest.remove(e);
-    const Eigen::ArrayXXd mine =
-      weighted(fit.predicted - respond(data.camera, data.scene, rest));
+    const Eigen::ArrayXXd mine = weighted(fit.predicted - respond(data.camera, data.scene, rest));
     const double size = mine.square().sum();
     const double against = -(mine * (all - mine)).sum();
     undone.push_back(size > 0.0 ? std::fmin(std::fmax(against / size, 0.0), 1.0) : 0.0);
@@ -132,8 +132,7 @@ double credible(const EffectSet& set, std::size_t position)
   const Eigen::VectorXd deviation =
     Eigen::Map<const Eigen::VectorXd>(gain.data(), channels).array() - 1.0;
   const double fraction = commonFraction(deviation);
-  const double chance =
-    chanceOfFraction(fraction, CommonDirections, static_cast<int>(channels));
+  const double chance = chanceOfFraction(fraction, CommonDirections, static_cast<int>(channels));
   return chance < StructuredChance ? std::sqrt(1.0 - fraction) : 1.0;
 }
 

@@ -22,7 +22,7 @@ namespace
 {
 constexpr double LargestReflectanceNoise = 0.003;
 constexpr double ExplainedShrink = 0.85;
-constexpr double ExplainedShare = 0.7; // of the causes together
+constexpr double ExplainedShare = 0.7;  // of the causes together
 constexpr double NegligiblePart = 0.25; // of what is left
 constexpr double PartlyShrink = 0.25;
 constexpr double PredictableDeviations = 4.0;
@@ -130,8 +130,7 @@ void setUnknownNoise(GapData& data)
 
 // The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
 // it allows, only as much of it stays in the variance as what is left shows.
-void limitIntegration(
-  GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
+void limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
 {
   const double allowed = measuredOnly(data, integration).sum();
   const double other = measuredOnly(data, data.variance).sum() - allowed;

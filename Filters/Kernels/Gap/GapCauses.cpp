@@ -247,7 +247,7 @@ double shrinkOf(const EffectFitter& fitter, const EffectFit& fit)
 }
 
 std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchResult& found,
-  const std::vector<EffectChoice>& choices, double total)
+  const std::vector<EffectChoice>& choices, double total, double doubt)
 {
   const EffectFit& best = found.best;
   const std::size_t count = best.set.size();
@@ -266,7 +266,7 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
     cause.form = best.set.choices[e].form->name;
     cause.medium = best.set.choices[e].medium;
     cause.share = sum > 0.0
-      ? std::fmax(total, 0.0) * share[e] / sum * (1.0 - undone[e]) * credible(best.set, e)
+      ? std::fmax(total, 0.0) * share[e] / sum * (1.0 - doubt * undone[e]) * credible(best.set, e)
       : 0.0;
     cause.shrink = alone[std::size_t(1) << e];
     cause.undone = undone[e];

@@ -22,6 +22,7 @@ namespace
 {
 constexpr double LargestReflectanceNoise = 0.003;
 constexpr double ExplainedShrink = 0.85;
+constexpr double DoubtfulRest = 0.05;   // of the gap's size
 constexpr double ExplainedShare = 0.7;  // of the causes together
 constexpr double NegligiblePart = 0.25; // of what is left
 constexpr double PartlyShrink = 0.25;
@@ -351,7 +352,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     const double shrink = report.gap.shrink;
     const double certain =
       shrink >= ExplainedShrink ? shrink : shrink * std::fmax(2.0 * shrink - 1.0, 0.0);
-    report.causes = describeCauses(fitter, found, choices, certain);
+    // Wrong causes that cancel one another mimic one that is not known, but not to the last; right ones may cancel and
+    // leave nothing.
+    const double left = 1.0 - report.gap.shrinkInterval[1];
+    const double doubt = std::fmin(std::fmax(left / DoubtfulRest, 0.0), 1.0);
+    report.causes = describeCauses(fitter, found, choices, certain, doubt);
     report.correction = found.best.set.simulated();
     report.whiteAfterEffects = found.best.set.whiteAfterEffects();
     double share = 0.0;

@@ -183,9 +183,10 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.verdict = shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained
       : shrink >= PartlyShrink                               ? GapVerdict::PartlyExplained
                                                              : GapVerdict::Unexplained;
-    // What is left has a cause that is not known, and may overlap with those found by as much as its own size.
-    const double certain =
-      report.verdict == GapVerdict::Explained ? shrink : std::fmax(2.0 * shrink - 1.0, 0.0);
+    // What is left has a cause that is not known and may overlap with those found.
+    const double certain = report.verdict == GapVerdict::Explained
+      ? shrink
+      : shrink * std::fmin(shrink / ExplainedShrink, 1.0);
     report.causes = fieldCauses(data, found, choices, certain);
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
     report.unexplained.share = std::clamp(1.0 - certain, 0.0, 1.0);

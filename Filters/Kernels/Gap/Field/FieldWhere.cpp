@@ -134,17 +134,27 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
   return change;
 }
 
-// The common gain is the level's.
-void takeCommonGain(std::vector<Eigen::VectorXd>& change)
+// The common gain is the level's: takes it off the channels' and solves for the others again.
+void takeCommonGain(
+  std::vector<Eigen::MatrixXd> normal, std::vector<int> own, std::vector<Eigen::VectorXd>& change)
 {
   double mean = 0.0;
   for (const Eigen::VectorXd& columns : change)
   {
     mean += columns[FieldColumn::Gain] / static_cast<double>(change.size());
   }
-  for (Eigen::VectorXd& columns : change)
+  std::vector<double> gain;
+  for (std::size_t k = 0; k < normal.size(); ++k)
   {
-    columns[FieldColumn::Gain] -= mean;
+    gain.push_back(change[k][FieldColumn::Gain] - mean);
+    const Eigen::VectorXd along = normal[k].col(FieldColumn::Gain);
+    normal[k].col(Columns) -= gain[k] * along;
+  }
+  own.erase(std::remove(own.begin(), own.end(), int(FieldColumn::Gain)), own.end());
+  change = regress(normal, {}, own);
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    change[k][FieldColumn::Gain] = gain[k];
   }
 }
 
@@ -232,7 +242,8 @@ Cells fifths(std::vector<std::pair<double, double>> valueAndEnergy, const std::s
   std::stable_sort(valueAndEnergy.begin(), valueAndEnergy.end(),
     [](const auto& a, const auto& b) { return a.first < b.first; });
   const std::size_t n = valueAndEnergy.size();
-  for (std::size_t part = 0; part < 5 && n >= 5; ++part)
+  const bool alike = n < 5 || !(valueAndEnergy.front().first < valueAndEnergy.back().first);
+  for (std::size_t part = 0; part < 5 && !alike; ++part)
   {
     const std::size_t first = part * n / 5;
     const std::size_t last = (part + 1) * n / 5;
@@ -348,7 +359,7 @@ std::vector<GapAxis> fieldAxes(
     change = regress(training, common, own);
     if ((subset & (ChannelBit | LevelBit)) == ChannelBit)
     {
-      takeCommonGain(change);
+      takeCommonGain(training, own, change);
     }
     explained[subset] = (before - energyLeft(test, change)) / beyond;
   };

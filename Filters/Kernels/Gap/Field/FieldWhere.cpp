@@ -30,7 +30,8 @@ struct Axis
   std::vector<int> common, own;
 };
 
-std::vector<Axis> axesOf(const FieldModel& model)
+// Where the surround is partly not simulated it is no part of the edges.
+std::vector<Axis> axesOf(const FieldModel& model, bool gaps)
 {
   std::vector<Axis> axes = {
     { "channel", {}, { FieldColumn::Gain, FieldColumn::One } },
@@ -40,7 +41,7 @@ std::vector<Axis> axesOf(const FieldModel& model)
         FieldColumn::Diagonal, FieldColumn::Saddle } },
     { "edges", {}, { FieldColumn::Right, FieldColumn::Down, FieldColumn::BlurVariance } },
   };
-  for (int pass = 0; pass < TailPasses; ++pass)
+  for (int pass = 0; !gaps && pass < TailPasses; ++pass)
   {
     axes[3].own.push_back(FieldColumn::Tail + pass);
   }
@@ -303,7 +304,7 @@ std::vector<GapAxis> fieldAxes(
   const FieldStatistics plain = fieldStatistics(data, statistics.model, nullptr, loop);
   auto training = normals(data, plain, true);
   auto test = normals(data, plain, false);
-  const std::vector<Axis> axes = axesOf(statistics.model);
+  const std::vector<Axis> axes = axesOf(statistics.model, !data.filled.empty());
   const auto K = static_cast<std::size_t>(data.channels());
   double before = 0.0;
   double noise = 0.0;

@@ -28,6 +28,7 @@ for path in sorted((root / "Plugin" / "Proxies").glob("*.xml")):
 factory = servermanager.vtkSMProxyManager.GetProxyManager().GetReaderFactory()
 session = servermanager.ActiveConnection.Session
 wanted = {
+    "CaptureReader": root / "Data" / "Captures" / "demo-warm-camera" / "capture.json",
     "SampleTableReader": root / "Data" / "Samples" / "demo-chart.csv",
     "SpectralImageReader": root / "Data" / "Images" / "demo-fabric" / "channel_400nm.tif",
     "LabelImageReader": root / "Data" / "Images" / "demo-fabric" / "labels.png",

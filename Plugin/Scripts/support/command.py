@@ -77,6 +77,8 @@ def run(main):
         main()
     except Failure as failure:
         leave(str(failure), 1)
+    except BrokenPipeError:  # nobody reads on, as behind `| head`
+        os._exit(1)
     except OSError as error:
         leave(f"{error.filename}: {error.strerror}", 1)
     except Exception as error:  # a fault of ours: one line all the same

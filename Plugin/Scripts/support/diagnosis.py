@@ -145,6 +145,9 @@ def verdict_section(figures, causes):
         lines.append(f"Left over: {100 * figures['unexplained_share']:.0f} % of the gap"
                      + (f", mostly along {figures['unexplained_where']}."
                         if figures["unexplained_where"] else "."))
+    if figures["verdict"] == "partly explained":
+        lines.append("The shares are cautious: what is left over may hide under the causes by as much as "
+                     "its own size, and is counted twice.")
     if figures["next_capture"]:
         lines.append(f"Capture next: {figures['next_capture']}. It separates {figures['separates']}.")
     return report.text(f"Verdict: {figures['verdict']}", *lines)
@@ -195,9 +198,8 @@ def which_sections(causes, figures, drawn, folder):
     parts.append(report.table("Parameters of the causes", ["effect", *columns], rows))
     if "which.png" in drawn:
         parts.append(report.pictures("Which effects were tried", folder, {
-            "which.png": "What each effect alone would do, with the 95 % interval over samples; "
-                         "filled: the causes found; brackets: effects that the data cannot tell from a "
-                         "cause"}))
+            "which.png": "The causes found, each with the effects that the data cannot tell from it; and "
+                         "what each effect alone would do, with the 95 % interval over samples"}))
     return parts
 
 

@@ -24,7 +24,7 @@ def draw_all(tables, summary, folder):
         pictures = {"axes.png": _axes(tables["where"]) if gap else None,
                     "where.png": _heat_maps(tables["heat-map"], summary),
                     "map.png": _field(tables["samples"]), "trend.png": _trend(tables["trend"]),
-                    "which.png": _candidates(tables["candidates"]) if gap else None,
+                    "which.png": _which(tables["causes"], tables["candidates"], summary) if gap else None,
                     "how-far.png": _far(summary)}
         for name, figure in pictures.items():
             path = os.path.join(folder, name)
@@ -149,43 +149,70 @@ def _trend(rows):
     return figure
 
 
-def _candidates(rows):
-    rows = rows[:_MOST_LABELS]
-    if not rows:
+def _which(causes, candidates, summary):
+    """Above: the causes, each with what the data cannot tell from it. Below: each effect alone."""
+    causes = list({row["rank"]: row for row in causes}.values())
+    found = [entry for row in causes for entry in
+             [(row, row["effect"])] + [(None, name) for name in row["equivalent"].split(", ") if name]]
+    candidates = candidates[:_MOST_LABELS]
+    if not found and not candidates:
         return None
-    figure, plot = pyplot.subplots(figsize=(10, 1.0 + 0.34 * len(rows)))
+    heights = [0.4 * (len(found) + 1) + 0.4, 0.36 * max(len(candidates), 1) + 0.4]
+    figure, (above, below) = pyplot.subplots(2, 1, layout="constrained", height_ratios=heights,
+                                             figsize=(10, sum(heights) + 1.2))
+    _causes(above, found, summary["unexplained_share"])
+    _candidates(below, candidates)
+    for plot in (above, below):
+        plot.invert_yaxis()
+        plot.xaxis.set_major_formatter(matplotlib.ticker.PercentFormatter(1.0))
+        plot.grid(axis="x", color="#E8E8E8")
+    return figure
+
+
+def _label(row):
+    return row["effect"] + (f" ({row['medium']})" if row["medium"] else "")
+
+
+def _causes(plot, found, left):
+    plot.set_title("The causes together" if found else "No cause was found", fontsize=12, loc="left")
+    share, first = 0.0, 0
+    for place, (cause, _) in enumerate(found):
+        if cause:
+            share, first = cause["share"], place
+            plot.barh(place, share, color=_AFTER)
+            plot.text(share, place, f" {100 * share:.0f} %", va="center")
+        else:
+            plot.barh(place, share, facecolor="white", edgecolor=_PLAIN, hatch="//")
+        if place + 1 == len(found) or found[place + 1][0]:
+            if place > first:
+                _bracket(plot, first, place)
+    plot.barh(len(found), left, color=_PLAIN)
+    plot.text(left, len(found), f" {100 * left:.0f} %", va="center", clip_on=False)
+    plot.set_yticks(range(len(found) + 1), [*(_label(cause) if cause else f"or {name}"
+                                              for cause, name in found), "not explained"])
+    plot.set_xlim(0, 1)
+    plot.set_xlabel("Share of the gap; hatched: does as well in the cause's place")
+
+
+def _candidates(plot, rows):
+    plot.set_title("Each effect alone", fontsize=12, loc="left")
     for place, row in enumerate(rows):
         color = _AFTER if row["cause"] else _PLAIN
         plot.hlines(place, row["shrink_low"], row["shrink_high"], color=color, linewidth=3)
         plot.plot(row["shrink"], place, "o", markersize=9, color=color,
                   markerfacecolor=color if row["cause"] else "white", markeredgewidth=2)
-    plot.set_yticks(range(len(rows)), [
-        row["effect"] + (f" ({row['medium']})" if row["medium"] else "") for row in rows])
-    plot.invert_yaxis()
+    plot.set_yticks(range(len(rows)), [_label(row) for row in rows])
     plot.set_xlim(min([-0.05] + [row["shrink_low"] for row in rows]), 1.02)
     plot.axvline(0, color="#808080", linewidth=0.8)
-    plot.xaxis.set_major_formatter(matplotlib.ticker.PercentFormatter(1.0))
-    plot.set_xlabel("How far this effect alone shrinks the gap")
-    plot.grid(axis="x", color="#E8E8E8")
-    _brackets(plot, rows)
-    return figure
+    plot.set_xlabel("How far it shrinks the gap, with the 95 % interval; filled: one of the causes")
 
 
-def _brackets(plot, rows):
-    """To the right of the chart: each cause and the effects that the data cannot tell from it."""
+def _bracket(plot, first, last):
+    """To the right of the chart, from one row to another."""
     across = plot.get_yaxis_transform()
-    at = 1.02
-    for cause in sorted({row["equivalent_to_cause"] for row in rows} - {0}):
-        members = [place for place, row in enumerate(rows)
-                   if cause in (row["cause"], row["equivalent_to_cause"])]
-        plot.plot([at, at], [min(members), max(members)], color="black", clip_on=False,
-                  transform=across, linewidth=1.5)
-        for place in members:
-            plot.plot([at - 0.012, at], [place, place], color="black", clip_on=False,
-                      transform=across, linewidth=1.5)
-        plot.text(at + 0.01, sum(members) / len(members), "alike", transform=across, va="center",
-                  rotation=270, fontsize=9)
-        at += 0.05
+    plot.plot([1.01, 1.025, 1.025, 1.01], [first, first, last, last], color="black", clip_on=False,
+              transform=across, linewidth=1.5)
+    plot.text(1.035, first, "cannot be\ntold apart", transform=across, va="top", fontsize=9)
 
 
 def _far(summary):

@@ -9,7 +9,7 @@
 namespace msi::scenes
 {
 
-CameraModel demoCamera()
+CameraModel demoCamera(double shift)
 {
   constexpr std::uint64_t Seed = 16;
   const WavelengthGrid grid = sceneGrid();
@@ -21,7 +21,7 @@ CameraModel demoCamera()
   {
     const auto [center, width] = tolerance.normalPair(static_cast<std::uint64_t>(k));
     BandpassFilter filter;
-    filter.center = 400.0 + 20.0 * k + 0.7 * center;
+    filter.center = 400.0 + 20.0 * k + 0.7 * center + shift;
     filter.width = 18.0 + 0.8 * width;
     filter.order = 4.0;
     filter.peak = 0.6;

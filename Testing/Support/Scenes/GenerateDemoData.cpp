@@ -2,6 +2,7 @@
 //
 // Everything is computed from the seeds below; the same build gives the same bytes.
 #include "DemoCamera.h"
+#include "DemoCapture.h"
 #include "Files.h"
 #include "Measuring.h"
 #include "SampleBook.h"
@@ -14,6 +15,10 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -133,6 +138,46 @@ void writeSampleBook(const std::filesystem::path& folder)
       scenes::measuredFabric(swatches.body, BookSeed), 4 } });
 }
 
+std::vector<std::string> numberTexts(const Eigen::VectorXd& values)
+{
+  std::vector<std::string> texts;
+  for (const double value : values)
+  {
+    texts.push_back(std::to_string(std::lround(value)));
+  }
+  return texts;
+}
+
+void writeCapture(const std::filesystem::path& folder, const scenes::DemoCapture& capture)
+{
+  std::filesystem::create_directories(folder);
+  const msi::CameraModel& camera = capture.camera;
+  std::vector<std::string> channels;
+  for (Eigen::Index k = 0; k < camera.channelCount(); ++k)
+  {
+    channels.push_back("C" + std::to_string(k + 1));
+  }
+  scenes::writeTable(folder / "camera.csv",
+    { { "wavelength", numberTexts(camera.wavelengths().vector()) } },
+    { { channels, camera.responsivity(), 7 } });
+  scenes::writeTable(folder / "samples.csv",
+    { { "sample", capture.sample }, { "medium", capture.medium },
+      { "x", numberTexts(capture.x) }, { "y", numberTexts(capture.y) },
+      { "order", numberTexts(capture.order) } },
+    { { scenes::wavelengthNames("R", capture.wavelengths), capture.reflectance, 4 } });
+  scenes::writeTable(folder / "responses.csv",
+    { { "sample", capture.readingSample }, { "repeat", capture.readingRepeat } },
+    { { channels, capture.readings, 5 } });
+  std::ofstream json(folder / "capture.json", std::ios::binary);
+  json << "{\n  \"name\": \"Synthetic demo: a filter-wheel camera that warms up\",\n"
+          "  \"white_level\": 1,\n  \"dark\": 0,\n  \"noise\": {\"read\": "
+       << capture.noise.read << ", \"shot\": " << capture.noise.shot << "}\n}\n";
+  if (!json.flush())
+  {
+    throw std::runtime_error("cannot write " + (folder / "capture.json").string());
+  }
+}
+
 void generate(const std::filesystem::path& data)
 {
   const msi::WavelengthGrid grid = scenes::sceneGrid();
@@ -146,6 +191,7 @@ void generate(const std::filesystem::path& data)
     scenes::measuredFabric(fabric.body, FabricSeed),
     responses(scenes::seenFabric(fabric.body, FabricSeed), FabricSeed));
   writeSampleBook(data / "Images" / "demo-fabric");
+  writeCapture(data / "Captures" / "demo-warm-camera", scenes::demoCapture());
 }
 }
 

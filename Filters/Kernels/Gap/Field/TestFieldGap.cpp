@@ -519,3 +519,31 @@ TEST(FieldGap, StopsWhenAsked)
   options.progress = [](double fraction, const char*) { return fraction < 0.1; };
   EXPECT_FALSE(msi::diagnoseField(pair.pair(), options));
 }
+
+// More than two million pixels: nine windows of it are looked at.
+TEST(FieldGap, LargeImages)
+{
+  TestPair pair;
+  pair.extent = { 2400, 1000 };
+  pair.channels = { "C1" };
+  const msi::CounterRandom random(5);
+  for (int y = 0; y < pair.extent.height; ++y)
+  {
+    for (int x = 0; x < pair.extent.width; ++x)
+    {
+      const double u = 0.4 + 0.15 * std::sin(0.11 * x + 0.07 * y) * std::cos(0.013 * x - 0.09 * y);
+      const double X = (x - 1199.5) / 1199.5;
+      const double Y = (y - 499.5) / 1199.5;
+      const auto pixel = static_cast<std::uint64_t>(pair.simulated.size());
+      pair.simulated.push_back(static_cast<float>(u));
+      pair.real.push_back(static_cast<float>(
+        u * (1.0 + 0.03 * Y) * (1.0 - 0.06 * (X * X + Y * Y)) + 0.004 * random.normal(pixel)));
+    }
+  }
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_EQ(report.causes.size(), 2U);
+  expectParameter(report, "vignetting", "falloff", 0.06, 0.002);
+  expectParameter(report, "illumination_gradient", "down", 0.03, 0.002);
+}

@@ -1,0 +1,91 @@
+#include "Formats/GapReportFile.h"
+
+#include "Support/formats/TestFiles.h"
+
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace
+{
+using Json = nlohmann::json;
+
+msi::GapReport filledReport()
+{
+  msi::GapReport report;
+  report.verdict = msi::GapVerdict::PartlyExplained;
+  report.gap = { 0.021, 0.003, 0.0009, 0.94, { 0.92, 0.96 } };
+  report.where = { { "channel", 0.7, { { "C3", 0.3 }, { "C1", 0.2 } } }, { "medium", 0.1, {} } };
+  report.causes = { { "filter_shift", "common", "", 0.9, 0.85, { "illuminant_drift" },
+    { { "shift", 2.9, "nm", 0.05 } } } };
+  report.candidates = { { "filter_shift", "common", "", 0.85, { 0.8, 0.9 } } };
+  report.unexplained = { 0.06, "medium fabric" };
+  report.nextCapture = msi::GapNextCapture{ "lamp spectrum", { "filter_shift", "illuminant_drift" } };
+  report.notes = { "One medium only." };
+  return report;
+}
+
+// The example of the contract, with the keys that go beyond it.
+TEST(GapReportFile, WritesTheContract)
+{
+  const Json expected = Json::parse(R"({
+    "verdict": "partly explained",
+    "gap": {"rms_before": 0.021, "rms_after": 0.003, "noise_floor": 0.0009, "shrink": 0.94,
+            "shrink_interval": [0.92, 0.96]},
+    "where": [{"axis": "channel", "share": 0.7,
+               "worst": [{"cell": "C3", "share": 0.3}, {"cell": "C1", "share": 0.2}]},
+              {"axis": "medium", "share": 0.1, "worst": []}],
+    "change_points": [],
+    "causes": [{"effect": "filter_shift", "form": "common", "medium": "", "share": 0.9, "shrink": 0.85,
+                "equivalent": ["illuminant_drift"],
+                "parameters": [{"name": "shift", "value": 2.9, "unit": "nm", "standard_error": 0.05}]}],
+    "candidates": [{"effect": "filter_shift", "form": "common", "medium": "", "shrink": 0.85,
+                    "shrink_interval": [0.8, 0.9]}],
+    "unexplained": {"share": 0.06, "where": "medium fabric"},
+    "next_capture": {"capture": "lamp spectrum", "separates": ["filter_shift", "illuminant_drift"]},
+    "notes": ["One medium only."]})");
+  EXPECT_EQ(Json::parse(msi::gapReportText(filledReport())), expected);
+}
+
+TEST(GapReportFile, KeysStandInTheOrderOfReading)
+{
+  const std::string text = msi::gapReportText(filledReport());
+  EXPECT_LT(text.find("\"verdict\""), text.find("\"gap\""));
+  EXPECT_LT(text.find("\"gap\""), text.find("\"where\""));
+  EXPECT_LT(text.find("\"where\""), text.find("\"causes\""));
+  EXPECT_EQ(text.back(), '\n');
+}
+
+TEST(GapReportFile, AnEmptyReportHasEveryKey)
+{
+  const Json json = Json::parse(msi::gapReportText({}));
+  EXPECT_EQ(json["verdict"], "no gap");
+  EXPECT_EQ(json["causes"], Json::array());
+  EXPECT_EQ(json["next_capture"], Json::parse(R"({"capture": "", "separates": []})"));
+}
+
+TEST(GapReportFile, WhatIsNoNumberIsNull)
+{
+  msi::GapReport report;
+  report.gap.shrink = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(Json::parse(msi::gapReportText(report))["gap"]["shrink"].is_null());
+}
+
+TEST(GapReportFile, NamesThatAreNoUtf8AreWrittenAllTheSame)
+{
+  msi::GapReport report;
+  report.unexplained.where = "medium \xff";
+  EXPECT_EQ(Json::parse(msi::gapReportText(report))["unexplained"]["where"], "medium \xef\xbf\xbd");
+}
+
+class GapReports : public msi::testing::TemporaryFolder
+{
+};
+
+TEST_F(GapReports, AFolderThatIsNotThereIsNamed)
+{
+  const std::string error =
+    errorOf([&] { msi::writeGapReportText(path("none/report.json"), "{}\n"); });
+  EXPECT_NE(error.find("none/report.json"), std::string::npos) << error;
+}
+}

@@ -1,0 +1,227 @@
+"""./multispectral diagnose on the demo capture: the report keeps its contract, names what was planted, and the
+corrected camera file holds it; captures with parts missing are refused or diagnosed with a word on what is not decided."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
+DEMO = root / "Data" / "Captures" / "demo-warm-camera"
+VERDICTS = ("no gap", "explained", "partly explained", "unexplained")
+AXES = ("channel", "medium", "scene", "position", "level", "order", "spectral_shape", "sample")
+faults = []
+
+
+def expect(truth, text):
+    if not truth:
+        faults.append(text)
+
+
+def run(launcher, capture, output, *options):
+    return subprocess.run([launcher, "diagnose", str(capture), "--output", str(output), *options],
+                          text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def check_contract(report, name):
+    """The keys and types of the contract; nothing about the values but their order and range."""
+    def has(truth, what):
+        expect(truth, f"{name}: {what}")
+    has(report.get("verdict") in VERDICTS, f"verdict {report.get('verdict')!r}")
+    gap = report.get("gap", {})
+    has(all(number(gap.get(key)) for key in ("rms_before", "rms_after", "noise_floor", "shrink")),
+        f"gap is {gap}")
+    interval = gap.get("shrink_interval", [])
+    has(len(interval) == 2 and all(map(number, interval)) and interval[0] <= gap["shrink"] <= interval[1],
+        f"shrink_interval {interval}")
+    where = report.get("where")
+    has(isinstance(where, list) and where, "where is empty")
+    shares = [axis["share"] for axis in where]
+    has(shares == sorted(shares, reverse=True), f"where is not sorted: {shares}")
+    for axis in where:
+        has(axis["axis"] in AXES and number(axis["share"]), f"axis {axis['axis']!r}")
+        has(all(isinstance(cell["cell"], str) and number(cell["share"]) for cell in axis["worst"]),
+            f"cells of {axis['axis']}")
+    for cause in report.get("causes", [None]):
+        has(isinstance(cause["effect"], str) and number(cause["share"]) and number(cause["shrink"])
+            and all(isinstance(other, str) for other in cause["equivalent"]), f"cause {cause}")
+        for parameter in cause["parameters"]:
+            has(isinstance(parameter["name"], str) and isinstance(parameter["unit"], str)
+                and number(parameter["value"]) and number(parameter["standard_error"]),
+                f"parameter {parameter}")
+    shrinks = [candidate["shrink"] for candidate in report.get("candidates", [{"shrink": "none"}])]
+    has(all(map(number, shrinks)) and shrinks == sorted(shrinks, reverse=True), f"candidates {shrinks}")
+    left = report.get("unexplained", {})
+    has(number(left.get("share")) and isinstance(left.get("where"), str), f"unexplained {left}")
+    following = report.get("next_capture", {})
+    has(isinstance(following.get("capture"), str) and isinstance(following.get("separates"), list),
+        f"next_capture {following}")
+    has(all(isinstance(note, str) for note in report.get("notes", [None])), "notes")
+
+
+def parameter_of(report, effect, name):
+    return next((parameter for cause in report["causes"] if cause["effect"] == effect
+                 for parameter in cause["parameters"] if parameter["name"] == name),
+                {"value": float("nan"), "standard_error": float("nan")})
+
+
+def check_demo(launcher, folder):
+    done = run(launcher, DEMO, folder / "demo")
+    expect(done.returncode == 0, f"demo capture: status {done.returncode}: {done.stderr}")
+    report = json.loads((folder / "demo" / "report.json").read_text(encoding="utf-8"))
+    check_contract(report, "demo capture")
+    expect(report["verdict"] == "explained", f"demo capture: {report['verdict']}")
+    # As planted by Testing/Support/Scenes/DemoCapture.cpp.
+    for effect, name, planted, tolerance in (("medium_gain", "gain", 0.95, 0.002),
+                                             ("filter_shift", "shift", 1.6, 0.1),
+                                             ("session_drift", "change", 0.03, 0.002)):
+        found = parameter_of(report, effect, name)["value"]
+        expect(abs(found - planted) <= tolerance, f"{effect}: {name} {found}, planted {planted}")
+    camera = json.loads((folder / "demo" / "camera-corrected.json").read_text(encoding="utf-8"))
+    expect({effect["effect"] for effect in camera["effects"]} ==
+           {cause["effect"] for cause in report["causes"]}, f"corrected camera: {camera['effects']}")
+    curves = (folder / "demo" / camera["camera"]).read_text(encoding="utf-8").splitlines()
+    expect(len(curves) == 74 and curves[0].startswith("wavelength,C1,"), "corrected camera: curves")
+    page = (folder / "demo" / "report.html").read_text(encoding="utf-8")
+    expect(page.count("data:image/png;base64,") == 6, "report.html: six pictures")
+    expect("src='http" not in page and "filter_shift" in page, "report.html: self-contained")
+
+    done = run(launcher, DEMO, folder / "without", "--without", "filter_shift", "--without", "session_drift")
+    expect(done.returncode == 0, f"--without: status {done.returncode}: {done.stderr}")
+    report = json.loads((folder / "without" / "report.json").read_text(encoding="utf-8"))
+    check_contract(report, "--without")
+    named = {entry["effect"] for entry in report["causes"] + report["candidates"]}
+    expect(not named & {"filter_shift", "session_drift"}, f"--without: {named}")
+
+    done = run(launcher, DEMO, folder / "ranks", "--ranks", "2")
+    expect(done.returncode == 0, f"--ranks 2: status {done.returncode}: {done.stderr}")
+    for name in ("report.json", "camera-corrected.json", "samples.csv"):
+        expect((folder / "ranks" / name).read_bytes() == (folder / "demo" / name).read_bytes(),
+               f"--ranks 2: {name} differs")
+
+
+def edited(folder, name, **changes):
+    """A copy of the demo capture; changes: {file stem: what becomes of its lines, or None to leave it out}."""
+    place = folder / name
+    shutil.copytree(DEMO, place)
+    for stem, change in changes.items():
+        file = next(place.glob(f"{stem}.*"))
+        if change is None:
+            file.unlink()
+        else:
+            lines = change(file.read_text(encoding="utf-8").splitlines())
+            file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return place
+
+
+def cut(*columns):
+    """Leaves the named columns out."""
+    def change(lines):
+        keep = [i for i, name in enumerate(lines[0].split(",")) if name not in columns]
+        return [",".join(line.split(",")[i] for i in keep) for line in lines]
+    return change
+
+
+def first_repeat(lines):
+    return [line for line in lines if line.split(",")[1] in ("repeat", "1")]
+
+
+def rows(change):
+    """Changes the numbers of each line from the first spectral column on."""
+    def edit(lines):
+        start = next(i for i, name in enumerate(lines[0].split(",")) if name[0] in "RC")
+        result = [lines[0]]
+        for line in lines[1:]:
+            cells = line.split(",")
+            result.append(",".join(cells[:start] + [f"{change(float(cell)):.5f}" for cell in cells[start:]]))
+        return result
+    return edit
+
+
+def no_noise(_):
+    return ['{"name": "x", "white_level": 1, "dark": 0, "noise": {"read": null, "shot": null}}']
+
+
+def refused(folder):
+    """Captures that end with one line, and what it says."""
+    yield folder / "nowhere", "nowhere: is no folder"
+    yield edited(folder, "no-json", capture=None), "capture.json: cannot be read"
+    yield edited(folder, "no-camera", camera=None), "camera.csv: cannot be read"
+    yield edited(folder, "no-samples", samples=None), "samples.csv: cannot be read"
+    yield edited(folder, "no-responses", responses=None), "responses.csv: cannot be read"
+    yield edited(folder, "fewer-channels", responses=cut("C16")), \
+        "responses.csv: has 15 channels; expected 16, as camera.csv has"
+    yield edited(folder, "unknown-sample", samples=lambda lines: lines[:-1]), "is not in samples.csv"
+    yield edited(folder, "twice", samples=lambda lines: [*lines, lines[-1]]), "stands in it twice"
+    yield edited(folder, "text", responses=lambda lines: [
+        lines[0], lines[1].rsplit(",", 1)[0] + ",bright", *lines[2:]]), "responses.csv:2:"
+    yield edited(folder, "dark", capture=lambda _: ['{"dark": [0.1, 0.2]}']), "'dark' has 2 values"
+    yield edited(folder, "broken-json", capture=lambda _: ['{"dark": ']), "the JSON text ends too early"
+    yield edited(folder, "uneven", camera=lambda lines: lines[:3] + lines[4:]), "a uniform grid"
+    yield edited(folder, "counts", responses=rows(lambda u: 4000 * u)), "looks like counts"
+    yield edited(folder, "one-sample", samples=lambda lines: lines[:2],
+                 responses=lambda lines: lines[:3]), "2 samples or more"
+
+
+def undecided(folder):
+    """Captures that are diagnosed all the same, and what the report says about what is missing."""
+    yield edited(folder, "one-repeat", capture=no_noise, responses=first_repeat), \
+        "No noise model and one reading a sample"
+    yield edited(folder, "repeats-decide", capture=no_noise), "The noise comes from the repeats"
+    yield edited(folder, "one-medium", samples=lambda lines: [
+        line.replace(",paper,", ",fabric,") for line in lines]), "One medium only"
+    yield edited(folder, "no-medium", samples=cut("medium")), "The samples name no medium"
+    yield edited(folder, "no-positions", samples=cut("x", "y")), "No positions"
+    yield edited(folder, "no-order", samples=cut("order")), "No capture order"
+    yield edited(folder, "few-samples", samples=lambda lines: lines[:9],
+                 responses=lambda lines: lines[:17]), "8 samples are few"
+    yield edited(folder, "grey", samples=rows(lambda _: 0.5)), "hardly change with wavelength"
+    yield edited(folder, "saturated", responses=rows(lambda u: min(u, 0.4))), "they look clipped"
+    yield edited(folder, "white-level", capture=lambda lines: [
+        line.replace('"white_level": 1', '"white_level": 4000') for line in lines],
+        responses=rows(lambda u: 4000 * u)), None
+
+
+def check_bad_input(launcher, folder):
+    for capture, part in refused(folder):
+        output = folder / "refused" / capture.name
+        done = run(launcher, capture, output)
+        lines = done.stderr.strip().splitlines()
+        expect(done.returncode == 1 and len(lines) == 1 and part in lines[0]
+               and lines[0].startswith("multispectral: "),
+               f"{capture.name}: expected one line with '{part}', got {done.returncode} and {lines}")
+        expect(not output.exists(), f"{capture.name}: something was written")
+    done = run(launcher, DEMO, folder / "out", "--without", "magic")
+    expect(done.returncode == 1 and "there is no effect 'magic'" in done.stderr, f"magic: {done.stderr}")
+    for capture, part in undecided(folder):
+        output = folder / "undecided" / capture.name
+        done = run(launcher, capture, output)
+        expect(done.returncode == 0, f"{capture.name}: status {done.returncode}: {done.stderr}")
+        if done.returncode == 0:
+            report = json.loads((output / "report.json").read_text(encoding="utf-8"))
+            check_contract(report, capture.name)
+            expect(part is None or any(part in note for note in report["notes"]),
+                   f"{capture.name}: no note with '{part}' in {report['notes']}")
+            expect(part is not None or "divided by the white level 4000" in done.stderr,
+                   f"{capture.name}: {done.stderr}")
+
+
+def main():
+    launcher, part, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    if part == "demo":
+        check_demo(launcher, folder)
+    else:
+        check_bad_input(launcher, folder)
+    print("\n".join(faults) or "as the contract says")
+    sys.exit(1 if faults else 0)
+
+
+main()

@@ -18,6 +18,8 @@ namespace msi
 
 namespace
 {
+constexpr double TwoSided95 = 1.96; // standard errors
+
 void addWords(vtkTable* table, const char* name, const std::vector<std::string>& words)
 {
   vtkNew<vtkStringArray> column;
@@ -47,6 +49,14 @@ void writeUncertainty(const CameraModelFit& fit, vtkTable* table)
       fit.responsivityError.row(k).transpose());
   }
   setNumbers(table, "resolution", fit.resolution);
+  const Eigen::MatrixXd& m = fit.camera.responsivity();
+  for (Eigen::Index k = 0; k < fit.responsivityError.rows(); ++k)
+  {
+    const std::string& name = fit.camera.channels()[static_cast<std::size_t>(k)];
+    const auto width = TwoSided95 * fit.responsivityError.row(k);
+    setNumbers(table, "low " + name, (m.row(k) - width).cwiseMax(0.0).transpose());
+    setNumbers(table, "high " + name, (m.row(k) + width).transpose());
+  }
   if (fit.darkError.size() > 0)
   {
     vtkNew<vtkDoubleArray> dark;

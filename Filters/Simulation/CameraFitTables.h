@@ -9,7 +9,8 @@ class vtkTable;
 namespace msi
 {
 
-// wavelength | one standard error a channel (where the fit has them) | resolution; field data Dark: standard errors.
+// wavelength | one standard error a channel | resolution | `low C400`, `high C400`, ..: the responsivity within 95 %
+// (not below 0); field data Dark: standard errors. Without draws wavelength and resolution alone.
 void writeUncertainty(const CameraModelFit& fit, vtkTable* table);
 
 // One row: samples, channels, held_out_rms, residual_rms, locality, smoothness, freedom, determined, directions,

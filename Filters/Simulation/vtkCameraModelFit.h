@@ -8,7 +8,8 @@
  *
  * Output 0: the camera as a table (DataModel/CameraTable.h), for Camera Simulator.
  * Output 1: standard errors on the same grid, the errors of Dark in the field data, and `resolution`: the width in nm
- *           over which the chart alone smears the responsivity at each wavelength.
+ *           over which the chart alone smears the responsivity at each wavelength; `low C400`, `high C400`, ..: the
+ *           responsivity within 95 %.
  * Output 2: one row: held-out rms, weights, what the chart determines, and in `status` what it cannot determine.
  * Output 3: one row a channel: centroid, dark response and its standard error, rms of the residuals.
  */

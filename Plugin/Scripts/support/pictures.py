@@ -1,5 +1,7 @@
 """Pictures of pipelines: images with a color legend, and charts of tables."""
 
+import os
+
 from paraview import simple
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
@@ -111,6 +113,40 @@ def _map_errors(display, view, array, value_range):
     bar.LabelFormat = "%-.3g"
     bar.RangeLabelFormat = "%-.3g"
     display.SetScalarBarVisibility(view, True)
+
+
+def channel_row(panels, component, path):
+    """One channel of several images side by side; panels: (source, array, title, (low, high)). No array: the active one."""
+    layout = simple.CreateLayout(os.path.basename(path))
+    cell, views, size = 0, [], [0, 0]
+    for i, (source, array, title, bounds) in enumerate(panels):
+        name = array or source.PointData.GetArray(0).GetName()
+        view = image_view(source, name, bounds)
+        display = simple.GetDisplayProperties(source, view)
+        display.UseSeparateColorMap = 1
+        simple.ColorBy(display, ("POINTS", name, source.PointData.GetArray(name).GetComponentName(component)),
+                       separate=True)
+        colors = simple.GetColorTransferFunction(name, display, separate=True)
+        colors.ApplyPreset("Cool to Warm" if bounds[0] < 0.0 else "Viridis (matplotlib)", True)
+        colors.NanColor = [0.82, 0.82, 0.82]
+        colors.RescaleTransferFunction(*bounds)
+        bar = simple.GetScalarBar(colors, view)
+        bar.Title, bar.ComponentTitle = title, ""
+        bar.TitleColor, bar.LabelColor = _TEXT, _TEXT
+        display.SetScalarBarVisibility(view, True)
+        if i + 1 < len(panels):
+            cell = layout.SplitHorizontal(cell, 1.0 / (len(panels) - i))
+            layout.AssignView(cell, view)
+            cell += 1
+        else:
+            layout.AssignView(cell, view)
+        size = [size[0] + view.ViewSize[0], max(size[1], view.ViewSize[1])]
+        views.append(view)
+    layout.SetSize(size)
+    simple.SaveScreenshot(path, layout, ImageResolution=size, TransparentBackground=0)
+    for view in views:
+        simple.Delete(view)
+    simple.Delete(layout)
 
 
 class Chart:

@@ -137,6 +137,11 @@ def save_image(source, path, **properties):
     save("SpectralImageWriter", source, path, **properties)
 
 
+def save_camera(source, path):
+    """Writes a camera's description and curves through the plugin's writer."""
+    save("CameraWriter", source, path)
+
+
 def save(name, source, path, **properties):
     """Writes through the named writer of the plugin."""
     writer = getattr(servermanager.writers, name)(Input=source, FileName=path, **properties)

@@ -17,7 +17,7 @@ constexpr int MostPages = 65536;
 constexpr std::int64_t MostPixelsPerSide = 1 << 24;
 
 // Half comes as float.
-std::optional<SampleType> sampleTypeOf(OIIO::TypeDesc type)
+std::optional<SampleType> sampleTypeOf(const OIIO::TypeDesc& type)
 {
   switch (type.basetype)
   {
@@ -63,7 +63,8 @@ bool mustReadRowByRow(const char* format, const OIIO::ImageSpec& spec)
   return std::string(format) == "tiff" && spec.tile_width == 0 &&
     spec.get_string_attribute("compression") == "zip" &&
     spec.get_string_attribute("planarconfig", "contig") == "contig" &&
-    (spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16);
+    (spec.format.basetype == OIIO::TypeDesc::UINT8 ||
+      spec.format.basetype == OIIO::TypeDesc::UINT16);
 }
 
 // The same for tiles, which it inflates itself only where it may use its threads.

@@ -189,7 +189,11 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   gap->model = found.after.model;
   GapReport& report = gap->report;
   report.gap = figuresOf(energiesOf(data, found), options.seed);
-  report.where = fieldAxes(data, found.before, loop);
+  // The stripes that were found are an axis of the gap before, too.
+  FieldModel nominal = found.before.model;
+  nominal.rowPeriod = found.after.model.rowPeriod;
+  nominal.columnPeriod = found.after.model.columnPeriod;
+  report.where = fieldAxes(data, fieldStatistics(data, nominal, &found.weights, loop), loop);
   const std::vector<GapAxis> rest = fieldAxes(data, found.after, loop);
   const double left = blockMeanExcess(data, found.after, false);
   if (!found.set.empty() && report.gap.shrink > 0.0)

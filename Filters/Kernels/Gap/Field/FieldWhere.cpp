@@ -19,6 +19,10 @@ constexpr int Columns = FieldColumn::Residual;
 constexpr std::size_t CellsNamed = 5;
 constexpr double LeastShare = 0.005;
 constexpr double Ridge = 1e-6;
+// Where channel and level alone predict this part of what all axes predict, position is asked only for contrasts.
+constexpr double ContrastPart = 0.9;
+constexpr std::size_t ChannelBit = 1;
+constexpr std::size_t LevelBit = 2;
 
 struct Axis
 {
@@ -94,17 +98,27 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
   std::vector<Eigen::VectorXd> alone;
   for (const Eigen::MatrixXd& N : normal)
   {
-    const Eigen::LDLT<Eigen::MatrixXd> factor(ridged(part(N, own)));
-    const Eigen::MatrixXd E = N(own, common);
-    const Eigen::VectorXd h = Eigen::VectorXd(N.col(Columns))(own);
-    toCommon.emplace_back(own.empty() ? E : Eigen::MatrixXd(factor.solve(E)));
-    alone.emplace_back(own.empty() ? h : Eigen::VectorXd(factor.solve(h)));
-    H -= E.transpose() * toCommon.back();
-    g -= E.transpose() * alone.back();
+    Eigen::MatrixXd E = N(own, common);
+    Eigen::VectorXd h = Eigen::VectorXd(N.col(Columns))(own);
+    if (!own.empty())
+    {
+      const Eigen::LDLT<Eigen::MatrixXd> factor(ridged(part(N, own)));
+      const Eigen::MatrixXd across = E;
+      E = factor.solve(across);
+      h = factor.solve(h).eval();
+      H -= across.transpose() * E;
+      g -= across.transpose() * h;
+    }
+    toCommon.push_back(std::move(E));
+    alone.push_back(std::move(h));
   }
   // Where the own columns hold the common ones nothing is left for these.
-  H.diagonal().array() += 1e-9 * (1.0 + H.diagonal().array().abs().maxCoeff());
-  const Eigen::VectorXd together = C > 0 ? Eigen::VectorXd(H.ldlt().solve(g)) : g;
+  Eigen::VectorXd together = g;
+  if (C > 0)
+  {
+    H.diagonal().array() += 1e-9 * (1.0 + H.diagonal().array().abs().maxCoeff());
+    together = H.ldlt().solve(g);
+  }
   for (std::size_t k = 0; k < normal.size(); ++k)
   {
     const Eigen::VectorXd mine = alone[k] - toCommon[k] * together;
@@ -118,6 +132,38 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
     }
   }
   return change;
+}
+
+// The common gain is the level's.
+void takeCommonGain(std::vector<Eigen::VectorXd>& change)
+{
+  double mean = 0.0;
+  for (const Eigen::VectorXd& columns : change)
+  {
+    mean += columns[FieldColumn::Gain] / static_cast<double>(change.size());
+  }
+  for (Eigen::VectorXd& columns : change)
+  {
+    columns[FieldColumn::Gain] -= mean;
+  }
+}
+
+// Leaves to the columns of the position only what differs over the field: takes off their part along u.
+void centerPosition(std::vector<Eigen::MatrixXd>& training, std::vector<Eigen::MatrixXd>& test)
+{
+  for (std::size_t k = 0; k < training.size(); ++k)
+  {
+    Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(FieldColumn::Count, FieldColumn::Count);
+    const double square = training[k](FieldColumn::Gain, FieldColumn::Gain);
+    for (const int column : { FieldColumn::GradientRight, FieldColumn::GradientDown,
+           FieldColumn::RadiusSquared, FieldColumn::Diagonal, FieldColumn::Saddle })
+    {
+      mix(FieldColumn::Gain, column) =
+        -training[k](FieldColumn::Gain, column) / std::fmax(square, 1e-12);
+    }
+    training[k] = mix.transpose() * training[k] * mix;
+    test[k] = mix.transpose() * test[k] * mix;
+  }
 }
 
 double energyLeft(
@@ -244,8 +290,8 @@ std::vector<GapAxis> fieldAxes(
 {
   // Plain energies, so that shares are of the gap in response units.
   const FieldStatistics plain = fieldStatistics(data, statistics.model, nullptr, loop);
-  const auto training = normals(data, plain, true);
-  const auto test = normals(data, plain, false);
+  auto training = normals(data, plain, true);
+  auto test = normals(data, plain, false);
   const std::vector<Axis> axes = axesOf(statistics.model);
   const auto K = static_cast<std::size_t>(data.channels());
   double before = 0.0;
@@ -282,7 +328,7 @@ std::vector<GapAxis> fieldAxes(
   const std::size_t subsets = std::size_t(1) << axes.size();
   std::vector<double> explained(subsets, 0.0);
   std::vector<Eigen::VectorXd> change(K, Eigen::VectorXd::Zero(Columns));
-  for (std::size_t subset = 1; subset < subsets; ++subset)
+  const auto explain = [&](std::size_t subset)
   {
     std::vector<int> common;
     std::vector<int> own;
@@ -300,9 +346,27 @@ std::vector<GapAxis> fieldAxes(
         [&own](int column) { return std::find(own.begin(), own.end(), column) != own.end(); }),
       common.end());
     change = regress(training, common, own);
+    if ((subset & (ChannelBit | LevelBit)) == ChannelBit)
+    {
+      takeCommonGain(change);
+    }
     explained[subset] = (before - energyLeft(test, change)) / beyond;
+  };
+  explain(ChannelBit | LevelBit);
+  explain(subsets - 1);
+  if (explained[ChannelBit | LevelBit] > ContrastPart * explained[subsets - 1])
+  {
+    centerPosition(training, test);
+  }
+  for (std::size_t subset = 1; subset < subsets; ++subset)
+  {
+    explain(subset);
   }
   const std::vector<double> share = shapleyValues(explained, axes.size());
+  // What the bases leave for labels and blocks, in the plain columns.
+  training = normals(data, plain, true);
+  test = normals(data, plain, false);
+  explain(subsets - 1);
   std::vector<GapAxis> found;
   for (std::size_t a = 0; a < axes.size(); ++a)
   {

@@ -1,0 +1,408 @@
+#include "Kernels/Gap/Field/FieldGap.h"
+#include "Kernels/Gap/Field/FieldTestScene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace
+{
+using msi::FieldGap;
+using msi::GapReport;
+using msi::GapVerdict;
+using msi::test::findParameter;
+using msi::test::gaussianBlurred;
+using msi::test::ImagePlane;
+using msi::test::makePair;
+using msi::test::meanOf;
+using msi::test::Pi;
+using msi::test::TestPair;
+using msi::test::TestScene;
+
+std::string describe(const GapReport& report)
+{
+  std::ostringstream text;
+  text << nameOf(report.verdict) << ": rms " << report.gap.rmsBefore << " -> "
+       << report.gap.rmsAfter << ", floor " << report.gap.noiseFloor << ", shrink "
+       << report.gap.shrink << "\n";
+  for (const auto& axis : report.where)
+  {
+    text << "  where " << axis.axis << " " << axis.share << "\n";
+  }
+  for (const auto& cause : report.causes)
+  {
+    text << "  cause " << cause.effect << " (" << cause.form << ") share " << cause.share;
+    for (const auto& name : cause.equivalent)
+    {
+      text << " ~" << name;
+    }
+    for (const auto& parameter : cause.parameters)
+    {
+      text << "\n    " << parameter.name << " " << parameter.value << " +- "
+           << parameter.standardError;
+    }
+    text << "\n";
+  }
+  for (const auto& note : report.notes)
+  {
+    text << "  note " << note << "\n";
+  }
+  return text.str();
+}
+
+// Within four standard errors or the tolerance that the forms' approximations leave.
+void expectParameter(const GapReport& report, const std::string& effect, const std::string& name,
+  double planted, double tolerance)
+{
+  const msi::GapParameter* parameter = findParameter(report, effect, name);
+  ASSERT_NE(parameter, nullptr) << effect << " " << name;
+  EXPECT_NEAR(parameter->value, planted, std::fmax(tolerance, 4.0 * parameter->standardError))
+    << effect << " " << name;
+}
+
+void expectFirst(
+  const GapReport& report, const std::string& effect, const char* axis, double shrink = 0.85)
+{
+  SCOPED_TRACE(describe(report));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, effect);
+  EXPECT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_GT(report.gap.shrink, shrink);
+  ASSERT_FALSE(report.where.empty());
+  EXPECT_EQ(report.where.front().axis, axis);
+  EXPECT_EQ(report.candidates.front().effect, effect);
+}
+
+// Every pixel of the nominal image through change(u, channel, x, y, mean of the channel).
+template <typename Change>
+TestPair changed(const TestScene& scene, std::uint64_t seed, Change change)
+{
+  return makePair(
+    scene,
+    [&](int k)
+    {
+      ImagePlane plane = scene.pixels(scene.fine(k));
+      const double mean = meanOf(plane);
+      for (int y = 0; y < plane.height; ++y)
+      {
+        for (int x = 0; x < plane.width; ++x)
+        {
+          plane.at(x, y) = change(plane.at(x, y), k, x, y, mean);
+        }
+      }
+      return plane;
+    },
+    seed);
+}
+
+GapReport diagnose(const TestPair& pair)
+{
+  return msi::diagnoseField(pair.pair())->report;
+}
+}
+
+TEST(FieldGap, VignettingIsRadial)
+{
+  const TestScene scene(1);
+  const TestPair pair = changed(scene, 11,
+    [&](double u, int, int x, int y, double)
+    { return u * (1.0 - 0.08 * (std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2))); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "vignetting", "position");
+  expectParameter(report, "vignetting", "falloff", 0.08, 0.002);
+}
+
+TEST(FieldGap, GradientIsAPlane)
+{
+  const TestScene scene(2);
+  const TestPair pair = changed(scene, 12,
+    [&](double u, int, int x, int y, double)
+    { return u * (1.0 + 0.05 * scene.fieldX(x) - 0.03 * scene.fieldY(y)); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "illumination_gradient", "position");
+  expectParameter(report, "illumination_gradient", "right", 0.05, 0.002);
+  expectParameter(report, "illumination_gradient", "down", -0.03, 0.002);
+}
+
+TEST(FieldGap, GlareGoesWithTheMeanOfTheScene)
+{
+  const TestScene scene(3);
+  const double level[] = { 1.0, 0.4, 1.6 };
+  // Channels of different brightness: only then does glare differ from a common offset.
+  TestPair pair = changed(scene, 13, [](double u, int, int, int, double) { return u; });
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    double mean = 0.0;
+    const std::size_t pixels = pair.simulated.size() / 3;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      pair.simulated[i * 3 + k] *= static_cast<float>(level[k]);
+      mean += static_cast<double>(pair.simulated[i * 3 + k]) / static_cast<double>(pixels);
+    }
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      pair.real[i * 3 + k] =
+        static_cast<float>(level[k]) * pair.real[i * 3 + k] + static_cast<float>(0.04 * mean);
+    }
+  }
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "veiling_glare", "channel");
+  expectParameter(report, "veiling_glare", "fraction", 0.04, 0.001);
+}
+
+TEST(FieldGap, OffsetsOfChannelsMayBeGlare)
+{
+  const TestScene scene(4);
+  const double offset[] = { 0.004, 0.012, -0.006 };
+  const TestPair pair =
+    changed(scene, 14, [&](double u, int k, int, int, double) { return u + offset[k]; });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "dark_offset", "channel");
+  expectParameter(report, "dark_offset", "offset[C2]", 0.012, 0.0005);
+  EXPECT_EQ(report.causes.front().equivalent, std::vector<std::string>{ "veiling_glare" });
+  ASSERT_TRUE(report.nextCapture);
+  EXPECT_EQ(report.nextCapture->capture, "lens cap");
+}
+
+TEST(FieldGap, GainOfAChannel)
+{
+  const TestScene scene(5);
+  const double gain[] = { 1.0, 0.96, 1.03 };
+  const TestPair pair =
+    changed(scene, 15, [&](double u, int k, int, int, double) { return u * gain[k]; });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "channel_gain", "channel");
+  expectParameter(report, "channel_gain", "gain[C2]", 0.96, 0.001);
+}
+
+TEST(FieldGap, ExposureIsOneNumber)
+{
+  const TestScene scene(6);
+  const TestPair pair =
+    changed(scene, 16, [&](double u, int, int, int, double) { return u * 0.95; });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "exposure_gain", "level");
+  expectParameter(report, "exposure_gain", "gain", 0.95, 0.001);
+}
+
+TEST(FieldGap, DefocusOfEachChannel)
+{
+  const TestScene scene(7);
+  const double blur[] = { 0.0, 0.8, 1.3 };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      const ImagePlane sharp = scene.fine(k);
+      return scene.pixels(
+        blur[k] > 0.0 ? gaussianBlurred(sharp, blur[k] * TestScene::Fine) : sharp);
+    },
+    17);
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "defocus", "edges");
+  expectParameter(report, "defocus", "blur[C2]", 0.8, 0.03);
+  expectParameter(report, "defocus", "blur[C3]", 1.3, 0.03);
+}
+
+TEST(FieldGap, MisregistrationOfEachChannel)
+{
+  const TestScene scene(8);
+  const double right[] = { 0.4, 0.0, -1.3 };
+  const double down[] = { -0.25, 0.0, 0.7 };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      return scene.pixels(scene.fine(
+        k, [&](double x, double y) { return std::make_pair(x - right[k], y - down[k]); }));
+    },
+    18);
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "misregistration", "edges");
+  expectParameter(report, "misregistration", "right[C1]", 0.4, 0.02);
+  expectParameter(report, "misregistration", "down[C1]", -0.25, 0.02);
+  expectParameter(report, "misregistration", "right[C3]", -1.3, 0.02);
+  expectParameter(report, "misregistration", "down[C3]", 0.7, 0.02);
+}
+
+TEST(FieldGap, DisplacementOfManyPixels)
+{
+  const TestScene scene(9);
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      return scene.pixels(scene.fine(k,
+        [&](double x, double y)
+        { return std::make_pair(x - 6.3 * (k == 1), y + 4.6 * (k == 1)); }));
+    },
+    19);
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "misregistration", "edges");
+  expectParameter(report, "misregistration", "right[C2]", 6.3, 0.02);
+  expectParameter(report, "misregistration", "down[C2]", -4.6, 0.02);
+}
+
+TEST(FieldGap, LateralColor)
+{
+  const TestScene scene(10);
+  const double growth[] = { 0.004, 0.0, -0.006 };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      const double middleX = 0.5 * (scene.width() - 1);
+      const double middleY = 0.5 * (scene.height() - 1);
+      return scene.pixels(scene.fine(k,
+        [&](double x, double y)
+        {
+          return std::make_pair(middleX + (x - middleX) / (1.0 + growth[k]),
+            middleY + (y - middleY) / (1.0 + growth[k]));
+        }));
+    },
+    20);
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "misregistration");
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  expectParameter(report, "misregistration", "magnification[C1]", 0.004, 0.0003);
+  expectParameter(report, "misregistration", "magnification[C3]", -0.006, 0.0003);
+}
+
+TEST(FieldGap, LocalStrayLightIsABroadTail)
+{
+  // Gaussians of the deviations and weights that ScatterTail states, for a radius of 6 pixels.
+  const TestScene scene(11);
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      ImagePlane plane = scene.pixels(scene.fine(k));
+      const ImagePlane sharp = plane;
+      std::vector<double> weight;
+      double sum = 0.0;
+      for (int pass = 1; pass <= 6; ++pass)
+      {
+        const double deviation = std::sqrt((std::pow(4.0, pass) - 1.0) / 3.0);
+        weight.push_back(std::pow(0.5, pass) * std::exp(-deviation / 12.0));
+        sum += weight.back();
+      }
+      for (double& value : plane.value)
+      {
+        value *= 1.0 - 0.08;
+      }
+      for (int pass = 1; pass <= 6; ++pass)
+      {
+        const double deviation = std::sqrt((std::pow(4.0, pass) - 1.0) / 3.0);
+        const ImagePlane wide = gaussianBlurred(sharp, deviation);
+        for (std::size_t i = 0; i < plane.value.size(); ++i)
+        {
+          plane.value[i] += 0.08 * weight[static_cast<std::size_t>(pass - 1)] / sum * wide.value[i];
+        }
+      }
+      return plane;
+    },
+    21);
+  const GapReport report = diagnose(pair);
+  // Gaussians are not quite the library's splines.
+  expectFirst(report, "local_stray_light", "edges", 0.6);
+  expectParameter(report, "local_stray_light", "fraction", 0.08, 0.006);
+  expectParameter(report, "local_stray_light", "radius", 6.0, 1.0);
+}
+
+TEST(FieldGap, BandingOfRowsAndOfColumns)
+{
+  const TestScene scene(12);
+  const double start[] = { 0.1, 0.45, 0.8 };
+  const TestPair rows = changed(scene, 22,
+    [&](double u, int k, int, int y, double)
+    { return u * (1.0 + 0.012 * std::sin(2.0 * Pi * (y / 11.3 + start[k]))); });
+  const GapReport report = diagnose(rows);
+  expectFirst(report, "banding", "rows");
+  EXPECT_EQ(report.causes.front().form, "rows");
+  expectParameter(report, "banding", "period", 11.3, 0.05);
+  expectParameter(report, "banding", "amplitude[C1]", 0.012, 0.001);
+  expectParameter(report, "banding", "start[C2]", 0.45, 0.04);
+
+  const TestPair columns = changed(scene, 23,
+    [&](double u, int k, int x, int, double)
+    { return u * (1.0 + 0.012 * std::sin(2.0 * Pi * (x / 7.7 + start[k]))); });
+  const GapReport other = diagnose(columns);
+  expectFirst(other, "banding", "columns");
+  expectParameter(other, "banding", "period", 7.7, 0.05);
+}
+
+TEST(FieldGap, SeveralEffectsAtOnce)
+{
+  const TestScene scene(13);
+  const double gain[] = { 0.97, 1.0, 1.04 };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      ImagePlane plane = scene.pixels(gaussianBlurred(scene.fine(k), 1.0 * TestScene::Fine));
+      for (int y = 0; y < plane.height; ++y)
+      {
+        for (int x = 0; x < plane.width; ++x)
+        {
+          const double rho2 = std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2);
+          plane.at(x, y) *=
+            gain[k] * (1.0 - 0.1 * rho2) * (1.0 + 0.01 * std::sin(2.0 * Pi * y / 9.0));
+        }
+      }
+      return plane;
+    },
+    24);
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_EQ(report.causes.size(), 4U);
+  expectParameter(report, "vignetting", "falloff", 0.1, 0.003);
+  expectParameter(report, "channel_gain", "gain[C1]", 0.97, 0.003);
+  expectParameter(report, "banding", "period", 9.0, 0.05);
+  expectParameter(report, "defocus", "blur", 1.0, 0.03);
+}
+
+TEST(FieldGap, QuietWithoutEffect)
+{
+  int blamed = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed)
+  {
+    const TestScene scene(100 + seed, 3, 128, 112);
+    const GapReport report =
+      diagnose(changed(scene, 200 + seed, [](double u, int, int, int, double) { return u; }));
+    SCOPED_TRACE(describe(report));
+    blamed += report.verdict != GapVerdict::NoGap || !report.causes.empty() ? 1 : 0;
+    EXPECT_NEAR(report.gap.noiseFloor, report.gap.rmsBefore, 0.03 * report.gap.rmsBefore);
+  }
+  EXPECT_LE(blamed, 1);
+}
+
+TEST(FieldGap, UnknownEffectsStayUnknown)
+{
+  const TestScene scene(14);
+  const ImagePlane ghost = scene.pixels(scene.fine(0));
+  const TestPair mirrored = changed(scene, 25,
+    [&](double u, int, int x, int y, double)
+    { return u + 0.08 * ghost.read(scene.width() - 1 - x, scene.height() - 1 - y); });
+  const GapReport reflection = diagnose(mirrored);
+  EXPECT_NE(reflection.verdict, GapVerdict::Explained) << describe(reflection);
+  EXPECT_NE(reflection.verdict, GapVerdict::NoGap) << describe(reflection);
+  EXPECT_GT(reflection.unexplained.share, 0.15) << describe(reflection);
+
+  const TestPair stained = changed(scene, 26,
+    [&](double u, int, int x, int y, double)
+    {
+      const double distance2 = std::pow(x - 60.0, 2) + std::pow(y - 50.0, 2);
+      return u * (1.0 - 0.15 * std::exp(-distance2 / (2.0 * 18.0 * 18.0)));
+    });
+  const GapReport stain = diagnose(stained);
+  EXPECT_GT(stain.unexplained.share, 0.5) << describe(stain);
+  EXPECT_TRUE(
+    stain.verdict == GapVerdict::Unexplained || stain.verdict == GapVerdict::PartlyExplained)
+    << describe(stain);
+}

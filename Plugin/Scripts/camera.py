@@ -1,0 +1,98 @@
+"""A camera simulated beside the real one: fitted to measured samples or read, with any set of effects."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from support import cameras, command, estimation, pipeline, report  # noqa: E402
+
+
+def arguments():
+    parser = command.parser("camera", __doc__)
+    parser.add_argument("--samples", metavar="FILE",
+                        help="sample table: reflectance, and the real camera's responses where known")
+    parser.add_argument("--image", metavar="FILE", nargs="+",
+                        help="image of the real camera: one file, or one a channel")
+    parser.add_argument("--labels", metavar="FILE", help="label image of the patches in the image")
+    parser.add_argument("--patches", metavar="FILE",
+                        help="measured reflectance of the patches, with the column 'label'")
+    parser.add_argument("--camera", metavar="FILE",
+                        help="the camera as known or designed: description (.json) or curves (.csv)")
+    parser.add_argument("--fit", action="store_true",
+                        help="fit the camera to the samples; with --camera starting from it")
+    parser.add_argument("--draws", metavar="N", type=command.whole_number(0), default=100,
+                        help="bootstrap draws of the fit's uncertainty (default: %(default)s)")
+    parser.add_argument("--effects", metavar="FILE",
+                        help="list of effects (JSON) that the simulated camera has")
+    options = parser.parse_args()
+    if (options.samples is None) == (options.image is None):
+        parser.error("give either --samples, or --image with --labels and --patches")
+    if options.image and not (options.labels and options.patches):
+        parser.error("--image needs --labels and --patches")
+    if not (options.fit or options.camera):
+        parser.error("give --camera, --fit or both")
+    return options
+
+
+def main():
+    options = arguments()
+    command.require_files(*(options.image or []), options.samples, options.labels, options.patches,
+                          options.camera, options.effects)
+    folder = command.make_folder(options.output)
+    pipeline.load_plugin()
+
+    image = labels = patches = None
+    if options.image:
+        image = estimation.read_image(options.image)
+        labels = pipeline.create("LabelImageReader", FileName=options.labels)
+        patches = pipeline.create("SampleTableReader", FileName=options.patches)
+        samples = pipeline.create("PatchSampler", Input=image, Labels=labels, PatchTable=patches)
+    else:
+        samples = pipeline.create("SampleTableReader", FileName=options.samples)
+    pipeline.update(samples)
+
+    designed = cameras.read(options.camera) if options.camera else None
+    camera, uncertainty, fit = designed, None, None
+    pages = []
+    if options.fit:
+        fit = cameras.fit(samples, designed, options.draws, folder)
+        camera, uncertainty = pipeline.port(fit, 0), pipeline.port(fit, 1)
+        pages.append(report.table("The fit", *pipeline.table(pipeline.port(fit, 2))))
+        pages.append(report.table("Channels", *pipeline.table(pipeline.port(fit, 3))))
+    else:
+        cameras.save(camera, os.path.join(folder, "camera.json"))
+    cameras.draw_responsivities(camera, os.path.join(folder, "responsivities.png"), uncertainty)
+    shown = {"responsivities.png": "Responsivity of each channel"}
+    if options.fit and designed is not None:
+        cameras.draw_responsivities(designed, os.path.join(folder, "designed.png"))
+        shown["designed.png"] = "Responsivity as designed"
+    pages.insert(0, report.pictures("The camera", folder, shown))
+
+    effects = {"Effects": "Effect File", "EffectFile": options.effects} if options.effects else {}
+    simulated = cameras.simulate(samples, camera, **effects)
+    pipeline.save_table(simulated, os.path.join(folder, "simulated.csv"))
+    measured = bool(cameras.responses(samples))
+    if measured:
+        real, title = samples, "real minus simulated"
+    else:
+        real, title = cameras.simulate(samples, camera, Effects="None (ideal camera)"), "ideal minus simulated"
+    if measured and options.fit and designed is not None:
+        as_designed = cameras.compare(real, cameras.simulate(samples, designed), "difference-designed", folder)
+        pages.append(report.table("Real minus simulated as designed",
+                                  *pipeline.table(pipeline.port(as_designed, 1))))
+    difference = cameras.compare(real, simulated, "difference", folder)
+    cameras.draw_samples(difference, os.path.join(folder, "samples.png"))
+    pages += [report.table(title.capitalize(), *pipeline.table(pipeline.port(difference, 1))),
+              report.pictures("Every sample", folder, {"samples.png": title})]
+
+    if image is not None:
+        chart = cameras.simulate(cameras.chart_image(labels, patches), camera, **effects)
+        maps = pipeline.create("ResponseDifference", Input=image, Simulated=chart)
+        pipeline.update(maps)
+        pages.append(report.pictures("The chart, channel by channel", folder,
+                                     cameras.draw_channels(chart, image, maps, folder)))
+    report.write(folder, "The camera, simulated and real", pages)
+    command.say(f"camera, tables, pictures and report.html: {folder}")
+
+
+command.run(main)

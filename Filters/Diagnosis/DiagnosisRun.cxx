@@ -77,9 +77,10 @@ void forEach(int count, const std::function<void(int)>& body)
     std::rethrow_exception(failure);
   }
 }
-}
 
-GapReport runDiagnosis(vtkAlgorithm* algorithm, const GapCapture& capture, GapOptions options)
+// diagnose(options) beside the calling thread.
+template <typename Diagnose>
+auto runBeside(vtkAlgorithm* algorithm, GapOptions options, Diagnose diagnose)
 {
   Messages messages;
   std::mutex exclusive;
@@ -91,19 +92,31 @@ GapReport runDiagnosis(vtkAlgorithm* algorithm, const GapCapture& capture, GapOp
     const std::lock_guard<std::mutex> hold(exclusive);
     body();
   };
-  auto work =
-    std::async(std::launch::async, [&capture, &options] { return diagnoseGap(capture, options); });
+  auto work = std::async(std::launch::async, [&diagnose, &options] { return diagnose(options); });
   while (work.wait_for(ShownEvery) != std::future_status::ready)
   {
     messages.show(algorithm);
   }
   messages.show(algorithm);
-  auto report = work.get();
-  if (!report || messages.stopped())
+  auto result = work.get();
+  if (!result || messages.stopped())
   {
     throw std::runtime_error("stopped by the user");
   }
-  return std::move(*report);
+  return std::move(*result);
+}
+}
+
+GapReport runDiagnosis(vtkAlgorithm* algorithm, const GapCapture& capture, GapOptions options)
+{
+  return runBeside(algorithm, std::move(options),
+    [&capture](const GapOptions& given) { return diagnoseGap(capture, given); });
+}
+
+FieldGap runDiagnosis(vtkAlgorithm* algorithm, const FieldPair& pair, GapOptions options)
+{
+  return runBeside(algorithm, std::move(options),
+    [&pair](const GapOptions& given) { return diagnoseField(pair, given); });
 }
 
 } // namespace msi

@@ -1,11 +1,11 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
-#include "Kernels/Camera/CounterRandom.h"
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
 #include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/SeparatingCapture.h"
+#include "Kernels/Gap/ShrinkInterval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +21,11 @@ constexpr double PartlyShrink = 0.25;
 constexpr double UnexplainedRms = 1.1;    // of the noise floor
 constexpr double UnexplainedBlocks = 2.0; // squared block means over what noise allows
 constexpr double ExplainedBlocks = 1.5;
-constexpr int Resamplings = 400;
 constexpr double FewUsable = 0.5;
 
 struct TestEnergies
 {
-  std::vector<double> before, after, noise;
+  SampleEnergies samples; // a block is a sample
   double elements = 0.0;
 };
 
@@ -49,24 +48,24 @@ TestEnergies energiesOf(const FieldData& data, const FieldSearchResult& found)
       noise += found.after.at(b, k).noise;
       energies.elements += found.after.at(b, k).pixels;
     }
-    energies.before.push_back(before);
-    energies.after.push_back(after);
-    energies.noise.push_back(noise);
+    energies.samples.before.push_back(before);
+    energies.samples.after.push_back(after);
+    energies.samples.noise.push_back(noise);
   }
   return energies;
 }
 
 GapFigures figuresOf(const TestEnergies& energies, std::uint64_t seed)
 {
-  const std::size_t count = energies.before.size();
+  const std::size_t count = energies.samples.before.size();
   double before = 0.0;
   double after = 0.0;
   double noise = 0.0;
   for (std::size_t i = 0; i < count; ++i)
   {
-    before += energies.before[i];
-    after += energies.after[i];
-    noise += energies.noise[i];
+    before += energies.samples.before[i];
+    after += energies.samples.after[i];
+    noise += energies.samples.noise[i];
   }
   GapFigures figures;
   const double elements = std::fmax(energies.elements, 1.0);
@@ -74,27 +73,7 @@ GapFigures figuresOf(const TestEnergies& energies, std::uint64_t seed)
   figures.rmsAfter = std::sqrt(after / elements);
   figures.noiseFloor = std::sqrt(noise / elements);
   figures.shrink = shrinkOf(before, after, noise);
-  const CounterRandom random(seed, 83);
-  std::vector<double> shrinks;
-  for (int draw = 0; draw < Resamplings; ++draw)
-  {
-    double b = 0.0;
-    double a = 0.0;
-    double n = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const double u = random.uniform(static_cast<std::uint64_t>(draw) * count + i);
-      const auto pick =
-        std::min(count - 1, static_cast<std::size_t>(u * static_cast<double>(count)));
-      b += energies.before[pick];
-      a += energies.after[pick];
-      n += energies.noise[pick];
-    }
-    shrinks.push_back(shrinkOf(b, a, n));
-  }
-  std::sort(shrinks.begin(), shrinks.end());
-  figures.shrinkInterval = { std::fmin(shrinks[Resamplings / 40], figures.shrink),
-    std::fmax(shrinks[Resamplings - 1 - Resamplings / 40], figures.shrink) };
+  figures.shrinkInterval = shrinkInterval(energies.samples, seed);
   return figures;
 }
 
@@ -204,9 +183,10 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.verdict = shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained
       : shrink >= PartlyShrink                               ? GapVerdict::PartlyExplained
                                                              : GapVerdict::Unexplained;
-    // What is left has a cause that is not known, and may overlap with those found by as much as its own size.
-    const double certain =
-      report.verdict == GapVerdict::Explained ? shrink : std::fmax(2.0 * shrink - 1.0, 0.0);
+    // What is left has a cause that is not known and may overlap with those found.
+    const double certain = report.verdict == GapVerdict::Explained
+      ? shrink
+      : shrink * std::fmin(shrink / ExplainedShrink, 1.0);
     report.causes = fieldCauses(data, found, choices, certain);
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
     report.unexplained.share = std::clamp(1.0 - certain, 0.0, 1.0);
@@ -227,7 +207,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.gap.shrink = 0.0;
     report.gap.shrinkInterval = { 0.0, 0.0 };
   }
-  report.candidates = fieldCandidates(data, found);
+  report.candidates = fieldCandidates(data, found, options.seed);
   for (const GapCause& cause : report.causes)
   {
     if (!cause.equivalent.empty() && !report.nextCapture)

@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/Shapley.h"
+#include "Kernels/Gap/ShrinkInterval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +145,6 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
   const std::vector<FieldChoice>& choices, double total)
 {
   const FieldFitter fitter(data, found.after);
-  const FieldFitter nominal(data, found.before);
   const FieldSet& set = found.set;
   const std::size_t subsets = std::size_t(1) << set.size();
   const double chance = fitter.chance();
@@ -213,14 +213,36 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
   return causes;
 }
 
-std::vector<GapCandidate> fieldCandidates(const FieldData& data, const FieldSearchResult& found)
+std::vector<GapCandidate> fieldCandidates(
+  const FieldData& data, const FieldSearchResult& found, std::uint64_t seed)
 {
-  const FieldFitter nominal(data, found.before);
+  const Eigen::VectorXd before = FieldFitter(data, found.before).fit({}).blockEnergy;
   std::vector<GapCandidate> candidates;
   for (const FieldSingle& single : found.singles)
   {
+    SampleEnergies energies;
+    double sums[3] = { 0.0, 0.0, 0.0 };
+    for (std::size_t b = 0; b < data.blocks.size(); ++b)
+    {
+      if (data.blocks[b].fold < 0)
+      {
+        continue;
+      }
+      double chance = 0.0;
+      for (Eigen::Index k = 0; k < data.channels(); ++k)
+      {
+        chance += found.before.at(b, k).chance;
+      }
+      const auto block = static_cast<Eigen::Index>(b);
+      energies.before.push_back(before[block]);
+      energies.after.push_back(single.blockEnergy[block]);
+      energies.noise.push_back(chance);
+      sums[0] += before[block];
+      sums[1] += single.blockEnergy[block];
+      sums[2] += chance;
+    }
     candidates.push_back({ single.choice->effect, single.choice->form, "",
-      shrinkOf(nominal.energy(), single.energy, nominal.chance()) });
+      shrinkOf(sums[0], sums[1], sums[2]), shrinkInterval(energies, seed) });
   }
   std::stable_sort(candidates.begin(), candidates.end(),
     [](const GapCandidate& a, const GapCandidate& b) { return a.shrink > b.shrink; });

@@ -4,6 +4,7 @@
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/GapReport.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace msi
@@ -13,7 +14,8 @@ namespace msi
 std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult& found,
   const std::vector<FieldChoice>& choices, double total);
 
-std::vector<GapCandidate> fieldCandidates(const FieldData& data, const FieldSearchResult& found);
+std::vector<GapCandidate> fieldCandidates(
+  const FieldData& data, const FieldSearchResult& found, std::uint64_t seed);
 
 // The effects as the simulator takes them.
 std::vector<CameraEffect> fieldCorrection(

@@ -288,7 +288,7 @@ private:
       findIndistinct(fitter);
       for (const FieldFit& fit : ranked)
       {
-        Result.singles.push_back({ fit.set.back(), fit.energy });
+        Result.singles.push_back({ fit.set.back(), fit.energy, fit.blockEnergy });
       }
     }
     std::vector<Hypothesis> fitted;
@@ -318,7 +318,7 @@ private:
         if (Current.set.empty() && single.choice->effect == hypothesis.set.back()->effect &&
           hypothesis.fit.energy < single.energy)
         {
-          single = { hypothesis.set.back(), hypothesis.fit.energy };
+          single = { hypothesis.set.back(), hypothesis.fit.energy, hypothesis.fit.blockEnergy };
         }
       }
     }

@@ -15,7 +15,8 @@ namespace msi
 struct FieldSingle
 {
   const FieldChoice* choice;
-  double energy; // cross-validated, alone
+  double energy;               // cross-validated, alone
+  Eigen::VectorXd blockEnergy; // of each block
 };
 
 struct FieldSearchResult

@@ -30,7 +30,8 @@ struct Axis
   std::vector<int> common, own;
 };
 
-std::vector<Axis> axesOf(const FieldModel& model)
+// Where the surround is partly not simulated it is no part of the edges.
+std::vector<Axis> axesOf(const FieldModel& model, bool gaps)
 {
   std::vector<Axis> axes = {
     { "channel", {}, { FieldColumn::Gain, FieldColumn::One } },
@@ -40,7 +41,7 @@ std::vector<Axis> axesOf(const FieldModel& model)
         FieldColumn::Diagonal, FieldColumn::Saddle } },
     { "edges", {}, { FieldColumn::Right, FieldColumn::Down, FieldColumn::BlurVariance } },
   };
-  for (int pass = 0; pass < TailPasses; ++pass)
+  for (int pass = 0; !gaps && pass < TailPasses; ++pass)
   {
     axes[3].own.push_back(FieldColumn::Tail + pass);
   }
@@ -134,17 +135,27 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
   return change;
 }
 
-// The common gain is the level's.
-void takeCommonGain(std::vector<Eigen::VectorXd>& change)
+// The common gain is the level's: takes it off the channels' and solves for the others again.
+void takeCommonGain(
+  std::vector<Eigen::MatrixXd> normal, std::vector<int> own, std::vector<Eigen::VectorXd>& change)
 {
   double mean = 0.0;
   for (const Eigen::VectorXd& columns : change)
   {
     mean += columns[FieldColumn::Gain] / static_cast<double>(change.size());
   }
-  for (Eigen::VectorXd& columns : change)
+  std::vector<double> gain;
+  for (std::size_t k = 0; k < normal.size(); ++k)
   {
-    columns[FieldColumn::Gain] -= mean;
+    gain.push_back(change[k][FieldColumn::Gain] - mean);
+    const Eigen::VectorXd along = normal[k].col(FieldColumn::Gain);
+    normal[k].col(Columns) -= gain[k] * along;
+  }
+  own.erase(std::remove(own.begin(), own.end(), int(FieldColumn::Gain)), own.end());
+  change = regress(normal, {}, own);
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    change[k][FieldColumn::Gain] = gain[k];
   }
 }
 
@@ -232,7 +243,8 @@ Cells fifths(std::vector<std::pair<double, double>> valueAndEnergy, const std::s
   std::stable_sort(valueAndEnergy.begin(), valueAndEnergy.end(),
     [](const auto& a, const auto& b) { return a.first < b.first; });
   const std::size_t n = valueAndEnergy.size();
-  for (std::size_t part = 0; part < 5 && n >= 5; ++part)
+  const bool alike = n < 5 || !(valueAndEnergy.front().first < valueAndEnergy.back().first);
+  for (std::size_t part = 0; part < 5 && !alike; ++part)
   {
     const std::size_t first = part * n / 5;
     const std::size_t last = (part + 1) * n / 5;
@@ -292,7 +304,7 @@ std::vector<GapAxis> fieldAxes(
   const FieldStatistics plain = fieldStatistics(data, statistics.model, nullptr, loop);
   auto training = normals(data, plain, true);
   auto test = normals(data, plain, false);
-  const std::vector<Axis> axes = axesOf(statistics.model);
+  const std::vector<Axis> axes = axesOf(statistics.model, !data.filled.empty());
   const auto K = static_cast<std::size_t>(data.channels());
   double before = 0.0;
   double noise = 0.0;
@@ -348,7 +360,7 @@ std::vector<GapAxis> fieldAxes(
     change = regress(training, common, own);
     if ((subset & (ChannelBit | LevelBit)) == ChannelBit)
     {
-      takeCommonGain(change);
+      takeCommonGain(training, own, change);
     }
     explained[subset] = (before - energyLeft(test, change)) / beyond;
   };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace
@@ -405,4 +406,144 @@ TEST(FieldGap, UnknownEffectsStayUnknown)
   EXPECT_TRUE(
     stain.verdict == GapVerdict::Unexplained || stain.verdict == GapVerdict::PartlyExplained)
     << describe(stain);
+}
+
+TEST(FieldGap, LeavesOutWhatIsAskedFor)
+{
+  const TestScene scene(15);
+  const TestPair pair = changed(scene, 27,
+    [&](double u, int, int x, int y, double)
+    { return u * (1.0 - 0.15 * (std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2))); });
+  msi::GapOptions options;
+  options.without = { "vignetting" };
+  const GapReport report = msi::diagnoseField(pair.pair(), options)->report;
+  SCOPED_TRACE(describe(report));
+  for (const auto& cause : report.causes)
+  {
+    EXPECT_NE(cause.effect, "vignetting");
+    EXPECT_LT(cause.share, 0.5);
+  }
+  EXPECT_NE(report.verdict, GapVerdict::Explained);
+  EXPECT_NE(report.verdict, GapVerdict::NoGap);
+}
+
+// A chart on a black cloth that was not simulated: patches of constant color, holes in the real image.
+TEST(FieldGap, PatchesAmongGaps)
+{
+  const TestScene scene(16);
+  TestPair pair = changed(scene, 28,
+    [&](double u, int, int x, int, double) { return u * (1.0 + 0.08 * scene.fieldX(x)); });
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const msi::CounterRandom random(3);
+  for (int y = 0; y < scene.height(); ++y)
+  {
+    for (int x = 0; x < scene.width(); ++x)
+    {
+      const int patch = x / 30 + 6 * (y / 30);
+      const bool inside = x % 30 < 22 && y % 30 < 22;
+      pair.labels.push_back(inside ? patch + 1 : 0);
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const std::size_t i = pair.pair().index(x, y) * 3 + k;
+        const double level = 0.1 + 0.7 * random.uniform(static_cast<std::uint64_t>(patch), k);
+        const double noise = 0.003 * random.normal(1000 + i);
+        pair.simulated[i] = inside ? static_cast<float>(level) : nan;
+        pair.real[i] = x % 17 == 3 && y % 13 == 5
+          ? nan
+          : static_cast<float>(level * (1.0 + 0.08 * scene.fieldX(x)) + noise);
+      }
+    }
+  }
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "illumination_gradient");
+  EXPECT_EQ(report.causes.size(), 1U);
+  expectParameter(report, "illumination_gradient", "right", 0.08, 0.002);
+  const auto says = [&report](const char* words)
+  {
+    return std::any_of(report.notes.begin(), report.notes.end(),
+      [words](const std::string& note) { return note.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("misregistration cannot be decided"));
+  EXPECT_TRUE(says("defocus cannot be decided"));
+  EXPECT_TRUE(says("% of the pixels can be used"));
+}
+
+TEST(FieldGap, FewPixels)
+{
+  const TestScene scene(17, 3, 24, 20);
+  const GapReport report =
+    diagnose(changed(scene, 29, [](double u, int, int, int, double) { return 0.9 * u; }));
+  SCOPED_TRACE(describe(report));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "exposure_gain");
+  expectParameter(report, "exposure_gain", "gain", 0.9, 0.01);
+}
+
+TEST(FieldGap, ErrorsSayWhatWasExpected)
+{
+  const auto messageOf = [](const msi::FieldPair& pair, const msi::GapOptions& options = {})
+  {
+    try
+    {
+      msi::diagnoseField(pair, options);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const TestScene scene(18, 2, 40, 30);
+  TestPair pair = changed(scene, 30, [](double u, int, int, int, double) { return u; });
+  msi::FieldPair empty = pair.pair();
+  empty.extent = { 0, 30 };
+  EXPECT_EQ(messageOf(empty),
+    "the images have 0 x 30 pixels and 2 channels; expected at least one of each");
+  msi::GapOptions options;
+  options.without = { "gremlins" };
+  EXPECT_EQ(messageOf(pair.pair(), options), "there is no effect 'gremlins' to leave out");
+  std::fill(pair.real.begin(), pair.real.end(), std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(messageOf(pair.pair()),
+    "the images share 0 blocks of 4 x 4 usable pixels; expected at least 15: pixels must be finite "
+    "in "
+    "both images, with finite neighbours in the simulated one");
+}
+
+TEST(FieldGap, StopsWhenAsked)
+{
+  const TestScene scene(19, 2, 64, 64);
+  const TestPair pair = changed(scene, 31, [](double u, int, int, int, double) { return 0.9 * u; });
+  msi::GapOptions options;
+  options.progress = [](double fraction, const char*) { return fraction < 0.1; };
+  EXPECT_FALSE(msi::diagnoseField(pair.pair(), options));
+}
+
+// More than two million pixels: nine windows of it are looked at.
+TEST(FieldGap, LargeImages)
+{
+  TestPair pair;
+  pair.extent = { 2400, 1000 };
+  pair.channels = { "C1" };
+  const msi::CounterRandom random(5);
+  for (int y = 0; y < pair.extent.height; ++y)
+  {
+    for (int x = 0; x < pair.extent.width; ++x)
+    {
+      const double u = 0.4 + 0.15 * std::sin(0.11 * x + 0.07 * y) * std::cos(0.013 * x - 0.09 * y);
+      const double X = (x - 1199.5) / 1199.5;
+      const double Y = (y - 499.5) / 1199.5;
+      const auto pixel = static_cast<std::uint64_t>(pair.simulated.size());
+      pair.simulated.push_back(static_cast<float>(u));
+      pair.real.push_back(static_cast<float>(
+        u * (1.0 + 0.03 * Y) * (1.0 - 0.06 * (X * X + Y * Y)) + 0.004 * random.normal(pixel)));
+    }
+  }
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_EQ(report.causes.size(), 2U);
+  expectParameter(report, "vignetting", "falloff", 0.06, 0.002);
+  expectParameter(report, "illumination_gradient", "down", 0.03, 0.002);
 }

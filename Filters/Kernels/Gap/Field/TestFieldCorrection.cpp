@@ -1,0 +1,138 @@
+#include "Kernels/Camera/Imaging/ImageSimulator.h"
+#include "Kernels/Gap/Field/FieldCorrection.h"
+#include "Kernels/Gap/Field/FieldTestScene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace
+{
+using msi::FieldGap;
+using msi::test::gaussianBlurred;
+using msi::test::ImagePlane;
+using msi::test::makePair;
+using msi::test::Pi;
+using msi::test::TestPair;
+using msi::test::TestScene;
+
+// Blur, vignetting, stripes of columns, gains and an offset.
+TestPair everything(const TestScene& scene)
+{
+  const double gain[] = { 0.96, 1.0, 1.05 };
+  return makePair(
+    scene,
+    [&](int k)
+    {
+      ImagePlane plane = scene.pixels(gaussianBlurred(scene.fine(k), 0.9 * TestScene::Fine));
+      for (int y = 0; y < plane.height; ++y)
+      {
+        for (int x = 0; x < plane.width; ++x)
+        {
+          const double rho2 = std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2);
+          plane.at(x, y) *=
+            gain[k] * (1.0 - 0.1 * rho2) * (1.0 + 0.02 * std::sin(2.0 * Pi * (x / 8.5 + 0.2)));
+        }
+      }
+      return plane;
+    },
+    31);
+}
+
+std::vector<float> correctedImage(
+  const msi::FieldPair& pair, const msi::FieldModel& model, int side)
+{
+  const msi::FieldCorrection correction(pair, model);
+  const std::size_t K = pair.channels.size();
+  std::vector<float> image(pair.pixels() * K);
+  std::vector<float> part;
+  msi::CorrectionWorkspace workspace;
+  for (int y = 0; y < pair.extent.height; y += side)
+  {
+    for (int x = 0; x < pair.extent.width; x += side)
+    {
+      const msi::ImageWindow window{ x, y, std::min(side, pair.extent.width - x),
+        std::min(side, pair.extent.height - y) };
+      part.resize(window.pixels() * K);
+      correction(window, part.data(), workspace);
+      for (int row = 0; row < window.height; ++row)
+      {
+        std::copy_n(part.data() + static_cast<std::size_t>(row * window.width) * K,
+          static_cast<std::size_t>(window.width) * K, image.data() + pair.index(x, y + row) * K);
+      }
+    }
+  }
+  return image;
+}
+}
+
+// A camera that sees each of three wavelengths in one channel turns the simulated image, taken as reflectance, into itself; with
+// the effects that were found the simulator must give the corrected image.
+TEST(FieldCorrection, TheSimulatorRunsWithWhatWasFound)
+{
+  const TestScene scene(21, 3, 120, 100);
+  const TestPair test = everything(scene);
+  const msi::FieldPair pair = test.pair();
+  const FieldGap found = *msi::diagnoseField(pair);
+  ASSERT_EQ(found.report.correction.size(), 4U);
+  const msi::CameraModel camera(msi::WavelengthGrid::uniform(500.0, 520.0, 10.0),
+    Eigen::MatrixXd::Identity(3, 3), Eigen::VectorXd::Zero(3), pair.channels);
+  const msi::ImageSimulator simulator(camera, found.report.correction, pair.extent);
+  const msi::ImageWindow all = msi::wholeImage(pair.extent);
+  msi::ImageWorkspace workspace;
+  msi::SceneMean mean(3);
+  simulator.addToMean(pair.simulated, nullptr, all, mean, workspace);
+  std::vector<float> simulated(test.simulated.size());
+  simulator.simulate(pair.simulated, nullptr, all, all, &mean, simulated.data(), workspace);
+  const std::vector<float> corrected = correctedImage(pair, found.model, 64);
+  double before = 0.0;
+  double after = 0.0;
+  for (std::size_t i = 0; i < corrected.size(); ++i)
+  {
+    ASSERT_NEAR(simulated[i], corrected[i], 1e-5) << i;
+    before += std::pow(pair.real[i] - pair.simulated[i], 2);
+    after += std::pow(pair.real[i] - corrected[i], 2);
+  }
+  EXPECT_LT(after, 0.05 * before);
+}
+
+TEST(FieldCorrection, WindowsDoNotShowAndGapsStay)
+{
+  const TestScene scene(22, 3, 120, 100);
+  TestPair test = everything(scene);
+  test.simulated[3 * 500 + 1] = std::numeric_limits<float>::quiet_NaN();
+  const msi::FieldPair pair = test.pair();
+  const FieldGap found = *msi::diagnoseField(pair);
+  const std::vector<float> large = correctedImage(pair, found.model, 128);
+  const std::vector<float> small = correctedImage(pair, found.model, 32);
+  for (std::size_t i = 0; i < large.size(); ++i)
+  {
+    ASSERT_EQ(std::isnan(large[i]), i == 3 * 500 + 1) << i;
+    ASSERT_TRUE(std::isnan(large[i]) || large[i] == small[i]) << i;
+  }
+}
+
+TEST(FieldCorrection, TheOrderOfWorkDoesNotShow)
+{
+  const TestScene scene(23, 3, 120, 100);
+  const TestPair test = everything(scene);
+  msi::GapOptions backwards;
+  backwards.parallelFor = [](int count, const std::function<void(int)>& body)
+  {
+    for (int i = count; i-- > 0;)
+    {
+      body(i);
+    }
+  };
+  const auto one = msi::diagnoseField(test.pair())->report;
+  const auto other = msi::diagnoseField(test.pair(), backwards)->report;
+  ASSERT_EQ(one.correction.size(), other.correction.size());
+  for (std::size_t i = 0; i < one.correction.size(); ++i)
+  {
+    EXPECT_EQ(one.correction[i].parameters, other.correction[i].parameters);
+  }
+  EXPECT_EQ(one.gap.rmsAfter, other.gap.rmsAfter);
+  EXPECT_EQ(one.gap.shrinkInterval, other.gap.shrinkInterval);
+}

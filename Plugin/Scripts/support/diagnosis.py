@@ -122,9 +122,13 @@ def far(figures):
     return text
 
 
+def percent(share):
+    return f"{100 * share:.0f} %" if share >= 0.005 else "under 1 %"
+
+
 def cause_line(cause):
     medium = f" of {cause['medium']}" if cause["medium"] else ""
-    text = f"{cause['effect']}{medium}: {100 * cause['share']:.0f} % of the gap"
+    text = f"{cause['effect']}{medium}: {percent(cause['share'])} of the gap"
     if cause["equivalent"]:
         text += f"; cannot be told from {cause['equivalent']}"
     return text
@@ -168,8 +172,8 @@ def verdict_section(figures, causes):
                      + (f", mostly along {figures['unexplained_where']}."
                         if figures["unexplained_where"] else "."))
     if figures["verdict"] == "partly explained":
-        lines.append("The shares are cautious: what is left over may hide under the causes by as much as "
-                     "its own size, and is counted twice.")
+        lines.append("The shares are cautious: they leave out what causes undo of one another, and what is "
+                     "left over may hide under the causes by as much as its own size.")
     if figures["next_capture"]:
         lines.append(f"Capture next: {figures['next_capture']}. It separates {figures['separates']}.")
     return report.text(f"Verdict: {figures['verdict']}", *lines)
@@ -206,7 +210,7 @@ def which_sections(causes, figures, drawn, folder):
     for cause in first_rows(causes):
         medium = f" ({cause['medium']})" if cause["medium"] else ""
         words = [cause["meaning"], f"As simulated: {cause['formula']}.",
-                 f"It makes {100 * cause['share']:.0f} % of the gap; simulated alone it shrinks the gap "
+                 f"It makes {percent(cause['share'])} of the gap; simulated alone it shrinks the gap "
                  f"by {100 * cause['shrink']:.0f} %."]
         if cause["equivalent"]:
             words.append(f"These data cannot tell it from {cause['equivalent']}: any of them does as well "

@@ -4,13 +4,14 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command, diagnosis, pipeline, report  # noqa: E402
+from support import command, diagnosis, image_gap, pipeline, report  # noqa: E402
 
 
 def arguments():
     parser = command.parser("diagnose", __doc__)
     parser.add_argument("capture", metavar="CAPTURE_DIR",
-                        help="folder with capture.json, camera.csv, samples.csv and responses.csv")
+                        help="folder with capture.json, camera.csv, samples.csv and responses.csv; or with "
+                             "images/ (real* and simulated*), or with both")
     parser.add_argument("--without", metavar="EFFECT", action="append", default=[],
                         help="an effect that may not be blamed; may be given several times")
     parser.add_argument("--causes", metavar="N", type=command.whole_number(1), default=5,
@@ -29,15 +30,26 @@ def arguments():
 def main():
     options = arguments()
     pipeline.load_plugin()
-    capture = diagnosis.read_capture(options.capture)
-    gap = diagnosis.diagnose(capture, Without=options.without, MaximumCauses=options.causes,
-                             Folds=options.folds, Seed=options.seed)
+    place = diagnosis.folder_of(options.capture)
+    images = image_gap.pair(place)
+    choices = {"Without": options.without, "MaximumCauses": options.causes, "Seed": options.seed}
+    outcomes = []
+    if images is None or os.path.exists(os.path.join(place, "samples.csv")):
+        outcomes.append((diagnosis, diagnosis.diagnose(diagnosis.read_capture(options.capture),
+                                                       Folds=options.folds, **choices)))
+    if images is not None:
+        outcomes.append((image_gap, image_gap.diagnose(images, **choices)))
+
     folder = command.make_folder(options.output)
-    diagnosis.write(gap, folder)
-    report.write(folder, f"Sim-to-real gap: {diagnosis.name_of(options.capture)}",
-                 diagnosis.sections(gap, folder))
-    diagnosis.print_summary(gap)
-    command.say(f"report, pictures, tables and the corrected camera: {os.path.join(folder, 'report.html')}")
+    sections = []
+    for number, (kind, gap) in enumerate(outcomes):
+        # The images beside tables have a folder of their own.
+        target = command.make_folder(os.path.join(folder, "images")) if number > 0 else folder
+        kind.write(gap, target)
+        sections += kind.sections(gap, target)
+        diagnosis.print_summary(gap)
+    report.write(folder, f"Sim-to-real gap: {os.path.basename(os.path.abspath(place))}", sections)
+    command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 
 
 command.run(main)

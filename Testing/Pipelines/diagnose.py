@@ -12,6 +12,7 @@ root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
 DEMO = root / "Data" / "Captures" / "demo-warm-camera"
 VERDICTS = ("no gap", "explained", "partly explained", "unexplained")
 AXES = ("channel", "medium", "scene", "position", "level", "order", "spectral_shape", "sample")
+IMAGE = root / "Data" / "Images" / "demo-fabric"
 faults = []
 
 
@@ -106,6 +107,20 @@ def check_demo(launcher, folder):
                f"--ranks 2: {name} differs")
 
 
+def check_images(launcher, folder):
+    """A capture of two equal images, without tables: nothing to explain."""
+    for kind in ("real", "simulated"):
+        place = folder / "pair" / "images" / kind
+        place.mkdir(parents=True)
+        for channel in (400, 500, 600):
+            shutil.copy(IMAGE / f"channel_{channel}nm.tif", place)
+    done = run(launcher, folder / "pair", folder / "pair-out")
+    expect(done.returncode == 0, f"image pair: status {done.returncode}: {done.stderr}")
+    report = json.loads((folder / "pair-out" / "report.json").read_text(encoding="utf-8"))
+    expect(report["verdict"] == "no gap" and not report["causes"], f"image pair: {report['verdict']}")
+    expect((folder / "pair-out" / "gap-map.png").exists(), "image pair: no map")
+
+
 def edited(folder, name, **changes):
     """A copy of the demo capture; changes: {file stem: what becomes of its lines, or None to leave it out}."""
     place = folder / name
@@ -165,6 +180,10 @@ def refused(folder):
     yield edited(folder, "broken-json", capture=lambda _: ['{"dark": ']), "the JSON text ends too early"
     yield edited(folder, "uneven", camera=lambda lines: lines[:3] + lines[4:]), "a uniform grid"
     yield edited(folder, "counts", responses=rows(lambda u: 4000 * u)), "looks like counts"
+    pair = edited(folder, "one-image")
+    (pair / "images" / "real").mkdir(parents=True)
+    shutil.copy(IMAGE / "channel_400nm.tif", pair / "images" / "real")
+    yield pair, "images: there is no simulated image; expected real* and sim*"
     yield edited(folder, "one-sample", samples=lambda lines: lines[:2],
                  responses=lambda lines: lines[:3]), "2 samples or more"
 
@@ -218,6 +237,7 @@ def main():
     folder.mkdir(parents=True)
     if part == "demo":
         check_demo(launcher, folder)
+        check_images(launcher, folder)
     else:
         check_bad_input(launcher, folder)
     print("\n".join(faults) or "as the contract says")

@@ -4,9 +4,10 @@ import os
 
 from . import command, gap_pictures, pipeline, report
 
-SUMMARY, WHERE, CAUSES, CANDIDATES, HEAT_MAP, TREND, SAMPLES, CAMERA, NOTES = range(9)
-TABLES = {WHERE: "where", CAUSES: "causes", CANDIDATES: "candidates", HEAT_MAP: "heat-map",
-          TREND: "trend", SAMPLES: "samples"}
+# The outputs of Sim To Real Gap; those that are kept as tables.
+PORTS = {"summary": 0, "where": 1, "causes": 2, "candidates": 3, "heat-map": 4, "trend": 5, "samples": 6,
+         "camera": 7, "notes": 8}
+TABLES = ("where", "causes", "candidates", "heat-map", "trend", "samples")
 
 VERDICTS = {
     "no gap": "The simulated and the real camera agree: what is left between them is no more than noise "
@@ -26,13 +27,42 @@ AXES = {
     "order": "it changes in the course of the capture",
     "spectral_shape": "it follows the slope and curvature of the reflectance: the wavelengths are off",
     "sample": "single samples stand out",
+    "edges": "it stands along edges: the channels' images are displaced or blurred",
+    "rows": "it changes from row to row",
+    "columns": "it changes from column to column",
+    "region": "single regions of the image stand out",
 }
 
 
-def name_of(folder):
-    """What the capture's folder is called."""
-    place = os.path.abspath(folder)
-    return os.path.basename(os.path.dirname(place) if os.path.basename(place) == "capture.json" else place)
+class Diagnosis:
+    """The outputs of a diagnosis by name; those that it does not have are empty."""
+
+    def __init__(self, proxy, ports):
+        self.proxy = proxy
+        self.ports = ports
+        self._known = {}
+
+    def port(self, name):
+        return pipeline.port(self.proxy, self.ports[name])
+
+    def records(self, name):
+        """A table as a list of dictionaries; on rank 0, elsewhere empty."""
+        if name not in self._known:
+            names, rows = pipeline.table(self.port(name)) if name in self.ports else ([], [])
+            self._known[name] = [dict(zip(names, row)) for row in rows]
+        return self._known[name]
+
+    def summary(self):
+        found = self.records("summary")
+        return found[0] if found else {}
+
+    def tables(self):
+        return {name: self.records(name) for name in TABLES}
+
+
+def folder_of(capture):
+    """The capture's folder, also of the capture.json in it."""
+    return os.path.dirname(capture) or "." if os.path.basename(capture) == "capture.json" else capture
 
 
 def read_capture(folder):
@@ -47,37 +77,24 @@ def diagnose(capture, **options):
                           Samples=pipeline.port(capture, 1), Responses=pipeline.port(capture, 2),
                           **options)
     pipeline.update(gap)
-    return gap
+    return Diagnosis(gap, PORTS)
 
 
 def write(gap, folder):
     """report.json, the corrected camera, the tables and the pictures."""
-    pipeline.save("GapReportWriter", pipeline.port(gap, SUMMARY), os.path.join(folder, "report.json"))
-    pipeline.save("CameraWriter", pipeline.port(gap, CAMERA),
-                  os.path.join(folder, "camera-corrected.json"))
-    for port, name in TABLES.items():
-        pipeline.save_table(pipeline.port(gap, port), os.path.join(folder, f"{name}.csv"))
+    pipeline.save("GapReportWriter", gap.port("summary"), os.path.join(folder, "report.json"))
+    if "camera" in gap.ports:
+        pipeline.save("CameraWriter", gap.port("camera"), os.path.join(folder, "camera-corrected.json"))
+    for name in TABLES:
+        if name in gap.ports:
+            pipeline.save_table(gap.port(name), os.path.join(folder, f"{name}.csv"))
+    tables, summary = gap.tables(), gap.summary()
     if command.rank() == 0:
-        gap_pictures.draw_all({name: records(gap, port) for port, name in TABLES.items()},
-                              summary(gap), folder)
-    else:
-        for port in (*TABLES, SUMMARY):
-            records(gap, port)
-
-
-def records(gap, port):
-    """A table as a list of dictionaries; on rank 0, elsewhere empty."""
-    names, rows = pipeline.table(pipeline.port(gap, port))
-    return [dict(zip(names, row)) for row in rows]
-
-
-def summary(gap):
-    found = records(gap, SUMMARY)
-    return found[0] if found else {}
+        gap_pictures.draw_all(tables, summary, folder)
 
 
 def print_summary(gap):
-    figures, causes = summary(gap), first_rows(records(gap, CAUSES))
+    figures, causes = gap.summary(), first_rows(gap.records("causes"))
     if not figures:
         return
     command.say(f"Verdict: {figures['verdict']}")
@@ -105,9 +122,13 @@ def far(figures):
     return text
 
 
+def percent(share):
+    return f"{100 * share:.0f} %" if share >= 0.005 else "under 1 %"
+
+
 def cause_line(cause):
     medium = f" of {cause['medium']}" if cause["medium"] else ""
-    text = f"{cause['effect']}{medium}: {100 * cause['share']:.0f} % of the gap"
+    text = f"{cause['effect']}{medium}: {percent(cause['share'])} of the gap"
     if cause["equivalent"]:
         text += f"; cannot be told from {cause['equivalent']}"
     return text
@@ -115,27 +136,32 @@ def cause_line(cause):
 
 def sections(gap, folder):
     """The report: verdict, where, which, how far, what cannot be decided, how to go on."""
-    figures = summary(gap)
+    figures, tables = gap.summary(), gap.tables()
+    notes = [row["note"] for row in gap.records("notes")]
     if not figures:
         return []
-    tables = {name: records(gap, port) for port, name in TABLES.items()}
-    notes = [row["note"] for row in records(gap, NOTES)]
     drawn = gap_pictures.drawn(folder)
-    return [
+    pages = [
         verdict_section(figures, first_rows(tables["causes"])),
         *where_sections(tables["where"], figures, drawn, folder),
         *which_sections(tables["causes"], figures, drawn, folder),
         report.pictures("How far it shrinks", folder, {
             "how-far.png": "The gap before and after the causes are simulated, on samples that took no "
                            "part in finding them, against what noise alone makes"}),
-        undecided_section(figures, first_rows(tables["causes"]), notes),
-        report.text("Going on with the corrected camera",
-                    "camera-corrected.json and camera-corrected.csv hold the simulated camera with the "
-                    "causes put back as effects: read camera-corrected.json as the camera of the "
-                    "filter Camera Simulator. report.json holds this page as data."
-                    if tables["causes"] else
-                    "camera-corrected.json and camera-corrected.csv hold the camera as it was given: "
-                    "there was nothing to put back. report.json holds this page as data.")]
+        undecided_section(figures, first_rows(tables["causes"]), notes)]
+    if "camera" in gap.ports:
+        pages.append(corrected_section(tables["causes"]))
+    return pages
+
+
+def corrected_section(causes):
+    return report.text(
+        "Going on with the corrected camera",
+        "camera-corrected.json and camera-corrected.csv hold the simulated camera with the causes put back "
+        "as effects: read camera-corrected.json as the camera of the filter Camera Simulator. report.json "
+        "holds this page as data." if causes else
+        "camera-corrected.json and camera-corrected.csv hold the camera as it was given: there was nothing "
+        "to put back. report.json holds this page as data.")
 
 
 def verdict_section(figures, causes):
@@ -146,8 +172,8 @@ def verdict_section(figures, causes):
                      + (f", mostly along {figures['unexplained_where']}."
                         if figures["unexplained_where"] else "."))
     if figures["verdict"] == "partly explained":
-        lines.append("The shares are cautious: what is left over may hide under the causes by as much as "
-                     "its own size, and is counted twice.")
+        lines.append("The shares are cautious: they leave out what causes undo of one another, and what is "
+                     "left over may hide under the causes by as much as its own size.")
     if figures["next_capture"]:
         lines.append(f"Capture next: {figures['next_capture']}. It separates {figures['separates']}.")
     return report.text(f"Verdict: {figures['verdict']}", *lines)
@@ -167,6 +193,7 @@ def where_sections(where, figures, drawn, folder):
                          + (f" Most of the energy is in {worst}." if worst else ""))
         words = words or ["No axis stands out: the gap is spread over everything alike."]
     captions = {
+        "gap-map.png": "The gap of the images, real minus simulated: before above, after the correction below",
         "axes.png": "How much of the gap's energy each axis predicts on samples held out; what two axes "
                     "have in common is shared between them",
         "where.png": "The gap of each channel and group of samples, before and after the correction",
@@ -183,7 +210,7 @@ def which_sections(causes, figures, drawn, folder):
     for cause in first_rows(causes):
         medium = f" ({cause['medium']})" if cause["medium"] else ""
         words = [cause["meaning"], f"As simulated: {cause['formula']}.",
-                 f"It makes {100 * cause['share']:.0f} % of the gap; simulated alone it shrinks the gap "
+                 f"It makes {percent(cause['share'])} of the gap; simulated alone it shrinks the gap "
                  f"by {100 * cause['shrink']:.0f} %."]
         if cause["equivalent"]:
             words.append(f"These data cannot tell it from {cause['equivalent']}: any of them does as well "

@@ -3,6 +3,8 @@
 import os
 
 import matplotlib
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
@@ -12,9 +14,10 @@ from matplotlib.colors import Normalize  # noqa: E402
 _BEFORE, _AFTER, _FLOOR, _PLAIN = "#D55E00", "#0072B2", "#009E73", "#B0B0B0"
 _STYLE = {"font.size": 11, "axes.spines.top": False, "axes.spines.right": False,
           "axes.axisbelow": True, "figure.dpi": 110, "savefig.bbox": "tight"}
-_NAMES = ("axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
+_NAMES = ("gap-map.png", "axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
 _MOST_LABELS = 40
 _MOST_SCENES = 4
+_MOST_CHANNELS = 6
 
 
 def draw_all(tables, summary, folder):
@@ -27,13 +30,22 @@ def draw_all(tables, summary, folder):
                     "which.png": _which(tables["causes"], tables["candidates"], summary) if gap else None,
                     "how-far.png": _far(summary)}
         for name, figure in pictures.items():
-            path = os.path.join(folder, name)
-            if figure is not None:
-                figure.savefig(path + ".part", format="png", metadata={"Software": None})
-                pyplot.close(figure)
-                os.replace(path + ".part", path)
-            elif os.path.exists(path):
-                os.remove(path)
+            _save(figure, os.path.join(folder, name))
+
+
+def draw_map(image, folder):
+    """image: the gap map, with the arrays Gap and GapAfter."""
+    with pyplot.rc_context(_STYLE):
+        _save(_gap_map(image), os.path.join(folder, "gap-map.png"))
+
+
+def _save(figure, path):
+    if figure is not None:
+        figure.savefig(path + ".part", format="png", metadata={"Software": None})
+        pyplot.close(figure)
+        os.replace(path + ".part", path)
+    elif os.path.exists(path):
+        os.remove(path)
 
 
 def drawn(folder):
@@ -128,6 +140,27 @@ def _field(samples):
         line[0].set_ylabel("y (downwards, as in an image)", fontsize=9)
     bar = figure.colorbar(points, ax=plots, format=matplotlib.ticker.PercentFormatter(1.0))
     bar.set_label("Gap relative to the simulated response")
+    return figure
+
+
+def _gap_map(image):
+    width, height, _ = image.GetDimensions()
+    before, after = (vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(height, width, -1)
+                     for name in ("Gap", "GapAfter"))
+    channels = before.shape[2]
+    shown = sorted(set(numpy.linspace(0, channels - 1, _MOST_CHANNELS).astype(int)))
+    limit = float(numpy.nanpercentile(numpy.abs(before), 99))
+    figure, plots = pyplot.subplots(2, len(shown), squeeze=False, layout="compressed", sharex=True,
+                                    sharey=True, figsize=(2.6 * len(shown) + 1, 5.2))
+    for line, values, title in zip(plots, (before, after), ("before", "after")):
+        for plot, channel in zip(line, shown):
+            drawn = plot.imshow(values[:, :, channel], origin="lower", cmap="PuOr",
+                                norm=Normalize(-limit, limit))
+            plot.set_title(f"channel {channel + 1}, {title}", fontsize=9)
+            plot.set_xticks([])
+            plot.set_yticks([])
+    bar = figure.colorbar(drawn, ax=plots)
+    bar.set_label("response, 1 = white; ends at the 99th percentile", fontsize=9)
     return figure
 
 

@@ -214,22 +214,15 @@ int vtkFlatFieldCorrection::RequestUpdateExtent(
   for (int port = 1; port < 3; ++port)
   {
     auto* info = inputs[port]->GetInformationObject(0);
-    if (!info)
+    if (info && (isOne(info, 0) || isOne(info, 1)))
     {
-      continue;
+      // One row or one column is needed whole by every piece.
+      int whole[6];
+      info->Get(SDDP::WHOLE_EXTENT(), whole);
+      info->Set(SDDP::UPDATE_PIECE_NUMBER(), 0);
+      info->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), 1);
+      info->Set(SDDP::UPDATE_EXTENT(), whole, 6);
     }
-    int whole[6];
-    int asked[6];
-    info->Get(SDDP::WHOLE_EXTENT(), whole);
-    outputs->GetInformationObject(0)->Get(SDDP::UPDATE_EXTENT(), asked);
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      if (isOne(info, axis))
-      {
-        asked[2 * axis] = asked[2 * axis + 1] = whole[2 * axis];
-      }
-    }
-    info->Set(SDDP::UPDATE_EXTENT(), asked, 6);
   }
   return 1;
 }

@@ -40,7 +40,7 @@ std::array<double, 4> interpolation(double t, bool derivative)
 
 std::vector<double> gaussian(double variance, int reach)
 {
-  std::vector<double> weight(static_cast<std::size_t>(2 * reach + 1), 0.0);
+  std::vector<double> weight(2 * static_cast<std::size_t>(reach) + 1, 0.0);
   double sum = 0.0;
   for (int i = -reach; i <= reach; ++i)
   {
@@ -64,7 +64,7 @@ std::vector<double> gaussianSlope(double variance, int reach)
 {
   if (variance < SmallVariance)
   {
-    std::vector<double> weight(static_cast<std::size_t>(2 * reach + 1), 0.0);
+    std::vector<double> weight(2 * static_cast<std::size_t>(reach) + 1, 0.0);
     const auto middle = static_cast<std::size_t>(reach);
     weight[middle - 1] = weight[middle + 1] = 0.5;
     weight[middle] = -1.0;
@@ -166,7 +166,8 @@ struct Neighbourhood
         value(i, j) = sum(y.value, first, step);
         down(i, j) = sum(y.shift, first, step);
         right(i, j) = sum(y.value, first + window.width, step);
-        blur(i, j) = sum(y.blur, first, step) + sum(y.value, first + 2 * window.width, step);
+        blur(i, j) = sum(y.blur, first, step) +
+          sum(y.value, first + 2 * static_cast<std::ptrdiff_t>(window.width), step);
       }
     }
   }

@@ -221,7 +221,8 @@ void writeCandidates(const GapReport& report, vtkTable* table)
         own = number;
       }
       const auto& names = cause.equivalent;
-      if (equivalent == 0 && std::find(names.begin(), names.end(), candidate.effect) != names.end())
+      if (equivalent == 0 &&
+        std::find(names.begin(), names.end(), candidate.effect) != names.end())
       {
         equivalent = number;
       }
@@ -258,8 +259,8 @@ void writeHeatMap(const GapReport& report, const GapCapture& capture, vtkTable* 
     {
       rows.add({ static_cast<int>(g), static_cast<int>(k), group.kind, group.name,
         static_cast<int>(group.samples.size()),
-        capture.camera.channels()[static_cast<std::size_t>(k)], before.mean(k, g), before.rms(k, g),
-        after.mean(k, g), after.rms(k, g) });
+        capture.camera.channels()[static_cast<std::size_t>(k)], before.mean(k, g),
+        before.rms(k, g), after.mean(k, g), after.rms(k, g) });
     }
   }
 }
@@ -269,7 +270,8 @@ void writeTrend(const GapReport& report, const NamedGapCapture& named, vtkTable*
   TableRows rows(table,
     { { "order", NumberColumn }, { "sample", TextColumn }, { "gap_before", NumberColumn },
       { "gap_after", NumberColumn }, { "level", NumberColumn } });
-  const GapTrend trend = trendOf(named.capture.samples, report, simulatedResponses(named.capture));
+  const GapTrend trend =
+    trendOf(named.capture.samples, report, simulatedResponses(named.capture));
   for (std::size_t i = 0; i < trend.sample.size(); ++i)
   {
     const auto at = static_cast<Eigen::Index>(i);

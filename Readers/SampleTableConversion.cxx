@@ -8,6 +8,8 @@
 #include "vtkTable.h"
 #include "vtkVariant.h"
 
+#include "Formats/Text/SpectralNames.h"
+
 #include <charconv>
 #include <set>
 
@@ -48,7 +50,12 @@ SpectralAxis channelAxis(const SampleTable& samples)
   SpectralAxis axis;
   for (Eigen::Index i = 0; i < samples.responses.rows(); ++i)
   {
-    axis.names.push_back("C" + std::to_string(i + 1));
+    // C1, C3, C5 stay what they are.
+    const auto at = static_cast<std::size_t>(i);
+    const auto number = at < samples.channelNames.size()
+      ? responseColumnNumber(samples.channelNames[at])
+      : std::nullopt;
+    axis.names.push_back("C" + wavelengthText(number.value_or(static_cast<double>(i) + 1.0)));
   }
   return axis;
 }

@@ -8,7 +8,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
-#include "Formats/GapReportFile.h"
+#include "Formats/Storage/AtomicFile.h"
 
 #include <exception>
 #include <stdexcept>
@@ -47,7 +47,9 @@ void vtkGapReportWriter::WriteData()
       throw std::invalid_argument("the input has no field data 'Report'; expected the summary, "
                                   "output 0 of Sim To Real Gap");
     }
-    msi::writeGapReportText(this->FileName, text->GetValue(0));
+    msi::AtomicFile file(this->FileName);
+    file.append(std::string(text->GetValue(0)));
+    file.commit();
   }
   catch (const std::exception& error)
   {

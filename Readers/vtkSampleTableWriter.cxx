@@ -52,6 +52,11 @@ void vtkSampleTableWriter::WriteData()
     const auto samples = msi::fromVTK(table);
     if (endsWith(this->FileName, ".ti3") || endsWith(this->FileName, ".cie"))
     {
+      if (!samples.hasReflectance())
+      {
+        throw std::invalid_argument(this->FileName + ": the table has no reflectance, which CGATS is for; expected "
+          "columns R400, R410, ..; name the file .csv");
+      }
       msi::writeSampleTableCgats(this->FileName, samples);
     }
     else

@@ -28,7 +28,7 @@ public:
 
   ///@{
   /**
-   * Memory in MiB that one block of rows may take. Range 1 .. 65536, default 64.
+   * Memory in MiB that one block of rows may take. Range 1 .. 65536, default 16.
    */
   vtkSetClampMacro(BlockSize, int, 1, 65536);
   vtkGetMacro(BlockSize, int);
@@ -52,7 +52,7 @@ private:
 
   struct Passes;
 
-  int BlockSize = 64;
+  int BlockSize = 16;
   std::unique_ptr<Passes> Current;
 };
 

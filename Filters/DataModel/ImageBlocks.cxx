@@ -55,6 +55,11 @@ bool ImageBlocks::request(vtkInformationVector** inputs, std::initializer_list<i
 void ImageBlocks::start(vtkInformation* input)
 {
   input->Get(SDDP::WHOLE_EXTENT(), Whole.data());
+  if (LastWanted >= FirstWanted)
+  {
+    Whole[2] = std::clamp(FirstWanted, Whole[2], Whole[3]);
+    Whole[3] = std::clamp(LastWanted, Whole[2], Whole[3]);
+  }
   auto* controller = controllerOfTables();
   const long long ranks = controller ? controller->GetNumberOfProcesses() : 1;
   const long long rank = controller ? controller->GetLocalProcessId() : 0;

@@ -41,6 +41,13 @@ public:
   // Ends the passes before their time.
   void stop(vtkInformation* request);
 
+  // Takes only these rows of the image, from the next start on; clipped to the image. Last before first: all.
+  void setRows(int first, int last) noexcept
+  {
+    FirstWanted = first;
+    LastWanted = last;
+  }
+
   // Memory in bytes that one block of floats may take; at least one row is taken.
   void setBlockBytes(long long bytes) noexcept { BlockBytes = bytes; }
 
@@ -54,6 +61,8 @@ private:
   int Last = -1;
   int Rows = 1; // of a block
   int Pass = 0;
+  int FirstWanted = 0;
+  int LastWanted = -1;
   bool GoesOn = false;
   long long BlockBytes = 64LL << 20;
 };

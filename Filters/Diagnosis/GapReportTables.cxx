@@ -10,7 +10,7 @@
 #include "vtkTable.h"
 
 #include "Formats/EffectList.h"
-#include "Formats/GapReportFile.h"
+#include "Formats/GapReportText.h"
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Gap/GapProfile.h"
@@ -221,8 +221,7 @@ void writeCandidates(const GapReport& report, vtkTable* table)
         own = number;
       }
       const auto& names = cause.equivalent;
-      if (equivalent == 0 &&
-        std::find(names.begin(), names.end(), candidate.effect) != names.end())
+      if (equivalent == 0 && std::find(names.begin(), names.end(), candidate.effect) != names.end())
       {
         equivalent = number;
       }
@@ -259,8 +258,8 @@ void writeHeatMap(const GapReport& report, const GapCapture& capture, vtkTable* 
     {
       rows.add({ static_cast<int>(g), static_cast<int>(k), group.kind, group.name,
         static_cast<int>(group.samples.size()),
-        capture.camera.channels()[static_cast<std::size_t>(k)], before.mean(k, g),
-        before.rms(k, g), after.mean(k, g), after.rms(k, g) });
+        capture.camera.channels()[static_cast<std::size_t>(k)], before.mean(k, g), before.rms(k, g),
+        after.mean(k, g), after.rms(k, g) });
     }
   }
 }
@@ -270,8 +269,7 @@ void writeTrend(const GapReport& report, const NamedGapCapture& named, vtkTable*
   TableRows rows(table,
     { { "order", NumberColumn }, { "sample", TextColumn }, { "gap_before", NumberColumn },
       { "gap_after", NumberColumn }, { "level", NumberColumn } });
-  const GapTrend trend =
-    trendOf(named.capture.samples, report, simulatedResponses(named.capture));
+  const GapTrend trend = trendOf(named.capture.samples, report, simulatedResponses(named.capture));
   for (std::size_t i = 0; i < trend.sample.size(); ++i)
   {
     const auto at = static_cast<Eigen::Index>(i);

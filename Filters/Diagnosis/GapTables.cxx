@@ -30,7 +30,8 @@ vtkAbstractArray* findColumn(vtkTable* table, const std::string& name)
   {
     const char* other = table->GetColumnName(i);
     const std::string text = other ? other : "";
-    if (std::equal(text.begin(), text.end(), name.begin(), name.end(), [](char a, char b)
+    if (std::equal(text.begin(), text.end(), name.begin(), name.end(),
+          [](char a, char b)
           { return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b); }))
     {
       return table->GetColumn(i);
@@ -94,8 +95,8 @@ std::map<std::string, int> placesOf(const std::vector<std::string>& names)
   {
     if (!places.emplace(name, static_cast<int>(places.size())).second)
     {
-      throw std::invalid_argument(std::string(SamplesName) + " has sample '" + name +
-        "' twice; expected each sample once");
+      throw std::invalid_argument(
+        std::string(SamplesName) + " has sample '" + name + "' twice; expected each sample once");
     }
   }
   return places;

@@ -80,7 +80,7 @@ public:
 
   ///@{
   /**
-   * Memory in MiB that one block of rows may take. Range 1 .. 65536, default 64.
+   * Memory in MiB that one block of rows may take. Range 1 .. 65536, default 16.
    */
   vtkSetClampMacro(BlockSize, int, 1, 65536);
   vtkGetMacro(BlockSize, int);
@@ -116,7 +116,7 @@ private:
   double Corner3[2] = { 0.0, 0.0 };
   double Corner4[2] = { 0.0, 0.0 };
   double PatchFraction = 0.5;
-  int BlockSize = 64;
+  int BlockSize = 16;
   std::unique_ptr<Sampling> Current;
 };
 

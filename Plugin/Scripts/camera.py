@@ -72,18 +72,21 @@ def main():
     simulated = cameras.simulate(samples, camera, **effects)
     pipeline.save_table(simulated, os.path.join(folder, "simulated.csv"))
     measured = bool(cameras.responses(samples))
-    if measured:
-        real, title = samples, "real minus simulated"
-    else:
-        real, title = cameras.simulate(samples, camera, Effects="None (ideal camera)"), "ideal minus simulated"
+    real, title = samples, "real minus simulated"
+    if not measured:
+        real = cameras.simulate(samples, camera, Effects="None (ideal camera)", Noise="None")
+        title = "ideal minus simulated"
     if measured and options.fit and designed is not None:
-        as_designed = cameras.compare(real, cameras.simulate(samples, designed), "difference-designed", folder)
+        as_designed = cameras.compare(real, cameras.simulate(samples, designed),
+                                      "difference-designed", folder)
         pages.append(report.table("Real minus simulated as designed",
                                   *pipeline.table(pipeline.port(as_designed, 1))))
     difference = cameras.compare(real, simulated, "difference", folder)
-    cameras.draw_samples(difference, os.path.join(folder, "samples.png"))
+    cameras.draw_samples(difference, title, os.path.join(folder, "samples.png"))
+    cameras.draw_figures(difference, title, os.path.join(folder, "difference-channels.png"))
     pages += [report.table(title.capitalize(), *pipeline.table(pipeline.port(difference, 1))),
-              report.pictures("Every sample", folder, {"samples.png": title})]
+              report.pictures("The difference", folder, {"difference-channels.png": "Each channel: " + title,
+                                                        "samples.png": "Every sample: " + title})]
 
     if image is not None:
         chart = cameras.simulate(cameras.chart_image(labels, patches), camera, **effects)

@@ -77,7 +77,7 @@ SampleTable readSampleTable(const std::string& path, const SampleTableOptions& o
       "the table has a header, and a response file was given", "responses as columns C1, C2, ...",
       "leave the response file out, or give a reflectance matrix without a header");
   }
-  if (isWavelengthHeader(table.rows[0][0].text))
+  if (isWavelengthHeader(table.rows[0][0].text) && !isTransform(table))
   {
     return samplesFromCurves(curvesFromText(table), options.unit, path);
   }

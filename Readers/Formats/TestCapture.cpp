@@ -183,40 +183,42 @@ TEST_F(Captures, ReadsTheStandardTables)
   EXPECT_EQ(observer.names, (std::vector<std::string>{ "xbar", "ybar", "zbar" }));
   EXPECT_EQ(msi::readCurves(tables + "illuminant_D65.csv").values.cols(), 1);
 
-TEST_F(Captures, ChannelsNamedAlikeFollowTheResponses)
-{
-  write("c/camera.csv", "wavelength,C2,C1\n400,0.3,0.4\n410,0.5,0.6\n420,0.1,0.2\n");
-  write("c/capture.json", R"({"dark": [0.02, 0.01]})");
-  const msi::Capture c = capture();
-  EXPECT_EQ(c.camera.names, (std::vector<std::string>{ "C1", "C2" }));
-  EXPECT_EQ(c.camera.values, (Eigen::MatrixXd(3, 2) << 0.4, 0.3, 0.6, 0.5, 0.2, 0.1).finished());
-  EXPECT_EQ(c.description.dark, (std::vector<double>{ 0.01, 0.02 }));
-  EXPECT_EQ(c.description.notes,
-    (std::vector<std::string>{
-      "camera.csv and responses.csv order the channels differently: matched by name" }));
-}
+  TEST_F(Captures, ChannelsNamedAlikeFollowTheResponses)
+  {
+    write("c/camera.csv", "wavelength,C2,C1\n400,0.3,0.4\n410,0.5,0.6\n420,0.1,0.2\n");
+    write("c/capture.json", R"({"dark": [0.02, 0.01]})");
+    const msi::Capture c = capture();
+    EXPECT_EQ(c.camera.names, (std::vector<std::string>{ "C1", "C2" }));
+    EXPECT_EQ(c.camera.values, (Eigen::MatrixXd(3, 2) << 0.4, 0.3, 0.6, 0.5, 0.2, 0.1).finished());
+    EXPECT_EQ(c.description.dark, (std::vector<double>{ 0.01, 0.02 }));
+    EXPECT_EQ(c.description.notes,
+      (std::vector<std::string>{
+        "camera.csv and responses.csv order the channels differently: matched by name" }));
+  }
 
-TEST_F(Captures, CountsAreDividedByTheWhiteLevel)
-{
-  write("c/capture.json", R"({"white_level": 1000, "dark": 20})");
-  write("c/responses.csv", "sample,C1,C2\na,100,200\nb,300,400\n");
-  const msi::Capture c = capture();
-  EXPECT_EQ(c.readings.responses, (Eigen::Matrix2d() << 0.1, 0.3, 0.2, 0.4).finished());
-  EXPECT_EQ(c.description.dark, (std::vector<double>{ 0.02, 0.02 }));
-  EXPECT_EQ(c.camera.values(0, 0), 0.3); // relative already
-  EXPECT_EQ(c.description.notes,
-    (std::vector<std::string>{
-      "the responses in responses.csv were in counts: divided by the white level 1000",
-      "the dark values in capture.json were in counts: divided by the white level 1000" }));
-}
+  TEST_F(Captures, CountsAreDividedByTheWhiteLevel)
+  {
+    write("c/capture.json", R"({"white_level": 1000, "dark": 20})");
+    write("c/responses.csv", "sample,C1,C2\na,100,200\nb,300,400\n");
+    const msi::Capture c = capture();
+    EXPECT_EQ(c.readings.responses, (Eigen::Matrix2d() << 0.1, 0.3, 0.2, 0.4).finished());
+    EXPECT_EQ(c.description.dark, (std::vector<double>{ 0.02, 0.02 }));
+    EXPECT_EQ(c.camera.values(0, 0), 0.3); // relative already
+    EXPECT_EQ(c.description.notes,
+      (std::vector<std::string>{
+        "the responses in responses.csv were in counts: divided by the white level 1000",
+        "the dark values in capture.json were in counts: divided by the white level 1000" }));
+  }
 
-TEST_F(Captures, CountsWithoutAWhiteLevelAreRefused)
-{
-  write("c/capture.json", "{}");
-  write("c/responses.csv", "sample,C1,C2\na,100,200\nb,300,400\n");
-  EXPECT_EQ(captureError(),
-    "c/responses.csv: the responses reach 400, which looks like counts; expected values relative to "
-    "white (1 = perfect white), or the counts of white as 'white_level' in capture.json; divide them "
-    "by the counts of the perfect white");
-}
+  TEST_F(Captures, CountsWithoutAWhiteLevelAreRefused)
+  {
+    write("c/capture.json", "{}");
+    write("c/responses.csv", "sample,C1,C2\na,100,200\nb,300,400\n");
+    EXPECT_EQ(captureError(),
+      "c/responses.csv: the responses reach 400, which looks like counts; expected values relative "
+      "to "
+      "white (1 = perfect white), or the counts of white as 'white_level' in capture.json; divide "
+      "them "
+      "by the counts of the perfect white");
+  }
 }

@@ -81,7 +81,8 @@ void writeConfusionPicture(
   const double side = Cell * static_cast<double>(names.size());
   std::ofstream svg(path);
   svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << Margin + side + 70.0
-      << "\" height=\"" << Head + side + Margin << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
+      << "\" height=\"" << Head + side + Margin
+      << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
       << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<text x=\"" << Margin
       << "\" y=\"24\" font-size=\"15\">" << title << "</text>\n<text x=\"" << Margin
       << "\" y=\"44\">rows: planted; columns: first cause of the diagnosis</text>\n";

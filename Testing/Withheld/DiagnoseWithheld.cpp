@@ -34,7 +34,7 @@ std::string lineOf(const msi::GapReport& report, double seconds)
     {
       line << (e > 0 ? "|" : "") << cause.equivalent[e];
     }
-    line << ':' << cause.form << ':' << cause.shrink;
+    line << ':' << cause.form << ':' << cause.shrink << ':' << cause.undone;
     separator = ";";
   }
   line << ',' << report.unexplained.share << ',';

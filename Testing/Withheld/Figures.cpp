@@ -187,12 +187,11 @@ bool firstIs(const ScoredCase& one, const std::string& effect, bool withClass)
       (withClass && contains(one.causes.front().equivalent, effect)));
 }
 
-bool unknownSaid(
-  const ScoredCase& one, const std::vector<ScoredCase>& all, bool withClass)
+bool unknownSaid(const ScoredCase& one, const std::vector<ScoredCase>& all, bool withClass)
 {
   std::vector<std::string> alike;
-  const auto twin = std::find_if(all.begin(), all.end(),
-    [&one](const ScoredCase& other) { return other.name == one.twin; });
+  const auto twin = std::find_if(
+    all.begin(), all.end(), [&one](const ScoredCase& other) { return other.name == one.twin; });
   if (withClass && twin != all.end() && firstIs(*twin, one.planted.front(), true))
   {
     alike = twin->causes.front().equivalent;

@@ -28,8 +28,7 @@ bool firstIs(const ScoredCase& one, const std::string& effect, bool withClass);
 // Whether a case of an effect that is not in the library, or was taken out of it, is called unknown and no wrong
 // cause is given half of the gap. With `withClass` an effect is not wrong that the same capture's diagnosis with
 // the whole library declares equivalent to the planted one.
-bool unknownSaid(
-  const ScoredCase& one, const std::vector<ScoredCase>& all, bool withClass);
+bool unknownSaid(const ScoredCase& one, const std::vector<ScoredCase>& all, bool withClass);
 
 // Figures of the sets that are there.
 std::vector<Figure> figuresOf(const std::vector<ScoredCase>& cases);

@@ -73,14 +73,14 @@ std::vector<Plan> plans(bool full, std::uint64_t seed)
       }
     }
   };
-  singles("single", full ? 5 : 1, 1.0, 200, false);
-  for (int n = 0; n < (full ? 60 : 4); ++n)
+  singles("single", full ? 4 : 1, 1.0, 200, false);
+  for (int n = 0; n < (full ? 40 : 4); ++n)
   {
     CaseRequest request;
     request.effects = someEffects(random, n % 3 == 2 ? 3 : 2);
     add("several", request);
   }
-  for (int n = 0; n < (full ? 60 : 6); ++n)
+  for (int n = 0; n < (full ? 40 : 6); ++n)
   {
     add("clean", CaseRequest{});
   }
@@ -91,7 +91,7 @@ std::vector<Plan> plans(bool full, std::uint64_t seed)
     add("stranger", request);
   }
   // The first single cases again, without what was planted.
-  const int each = full ? 5 : 1;
+  const int each = full ? 4 : 1;
   for (std::size_t e = 0; e < plantableNames().size(); ++e)
   {
     for (int n = 0; n < (full ? 2 : (e % 4 == 1 ? 1 : 0)); ++n)
@@ -101,16 +101,16 @@ std::vector<Plan> plans(bool full, std::uint64_t seed)
         { "removed", list[static_cast<std::size_t>(twin)].request, plantableNames()[e], twin });
     }
   }
-  singles("nominal", full ? 3 : 0, 1.0, 200, true);
-  for (int n = 0; n < (full ? 30 : 0); ++n)
+  singles("nominal", full ? 2 : 0, 1.0, 200, true);
+  for (int n = 0; n < (full ? 20 : 0); ++n)
   {
     CaseRequest request;
     request.effects = someEffects(random, 2);
     request.nominalErrors = true;
     add("nominal several", request);
   }
-  singles("third", full ? 3 : 0, 1.0 / 3.0, 200, false);
-  singles("few", full ? 3 : 0, 1.0, 44, false);
+  singles("third", full ? 2 : 0, 1.0 / 3.0, 200, false);
+  singles("few", full ? 2 : 0, 1.0, 44, false);
   return list;
 }
 }

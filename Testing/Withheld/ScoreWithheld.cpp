@@ -29,8 +29,8 @@ int belowLowest(const std::vector<Figure>& figures, const std::string& path)
     const std::size_t end = line.rfind(';');
     const std::string name = line.substr(0, end);
     const double lowest = std::stod(line.substr(end + 1));
-    const auto figure = std::find_if(figures.begin(), figures.end(),
-      [&name](const Figure& one) { return one.name == name; });
+    const auto figure = std::find_if(
+      figures.begin(), figures.end(), [&name](const Figure& one) { return one.name == name; });
     if (figure == figures.end() || !(figure->value >= lowest))
     {
       std::cerr << "below its lowest value " << lowest << ": " << name << '\n';
@@ -54,8 +54,8 @@ int score(int argc, char** argv)
     std::printf("%-48s %7.3f ", figure.name.c_str(), figure.value);
     if (figure.bar > 0.0)
     {
-      std::printf("%6.2f %6d %s\n", figure.bar, figure.cases,
-        figure.value >= figure.bar ? "" : "missed");
+      std::printf(
+        "%6.2f %6d %s\n", figure.bar, figure.cases, figure.value >= figure.bar ? "" : "missed");
     }
     else
     {

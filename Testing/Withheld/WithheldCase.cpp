@@ -51,11 +51,11 @@ Bench drawBench(Random& random)
   return bench;
 }
 
-void drawPatches(Random& random, const CaseRequest& request, bool mediumMatters,
+void drawPatches(Random& random, const CaseRequest& request, bool mediumMatters, int fewestMedia,
   std::vector<Patch>& patches, std::vector<std::string>& media)
 {
-  const int mediaCount =
-    mediumMatters ? (chance(random, 0.85) ? integer(random, 2, 4) : 1) : integer(random, 1, 3);
+  const int mediaCount = mediumMatters ? (chance(random, 0.85) ? integer(random, 2, 4) : 1)
+                                       : integer(random, fewestMedia, 3);
   std::vector<SwatchBook> books;
   std::vector<SwatchBook> real = realSwatches();
   std::shuffle(real.begin(), real.end(), random);
@@ -207,7 +207,9 @@ WithheldCase makeCase(const CaseRequest& request)
   const bool mediumMatters = std::any_of(request.effects.begin(), request.effects.end(),
     [&surfaces](const std::string& name)
     { return std::find(surfaces.begin(), surfaces.end(), name) != surfaces.end(); });
-  drawPatches(random, request, mediumMatters, capture.patches, capture.media);
+  // In one medium polarisation is a gain of each channel, which the library has.
+  const int fewestMedia = request.stranger == "polarisation" ? 2 : 1;
+  drawPatches(random, request, mediumMatters, fewestMedia, capture.patches, capture.media);
   const std::vector<double> white = whiteOf(nominal);
   measureCamera(random, nominal, capture);
   capture.dark = nominal.dark;

@@ -31,10 +31,7 @@ protected:
     Gap->SetInputDataObject(1, Tables.samples);
     Gap->SetInputDataObject(2, Tables.responses);
   }
-  vtkTable* output(int port)
-  {
-    return vtkTable::SafeDownCast(Gap->GetOutputDataObject(port));
-  }
+  vtkTable* output(int port) { return vtkTable::SafeDownCast(Gap->GetOutputDataObject(port)); }
   std::set<std::string> texts(int port, const std::string& column)
   {
     std::set<std::string> found;
@@ -101,8 +98,8 @@ TEST_F(SimToRealGap, GapOfEachSampleIsTheGain)
   for (vtkIdType row = 0; row < samples->GetNumberOfRows(); ++row)
   {
     // Four channels of noise, relative to the sum of their responses, which is 0.2 at least.
-    EXPECT_NEAR(cell(samples, row, "gap_before"), Gain - 1.0,
-      5.0 * 2.0 * GapTestTables::ReadNoise / 0.2);
+    EXPECT_NEAR(
+      cell(samples, row, "gap_before"), Gain - 1.0, 5.0 * 2.0 * GapTestTables::ReadNoise / 0.2);
     sum += cell(samples, row, "gap_before");
   }
   EXPECT_NEAR(sum / GapTestTables::Samples, Gain - 1.0, 0.01);

@@ -107,7 +107,7 @@ TEST_F(SimToRealGapErrors, NothingMeasured)
         row, name, vtkVariant(std::numeric_limits<double>::quiet_NaN()));
     }
   }
-  EXPECT_EQ(error(),
-    "a diagnosis needs 2 samples or more with reading and reflectance; 1 of 40 have both");
+  EXPECT_EQ(
+    error(), "a diagnosis needs 2 samples or more with reading and reflectance; 1 of 40 have both");
 }
 }

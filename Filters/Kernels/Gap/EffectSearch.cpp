@@ -1,5 +1,7 @@
 #include "Kernels/Gap/EffectSearch.h"
 
+#include "Kernels/Gap/ChannelStructure.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +22,9 @@ constexpr double RicherFormPart =
 constexpr double UnlikelyForm =
   2.0; // dispersions: a form is e times less likely than the one before it
 constexpr double FormDeviations = 4.0; // dispersions by which another form must be better
+// What a simpler cause may be worse by: part of the gap's energy, dispersions.
+constexpr double SimplerPart = 0.02;
+constexpr double SimplerDeviations = 9.0;
 
 // What speaks against a set before the data does, in dispersions: late forms, and an effect of a medium where there
 // is but one.
@@ -96,7 +101,6 @@ bool betterForm(const EffectFit& other, const EffectFit& fit, double gapEnergy)
     fit.energy;
 }
 
-// Other forms of the effects in the set, and their secondary parameters.
 // The small errors that every camera has, after the causes: gain, dark and center of each channel, where the
 // cross-validation alone asks for them.
 EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
@@ -126,6 +130,81 @@ EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
   return fit;
 }
 
+// A passband that keeps its peak while it widens is brighter, and little else on smooth reflectances: where plain
+// exposure does as well, it is that.
+EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
+  const std::vector<EffectChoice>& choices, double gapEnergy)
+{
+  const auto exposure = std::find_if(choices.begin(), choices.end(),
+    [](const EffectChoice& choice) { return choice.effect->name == "exposure_gain"; });
+  for (std::size_t position = 0; position < fit.set.size(); ++position)
+  {
+    if (exposure == choices.end() || fit.set.choices[position].form->name != "fixed_peak" ||
+      fit.set.has(*exposure))
+    {
+      continue;
+    }
+    EffectSet set = fit.set;
+    set.remove(position);
+    set.add(*exposure, fitter.data().camera);
+    EffectFit other = fitter.fit(std::move(set), FinalIterations);
+    if (other.energy <=
+      fit.energy + std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion))
+    {
+      fit = std::move(other);
+      break;
+    }
+  }
+  return fit;
+}
+
+// Gains of single channels also do what exposure and lamp do, and mend the small errors on the way. Where exposure or
+// lamp alone do more of it than chance lets them, they are a cause, and the gains are what is left.
+EffectFit splitGains(
+  const EffectFitter& fitter, EffectFit fit, const std::vector<EffectChoice>& choices)
+{
+  const auto gains = std::find_if(fit.set.choices.begin(), fit.set.choices.end(),
+    [](const EffectChoice& c) { return c.effect->name == "channel_gain" && c.smallError(); });
+  if (gains == fit.set.choices.end())
+  {
+    return fit;
+  }
+  const EffectChoice gain = *gains;
+  EffectSet rest = fit.set;
+  rest.remove(static_cast<std::size_t>(gains - fit.set.choices.begin()));
+  const EffectFit without = rest.size() > 0 ? fitter.fit(rest, Iterations) : fitter.nominal();
+  double least = StructuredChance;
+  EffectSet best;
+  for (const EffectChoice& choice : choices)
+  {
+    const bool common =
+      choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift";
+    if (!common || choice.whiteAfter || rest.has(choice))
+    {
+      continue;
+    }
+    EffectSet set = rest;
+    set.add(choice, fitter.data().camera);
+    const EffectFit special = fitter.fit(set, Iterations);
+    const double fraction = (without.energy - special.energy) / (without.energy - fit.energy);
+    const double chance =
+      chanceOfFraction(fraction, static_cast<int>(special.parameters() - without.parameters()),
+        static_cast<int>(fitter.data().channels()));
+    if (chance < least)
+    {
+      least = chance;
+      best = special.set;
+    }
+  }
+  if (best.size() == 0)
+  {
+    return fit;
+  }
+  best.add(gain, fitter.data().camera);
+  return fitter.fit(std::move(best), FinalIterations);
+}
+
+// Other forms of the effects in the set, and their secondary parameters.
 EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy)
 {
@@ -274,6 +353,11 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
   if (result.best.set.size() > 0)
   {
     result.best = chooseForms(fitter, result.best, choices, gapEnergy);
+    result.best = preferExposure(fitter, result.best, choices, gapEnergy);
+    if (static_cast<int>(result.best.set.size()) < limits.maximumEffects)
+    {
+      result.best = splitGains(fitter, result.best, choices);
+    }
     result.causes = result.best.set.size();
     if (static_cast<int>(result.causes) < limits.maximumEffects)
     {

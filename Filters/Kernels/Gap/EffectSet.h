@@ -25,6 +25,13 @@ struct EffectChoice
   // illuminant_drift hold the brightness; exposure_gain carries it in the simulator.
   bool leveled = false;
 
+  // Gain, center or dark of each channel: what every camera is off by a little.
+  bool smallError() const noexcept
+  {
+    return !whiteAfter && form->name == "per_channel" &&
+      (effect->name == "channel_gain" || effect->name == "filter_shift" ||
+        effect->name == "dark_offset");
+  }
   // The same effect on the same medium, whatever the form.
   bool sameCause(const EffectChoice& other) const noexcept
   {

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/GapCauses.h"
 
+#include "Kernels/Gap/ChannelStructure.h"
 #include "Kernels/Gap/Shapley.h"
 #include "Kernels/Gap/ShrinkInterval.h"
 
@@ -45,6 +46,94 @@ std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& b
     shrink.push_back(std::fmax(reached, 0.0));
   }
   return shrink;
+}
+
+// The small errors that every camera has in each channel take what the other effects leave: any of them also does, with
+// its many parameters, most of what a single number common to the channels does.
+std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& shrink)
+{
+  std::vector<std::size_t> order; // of the effects, small errors last
+  for (const bool small : { false, true })
+  {
+    for (std::size_t e = 0; e < set.size(); ++e)
+    {
+      if (set.choices[e].smallError() == small)
+      {
+        order.push_back(e);
+      }
+    }
+  }
+  const auto leading = static_cast<std::size_t>(std::count_if(set.choices.begin(),
+    set.choices.end(), [](const EffectChoice& choice) { return !choice.smallError(); }));
+  std::vector<double> share(set.size(), 0.0);
+  const auto shareAmong = [&](std::size_t first, std::size_t last)
+  {
+    std::size_t present = 0;
+    for (std::size_t p = 0; p < first; ++p)
+    {
+      present |= std::size_t(1) << order[p];
+    }
+    std::vector<double> value;
+    for (std::size_t subset = 0; subset < std::size_t(1) << (last - first); ++subset)
+    {
+      std::size_t effects = present;
+      for (std::size_t p = first; p < last; ++p)
+      {
+        effects |= (subset >> (p - first) & 1U) != 0 ? std::size_t(1) << order[p] : 0;
+      }
+      value.push_back(shrink[effects]);
+    }
+    const std::vector<double> part = shapleyValues(value, last - first);
+    for (std::size_t p = first; p < last; ++p)
+    {
+      share[order[p]] = std::fmax(part[p - first], 0.0);
+    }
+  };
+  shareAmong(0, leading);
+  shareAmong(leading, set.size());
+  return share;
+}
+
+// For each effect the part of what it does that the others undo, 0..1.
+std::vector<double> undoneParts(const EffectFitter& fitter, const EffectFit& fit)
+{
+  const GapData& data = fitter.data();
+  const auto weighted = [&fitter](const Eigen::MatrixXd& m) -> Eigen::ArrayXXd {
+    return (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt() * m.array(), 0.0);
+  };
+  const Eigen::ArrayXXd all = weighted(fit.predicted - data.simulated);
+  std::vector<double> undone;
+  for (std::size_t e = 0; e < fit.set.size(); ++e)
+  {
+    EffectSet rest = fit.set;
+    rest.remove(e);
+    const Eigen::ArrayXXd mine = weighted(fit.predicted - respond(data.camera, data.scene, rest));
+    const double size = mine.square().sum();
+    const double against = -(mine * (all - mine)).sum();
+    undone.push_back(size > 0.0 ? std::fmin(std::fmax(against / size, 0.0), 1.0) : 0.0);
+  }
+  return undone;
+}
+
+// The part of an effect's share that its own parameters do not belie: gains of single channels that follow one curve
+// over the channels are not errors of single channels, unless what is common to them has a cause of its own.
+double credible(const EffectSet& set, std::size_t position)
+{
+  const auto common = [](const EffectChoice& choice)
+  { return choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift"; };
+  const EffectChoice& choice = set.choices[position];
+  if (choice.effect->name != "channel_gain" || !choice.smallError() ||
+    std::any_of(set.choices.begin(), set.choices.end(), common))
+  {
+    return 1.0;
+  }
+  const std::vector<double>& gain = set.effects[position].parameters;
+  const auto channels = static_cast<Eigen::Index>(gain.size());
+  const Eigen::VectorXd deviation =
+    Eigen::Map<const Eigen::VectorXd>(gain.data(), channels).array() - 1.0;
+  const double fraction = commonFraction(deviation);
+  const double chance = chanceOfFraction(fraction, CommonDirections, static_cast<int>(channels));
+  return chance < StructuredChance ? std::sqrt(1.0 - fraction) : 1.0;
 }
 
 // The place of a step lies between two samples; the error is that of a uniform distribution there.
@@ -158,18 +247,14 @@ double shrinkOf(const EffectFitter& fitter, const EffectFit& fit)
 }
 
 std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchResult& found,
-  const std::vector<EffectChoice>& choices, double total)
+  const std::vector<EffectChoice>& choices, double total, double doubt)
 {
   const EffectFit& best = found.best;
   const std::size_t count = best.set.size();
   const std::vector<double> alone = subsetShrinks(fitter, best);
-  std::vector<double> share = shapleyValues(alone, count);
-  double sum = 0.0;
-  for (double& part : share)
-  {
-    part = std::fmax(part, 0.0);
-    sum += part;
-  }
+  const std::vector<double> share = sharesOf(best.set, alone);
+  const double sum = std::accumulate(share.begin(), share.end(), 0.0);
+  const std::vector<double> undone = undoneParts(fitter, best);
   const Eigen::VectorXd errors = count > 0
     ? Eigen::VectorXd(fitter.covariance(best).diagonal().cwiseMax(0.0).cwiseSqrt())
     : Eigen::VectorXd();
@@ -180,8 +265,11 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
     cause.effect = best.set.choices[e].effect->name;
     cause.form = best.set.choices[e].form->name;
     cause.medium = best.set.choices[e].medium;
-    cause.share = sum > 0.0 ? std::fmax(total, 0.0) * share[e] / sum : 0.0;
+    cause.share = sum > 0.0
+      ? std::fmax(total, 0.0) * share[e] / sum * (1.0 - doubt * undone[e]) * credible(best.set, e)
+      : 0.0;
     cause.shrink = alone[std::size_t(1) << e];
+    cause.undone = undone[e];
     if (e < found.causes)
     {
       cause.equivalent = equivalentsOf(fitter, found, choices, e);

@@ -132,8 +132,18 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
   const std::optional<ReadingNoise>& given, const std::vector<std::string>& without)
 {
   const bool barred = std::find(without.begin(), without.end(), "excess_noise") != without.end();
-  if (!given || noise.excess <= 1.0 || barred)
+  if (!given || noise.excess <= 1.0)
   {
+    return;
+  }
+  if (barred)
+  {
+    if (report.verdict == GapVerdict::NoGap)
+    {
+      report.verdict = GapVerdict::Unexplained;
+      report.unexplained = { 1.0,
+        text("scatter between repeats, ", noise.excess, " times what the noise model allows") };
+    }
     return;
   }
   const Eigen::MatrixXd expected = readingVariance(data, *given);

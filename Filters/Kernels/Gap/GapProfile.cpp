@@ -138,8 +138,7 @@ double median(std::vector<double> values)
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   const double upper = *middle;
-  return values.size() % 2 == 1 ? upper
-                                : 0.5 * (upper + *std::max_element(values.begin(), middle));
+  return values.size() % 2 == 1 ? upper : 0.5 * (upper + *std::max_element(values.begin(), middle));
 }
 }
 

@@ -75,6 +75,7 @@ struct GapCause
   std::string medium;                  // empty unless the effect acts on one medium
   double share = 0.0;                  // of the gap's size; Shapley value of the held-out shrink
   double shrink = 0.0;                 // by this effect alone
+  double undone = 0.0;                 // part of what it does that the other causes undo, 0..1
   std::vector<std::string> equivalent; // effects that this data cannot tell from it; at most two
   std::vector<GapParameter> parameters;
 };

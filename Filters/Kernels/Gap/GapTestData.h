@@ -1,8 +1,8 @@
 // Captures with a known gap that the tests of this room share.
 #pragma once
 
-#include "Kernels/Camera/CameraTestData.h"
 #include "Kernels/Camera/CameraNoise.h"
+#include "Kernels/Camera/CameraTestData.h"
 #include "Kernels/Gap/GapData.h"
 #include "Kernels/Gap/GapNoise.h"
 #include "Kernels/Gap/SimToRealGap.h"

@@ -222,8 +222,8 @@ std::vector<GapChangePoint> OrderBreaks::significant(
     const Segment after(
       series, places[p], p + 1 < places.size() ? places[p + 1] : series.value.size());
     const double change = after.mean() - before.mean();
-    const double spread = (before.scatter() + after.scatter()) /
-      (static_cast<double>(after.last - before.first) - 2.0);
+    const double spread =
+      (before.scatter() + after.scatter()) / (static_cast<double>(after.last - before.first) - 2.0);
     const double error = std::sqrt(spread * (1.0 / before.weight + 1.0 / after.weight));
     found.push_back({ 0.5 * (at[order[places[p] - 1]] + at[order[places[p]]]), change,
       error > 0.0 ? std::fabs(change) / error : 0.0 });

@@ -22,6 +22,8 @@ namespace
 {
 constexpr double LargestReflectanceNoise = 0.003;
 constexpr double ExplainedShrink = 0.85;
+constexpr double DoubtfulRest = 0.05;   // of the gap's size
+constexpr double ExplainedShare = 0.7;  // of the causes together
 constexpr double NegligiblePart = 0.25; // of what is left
 constexpr double PartlyShrink = 0.25;
 constexpr double PredictableDeviations = 4.0;
@@ -129,8 +131,7 @@ void setUnknownNoise(GapData& data)
 
 // The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
 // it allows, only as much of it stays in the variance as what is left shows.
-void limitIntegration(
-  GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
+void limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
 {
   const double allowed = measuredOnly(data, integration).sum();
   const double other = measuredOnly(data, data.variance).sum() - allowed;
@@ -346,16 +347,27 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     NegligiblePart * meanOverMeasured(data, after.array().square().matrix()));
   if (found.best.set.size() > 0 && explained > negligible && report.gap.shrink > 0.0)
   {
-    // What is left has a cause that is not known, and may overlap with those found by as much as its own size.
+    // What is left has a cause that is not known, and may overlap with those found by as much as its own size: of what
+    // they do, only that part is certain.
     const double shrink = report.gap.shrink;
-    const double certain = shrink >= ExplainedShrink ? shrink : std::fmax(2.0 * shrink - 1.0, 0.0);
-    report.causes = describeCauses(fitter, found, choices, certain);
+    const double certain =
+      shrink >= ExplainedShrink ? shrink : shrink * std::fmax(2.0 * shrink - 1.0, 0.0);
+    // Wrong causes that cancel one another mimic one that is not known, but not to the last; right ones may cancel and
+    // leave nothing.
+    const double left = 1.0 - report.gap.shrinkInterval[1];
+    const double doubt = std::fmin(std::fmax(left / DoubtfulRest, 0.0), 1.0);
+    report.causes = describeCauses(fitter, found, choices, certain, doubt);
     report.correction = found.best.set.simulated();
     report.whiteAfterEffects = found.best.set.whiteAfterEffects();
-    report.verdict = report.gap.shrink >= ExplainedShrink ? GapVerdict::Explained
-      : report.gap.shrink >= PartlyShrink                 ? GapVerdict::PartlyExplained
-                                                          : GapVerdict::Unexplained;
-    report.unexplained.share = std::fmin(std::fmax(1.0 - certain, 0.0), 1.0);
+    double share = 0.0;
+    for (const GapCause& cause : report.causes)
+    {
+      share += cause.share;
+    }
+    report.unexplained.share = std::fmin(std::fmax(1.0 - share, 0.0), 1.0);
+    report.verdict = shrink >= ExplainedShrink && share >= ExplainedShare ? GapVerdict::Explained
+      : shrink >= PartlyShrink ? GapVerdict::PartlyExplained
+                               : GapVerdict::Unexplained;
     report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
   }
   else if ((predictable(data, before, where) &&

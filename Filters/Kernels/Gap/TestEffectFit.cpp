@@ -52,9 +52,8 @@ TEST_P(EffectFitRecovers, PlantedParameterWithinItsStandardError)
 INSTANTIATE_TEST_SUITE_P(Effects, EffectFitRecovers,
   ::testing::Values(Planted{ { "exposure_gain", "", "", { 1.05 } }, 0 },
     Planted{ { "dark_offset", "", "", { 0.01 } }, 0 },
-    Planted{ { "dark_offset", "per_channel", "",
-               { 0.01, -0.01, 0.005, 0.02, 0.01, -0.02, 0.015 } },
-      3 },
+    Planted{
+      { "dark_offset", "per_channel", "", { 0.01, -0.01, 0.005, 0.02, 0.01, -0.02, 0.015 } }, 3 },
     Planted{ { "filter_shift", "", "", { 2.5 } }, 0 },
     Planted{ { "filter_bandwidth", "", "", { 1.2 } }, 0 },
     Planted{ { "channel_crosstalk", "", "", { 0.03 } }, 0 },

@@ -37,8 +37,7 @@ protected:
 
 TEST_F(AxisSharesOfGap, OffsetsThatDifferByChannelAreTheChannels)
 {
-  const auto shares =
-    share([](Eigen::Index k, Eigen::Index) { return k % 2 == 0 ? 0.01 : -0.01; });
+  const auto shares = share([](Eigen::Index k, Eigen::Index) { return k % 2 == 0 ? 0.01 : -0.01; });
   EXPECT_EQ(shares.axes.front().axis, "channel");
   EXPECT_GT(shares.axes.front().share, 0.9);
   EXPECT_NEAR(shares.predictable, Gap.squaredNorm(), 0.01 * Gap.squaredNorm());
@@ -57,8 +56,12 @@ TEST_F(AxisSharesOfGap, CommonGainIsLevelsAndOfOneMediumTheMediums)
   const auto level =
     share([this](Eigen::Index k, Eigen::Index i) { return 0.05 * Data.simulated(k, i); });
   EXPECT_EQ(level.axes.front().axis, "level");
-  const auto medium = share([this](Eigen::Index k, Eigen::Index i)
-    { return Data.scene.medium()[static_cast<std::size_t>(i)] == 1 ? 0.05 * Data.simulated(k, i) : 0.0; });
+  const auto medium = share(
+    [this](Eigen::Index k, Eigen::Index i)
+    {
+      return Data.scene.medium()[static_cast<std::size_t>(i)] == 1 ? 0.05 * Data.simulated(k, i)
+                                                                   : 0.0;
+    });
   EXPECT_EQ(medium.axes.front().axis, "medium");
   ASSERT_FALSE(medium.axes.front().worst.empty());
   EXPECT_EQ(medium.axes.front().worst.front().cell, "fabric");

@@ -47,8 +47,7 @@ TEST(GapNoise, RepeatsGiveTheNoiseWhereNoModelIsGiven)
 {
   msi::GapCapture capture = captureOf(rasterSamples(96), {}, 5, 0.002);
   capture.noise.reset();
-  const msi::NoiseFinding found =
-    msi::findNoise(msi::prepareGapData(capture, {}), capture.noise);
+  const msi::NoiseFinding found = msi::findNoise(msi::prepareGapData(capture, {}), capture.noise);
   EXPECT_TRUE(found.fromRepeats);
   EXPECT_FALSE(found.unknown);
   EXPECT_EQ(found.degrees, 96.0 * 7.0 * 4.0);
@@ -60,8 +59,7 @@ TEST(GapNoise, RepeatsThatScatterMoreThanTheModelOverruleIt)
 {
   msi::GapCapture capture = captureOf(rasterSamples(96), {}, 3, 0.002);
   capture.noise = msi::ReadingNoise{ 0.001, 0.0 };
-  const msi::NoiseFinding found =
-    msi::findNoise(msi::prepareGapData(capture, {}), capture.noise);
+  const msi::NoiseFinding found = msi::findNoise(msi::prepareGapData(capture, {}), capture.noise);
   EXPECT_NEAR(found.excess, 2.0, 0.1);
   EXPECT_TRUE(found.fromRepeats);
   capture.noise = msi::ReadingNoise{ 0.002, 0.0 };

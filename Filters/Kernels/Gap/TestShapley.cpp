@@ -47,8 +47,7 @@ TEST(Shapley, AirportGameSharesEverySectionEvenly)
   {
     for (std::size_t player = 0; player < 4; ++player)
     {
-      value[subset] =
-        std::fmax(value[subset], (subset >> player & 1U) != 0 ? need[player] : 0.0);
+      value[subset] = std::fmax(value[subset], (subset >> player & 1U) != 0 ? need[player] : 0.0);
     }
   }
   const std::vector<double> shares = msi::shapleyValues(value, 4);

@@ -54,9 +54,9 @@ TEST(SimToRealGap, OneEffectIsNamedMeasuredAndPutBack)
   const Eigen::MatrixXd corrected =
     msi::CameraSimulator(capture.camera, report.correction, { report.whiteAfterEffects })
       .respond(rasterScene(96));
-  const Eigen::MatrixXd real =
-    msi::CameraSimulator(capture.camera, { { "filter_shift", "", "", { 2.5 } } })
-      .respond(rasterScene(96));
+  const Eigen::MatrixXd real = msi::CameraSimulator(capture.camera,
+    { { "filter_shift", "", "",
+      { 2.5 } } }).respond(rasterScene(96));
   const Eigen::MatrixXd nominal = msi::CameraSimulator(capture.camera, {}).respond(rasterScene(96));
   EXPECT_LT((corrected - real).norm(), 0.03 * (nominal - real).norm());
   EXPECT_EQ(report.gapBefore.rows(), 7);
@@ -213,8 +213,8 @@ TEST(SimToRealGap, RefusesWhatDisagreesAndSaysWhat)
     "the samples' reflectances have 31 wavelengths, their grid 16");
   EXPECT_EQ(message([](Capture&, Options& o) { o.without = { "gremlins" }; }),
     "there is no effect 'gremlins' to leave out");
-  EXPECT_EQ(message([](Capture& c, Options&)
-              { c.readings.rightCols(22).setConstant(NotMeasured); }),
+  EXPECT_EQ(
+    message([](Capture& c, Options&) { c.readings.rightCols(22).setConstant(NotMeasured); }),
     "a diagnosis needs 2 samples or more with reading and reflectance; 1 of 12 have both");
 }
 
@@ -256,8 +256,8 @@ TEST(DegenerateCapture, FewerSamplesThanParameters)
 TEST(DegenerateCapture, TwoSamplesAndOneChannel)
 {
   msi::GapCapture whole = captureWith({ { "exposure_gain", "", "", { 1.1 } } }, 2);
-  const msi::CameraModel one(visibleGrid(), whole.camera.responsivity().topRows(1),
-    whole.camera.dark().head(1));
+  const msi::CameraModel one(
+    visibleGrid(), whole.camera.responsivity().topRows(1), whole.camera.dark().head(1));
   const msi::GapCapture capture{ one, whole.wavelengths, whole.samples, whole.readings.topRows(1),
     whole.sampleOf, whole.noise };
   const msi::GapReport report = diagnosisOf(capture);

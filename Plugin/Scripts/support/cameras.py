@@ -86,20 +86,35 @@ def draw_responsivities(camera, path, uncertainty=None):
         chart.add(uncertainty, "wavelength",
                   {f"{side} {name}": ("", shades[name], pictures.LineStyle.DOT, 1.2)
                    for name in names for side in ("low", "high") if f"{side} {name}" in known})
+    nanometres = pipeline.table(camera)[1]
+    if nanometres:
+        first, last = nanometres[0][0], nanometres[-1][0]
+        chart.limits(bottom=(first, last + 0.15 * (last - first)))  # room for the legend
     chart.save(path)
 
 
-def draw_samples(difference, path):
-    """Every sample's real response over its simulated one."""
-    names = [name.removeprefix("simulated ")
-             for name in pipeline.column_names(pipeline.port(difference, 0))
-             if name.startswith("simulated ")]
-    chart = pictures.Chart("Every sample", "Simulated response", "Real response", size=(800, 800))
-    for i, name in enumerate(names):
-        chart.add(pipeline.port(difference, 0), f"simulated {name}",
-                  {name: (name, color(i, len(names)))}, line=pictures.LineStyle.NONE,
-                  marker=pictures.Marker.CIRCLE, marker_size=5.0)
-    chart.legend_at("TopLeft")
+def draw_samples(difference, title, path):
+    """The difference of every sample, channel by channel."""
+    prefix = "difference "
+    names = [name for name in pipeline.column_names(pipeline.port(difference, 0))
+             if name.startswith(prefix)]
+    chart = pictures.Chart(f"Every sample: {title}", "Sample", "Difference, in units of the responses")
+    chart.add(pipeline.port(difference, 0), None,
+              {name: (name.removeprefix(prefix), color(i, len(names)))
+               for i, name in enumerate(names)},
+              line=pictures.LineStyle.NONE, marker=pictures.Marker.CIRCLE, marker_size=4.0)
+    chart.save(path)
+
+
+def draw_figures(difference, title, path):
+    """Mean and rms of the difference in each channel, and the rms that no line takes away."""
+    chart = pictures.Chart(f"Each channel: {title}", "Channel, counted from 0",
+                           "Difference, in units of the responses")
+    chart.add(pipeline.port(difference, 1), None,
+              {"mean": ("mean", pictures.COLORS["direct"]),
+               "rms": ("rms", pictures.COLORS["transfer"]),
+               "rms_around_line": ("rms around the best line", pictures.COLORS["banded"])},
+              marker=pictures.Marker.CIRCLE)
     chart.save(path)
 
 

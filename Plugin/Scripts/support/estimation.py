@@ -10,8 +10,9 @@ from . import command, pictures, pipeline, report
 ERROR_ARRAYS = ("rms", "dE00 D65", "dE00 F2")
 
 
-# Pictures show at most so many pixels along a side; of a larger image every n-th one.
-MOST_PIXELS_OF_PICTURE = 1600
+# Images of more pixels than this are shown by every n-th one, so that a side has at most so many.
+MOST_PIXELS_SHOWN = 4_000_000
+PIXELS_OF_THINNED_SIDE = 384
 
 Judged = collections.namedtuple("Judged", "errors summary patches")
 
@@ -41,7 +42,8 @@ def flat_field(image, white, dark):
 
 def stride_of_pictures(image):
     """1, or every how many pixels a picture of this image shows."""
-    return -(-max(pictures.size(image)) // MOST_PIXELS_OF_PICTURE)
+    width, height = pictures.size(image)
+    return 1 if width * height <= MOST_PIXELS_SHOWN else -(-max(width, height) // PIXELS_OF_THINNED_SIDE)
 
 
 def correction(calibration, tuning, method):

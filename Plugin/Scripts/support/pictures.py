@@ -123,6 +123,7 @@ def channel_row(panels, component, path):
         name = array or source.PointData.GetArray(0).GetName()
         view = image_view(source, name, bounds)
         display = simple.GetDisplayProperties(source, view)
+        display.SetScalarBarVisibility(view, False)  # that of all channels together
         display.UseSeparateColorMap = 1
         simple.ColorBy(display, ("POINTS", name, source.PointData.GetArray(name).GetComponentName(component)),
                        separate=True)
@@ -170,11 +171,12 @@ class Chart:
 
     def add(self, source, x, series, line=LineStyle.SOLID, marker=Marker.NONE, width=2.0,
             marker_size=6.0):
-        """series: {column: (label, color)} or {column: (label, color, line style, width)}."""
+        """series: {column: (label, color)} or {column: (label, color, line style, width)}; x None: the row number."""
         display = simple.Show(source, self.view, "XYChartRepresentation")
         display.AttributeType = "Row Data"
-        display.UseIndexForXAxis = 0
-        display.XArrayName = x
+        display.UseIndexForXAxis = 1 if x is None else 0
+        if x is not None:
+            display.XArrayName = x
         display.SeriesVisibility = list(series)
         labels, colors, lines, widths, markers, sizes = [], [], [], [], [], []
         for column, (label, color, *style) in series.items():

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace msi
@@ -95,7 +96,7 @@ Columns classify(const TextTable& table)
       columns.metadata.push_back(i);
     }
   }
-  if (columns.reflectance.empty() && columns.responses.empty())
+  if (columns.reflectance.empty() && columns.responses.empty() && !isTransform(table))
   {
     throw FormatError(table.place(header[0]),
       "no column is a reflectance or a response (the columns are " + listOf(header) + ")",
@@ -132,6 +133,29 @@ WavelengthGrid gridOf(const std::vector<NumberedColumn>& columns)
     [](const NumberedColumn& column) { return column.number; });
   return WavelengthGrid(std::move(nm));
 }
+}
+
+bool isTransform(const TextTable& table)
+{
+  std::set<std::string> others;
+  std::size_t channels = 0;
+  for (const TextCell& cell : table.rows[0])
+  {
+    if (responseColumnNumber(cell.text, table.decimalComma))
+    {
+      ++channels;
+    }
+    else
+    {
+      others.insert(lowerCase(cell.text));
+    }
+  }
+  const bool rowIsABand = others.erase("wavelength") > 0;
+  const bool rowIsAChannel = others.erase("channel") > 0;
+  const bool rowIsOne = rowIsABand != rowIsAChannel;
+  others.erase("constant");
+  return (channels > 0 && rowIsOne && others.empty()) ||
+    (channels == 0 && others == std::set<std::string>{ "matrix", "row", "column", "value" });
 }
 
 void requireRectangular(const TextTable& table)

@@ -7,7 +7,11 @@
 namespace msi
 {
 
-// table.rows[0] is the header. Every reflectance and response cell must be a finite number.
+// A table of something else than samples that is kept in a file as they are: "wavelength" (or "channel") and columns of
+// camera channels, which is a transform or a camera, or "matrix", "row", "column", "value", which is a transfer model.
+bool isTransform(const TextTable& table);
+
+// table.rows[0] is the header. Of a transform all but the channels is metadata. Every reflectance and response cell must be a finite number.
 // Errors: FormatError naming line, column and the column's name.
 SampleTable samplesFromText(const TextTable& table, ReflectanceUnit unit);
 

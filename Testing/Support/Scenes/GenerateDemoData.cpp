@@ -161,9 +161,8 @@ void writeCapture(const std::filesystem::path& folder, const scenes::DemoCapture
     { { "wavelength", numberTexts(camera.wavelengths().vector()) } },
     { { channels, camera.responsivity(), 7 } });
   scenes::writeTable(folder / "samples.csv",
-    { { "sample", capture.sample }, { "medium", capture.medium },
-      { "x", numberTexts(capture.x) }, { "y", numberTexts(capture.y) },
-      { "order", numberTexts(capture.order) } },
+    { { "sample", capture.sample }, { "medium", capture.medium }, { "x", numberTexts(capture.x) },
+      { "y", numberTexts(capture.y) }, { "order", numberTexts(capture.order) } },
     { { scenes::wavelengthNames("R", capture.wavelengths), capture.reflectance, 4 } });
   scenes::writeTable(folder / "responses.csv",
     { { "sample", capture.readingSample }, { "repeat", capture.readingRepeat } },

@@ -1,6 +1,4 @@
-#include "Formats/GapReportFile.h"
-
-#include "Formats/Storage/AtomicFile.h"
+#include "Formats/GapReportText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -50,9 +48,9 @@ Json candidatesOf(const GapReport& report)
   Json candidates = Json::array();
   for (const GapCandidate& candidate : report.candidates)
   {
-    candidates.push_back({ { "effect", candidate.effect }, { "form", candidate.form },
-      { "medium", candidate.medium }, { "shrink", candidate.shrink },
-      { "shrink_interval", candidate.shrinkInterval } });
+    candidates.push_back(
+      { { "effect", candidate.effect }, { "form", candidate.form }, { "medium", candidate.medium },
+        { "shrink", candidate.shrink }, { "shrink_interval", candidate.shrinkInterval } });
   }
   return candidates;
 }
@@ -62,8 +60,8 @@ Json changePointsOf(const GapReport& report)
   Json points = Json::array();
   for (const GapChangePoint& point : report.changePoints)
   {
-    points.push_back({ { "order", point.order }, { "change", point.change },
-      { "deviations", point.deviations } });
+    points.push_back(
+      { { "order", point.order }, { "change", point.change }, { "deviations", point.deviations } });
   }
   return points;
 }
@@ -86,13 +84,6 @@ std::string gapReportText(const GapReport& report)
     { "notes", report.notes } };
   // Names come from the user's tables: bytes that are no UTF-8 must not end the writing.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-void writeGapReportText(const std::string& path, const std::string& text)
-{
-  AtomicFile file(path);
-  file.append(text);
-  file.commit();
 }
 
 } // namespace msi

@@ -12,7 +12,4 @@ namespace msi
 // not finite is null. Where nothing needs to be told apart, next_capture holds an empty text and an empty list.
 std::string gapReportText(const GapReport& report);
 
-// Writes such a text; the file is complete or absent. Errors: FormatError.
-void writeGapReportText(const std::string& path, const std::string& text);
-
 } // namespace msi

@@ -1,7 +1,6 @@
-#include "Formats/GapReportFile.h"
+#include "Formats/GapReportText.h"
 
-#include "Support/formats/TestFiles.h"
-
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <limits>
@@ -20,13 +19,14 @@ msi::GapReport filledReport()
     { { "shift", 2.9, "nm", 0.05 } } } };
   report.candidates = { { "filter_shift", "common", "", 0.85, { 0.8, 0.9 } } };
   report.unexplained = { 0.06, "medium fabric" };
-  report.nextCapture = msi::GapNextCapture{ "lamp spectrum", { "filter_shift", "illuminant_drift" } };
+  report.nextCapture =
+    msi::GapNextCapture{ "lamp spectrum", { "filter_shift", "illuminant_drift" } };
   report.notes = { "One medium only." };
   return report;
 }
 
 // The example of the contract, with the keys that go beyond it.
-TEST(GapReportFile, WritesTheContract)
+TEST(GapReportText, WritesTheContract)
 {
   const Json expected = Json::parse(R"({
     "verdict": "partly explained",
@@ -47,7 +47,7 @@ TEST(GapReportFile, WritesTheContract)
   EXPECT_EQ(Json::parse(msi::gapReportText(filledReport())), expected);
 }
 
-TEST(GapReportFile, KeysStandInTheOrderOfReading)
+TEST(GapReportText, KeysStandInTheOrderOfReading)
 {
   const std::string text = msi::gapReportText(filledReport());
   EXPECT_LT(text.find("\"verdict\""), text.find("\"gap\""));
@@ -56,7 +56,7 @@ TEST(GapReportFile, KeysStandInTheOrderOfReading)
   EXPECT_EQ(text.back(), '\n');
 }
 
-TEST(GapReportFile, AnEmptyReportHasEveryKey)
+TEST(GapReportText, AnEmptyReportHasEveryKey)
 {
   const Json json = Json::parse(msi::gapReportText({}));
   EXPECT_EQ(json["verdict"], "no gap");
@@ -64,28 +64,17 @@ TEST(GapReportFile, AnEmptyReportHasEveryKey)
   EXPECT_EQ(json["next_capture"], Json::parse(R"({"capture": "", "separates": []})"));
 }
 
-TEST(GapReportFile, WhatIsNoNumberIsNull)
+TEST(GapReportText, WhatIsNoNumberIsNull)
 {
   msi::GapReport report;
   report.gap.shrink = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(Json::parse(msi::gapReportText(report))["gap"]["shrink"].is_null());
 }
 
-TEST(GapReportFile, NamesThatAreNoUtf8AreWrittenAllTheSame)
+TEST(GapReportText, NamesThatAreNoUtf8AreWrittenAllTheSame)
 {
   msi::GapReport report;
   report.unexplained.where = "medium \xff";
   EXPECT_EQ(Json::parse(msi::gapReportText(report))["unexplained"]["where"], "medium \xef\xbf\xbd");
-}
-
-class GapReports : public msi::testing::TemporaryFolder
-{
-};
-
-TEST_F(GapReports, AFolderThatIsNotThereIsNamed)
-{
-  const std::string error =
-    errorOf([&] { msi::writeGapReportText(path("none/report.json"), "{}\n"); });
-  EXPECT_NE(error.find("none/report.json"), std::string::npos) << error;
 }
 }

@@ -1,0 +1,21 @@
+// Whether numbers of single channels look like independent errors.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace msi
+{
+
+// Probability that `directions` fixed directions hold the part `fraction` or more of the energy of independent normal
+// deviations of `channels` channels: the upper tail of the Beta distribution (directions / 2, (channels - directions) / 2).
+// 1 where there are not more channels than directions.
+double chanceOfFraction(double fraction, int directions, int channels);
+
+// The part of the deviations' energy in a cubic over the channels: what a smooth change of the light does to them.
+double commonFraction(const Eigen::VectorXd& deviations);
+constexpr int CommonDirections = 4;
+
+// Below this chance deviations count as one error common to the channels.
+constexpr double StructuredChance = 0.003;
+
+} // namespace msi

@@ -49,7 +49,8 @@ std::vector<double> gaussian(double variance, int reach)
     const double value = i == 0 ? 1.0
       : inside                  ? std::exp(-0.5 * distance * distance / variance)
                                 : 0.0;
-    weight[static_cast<std::size_t>(i + reach)] = value;
+    const int tap = i + reach;
+    weight[static_cast<std::size_t>(tap)] = value;
     sum += value;
   }
   for (double& value : weight)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 namespace
 {
@@ -15,6 +16,11 @@ struct Planted
   msi::CameraEffect effect;
   std::size_t parameter; // that is compared
 };
+
+void PrintTo(const Planted& planted, std::ostream* out)
+{
+  *out << planted.effect.name;
+}
 
 msi::EffectChoice choiceOf(const msi::CameraEffect& effect)
 {

@@ -54,7 +54,8 @@ void addDifferences(const FieldScratch& scratch, const ImageWindow& window, Bloc
     const int right =
       i % window.width + lag < window.width ? at[static_cast<std::size_t>(i + lag)] : -1;
     const int below = i / window.width + lag < window.height
-      ? at[static_cast<std::size_t>(i + lag * window.width)]
+      ? at[static_cast<std::size_t>(i) +
+          static_cast<std::size_t>(lag) * static_cast<std::size_t>(window.width)]
       : -1;
     if (self >= 0 && right >= 0)
     {

@@ -61,6 +61,8 @@ def main():
         pages.append(report.table("Channels", *pipeline.table(pipeline.port(fit, 3))))
     else:
         cameras.save(camera, os.path.join(folder, "camera.json"))
+    effects = {"Effects": "Effect File", "EffectFile": options.effects} if options.effects else {}
+    simulated = cameras.simulate(samples, camera, **effects)
     cameras.draw_responsivities(camera, os.path.join(folder, "responsivities.png"), uncertainty)
     shown = {"responsivities.png": "Responsivity of each channel"}
     if options.fit and designed is not None:
@@ -68,8 +70,6 @@ def main():
         shown["designed.png"] = "Responsivity as designed"
     pages.insert(0, report.pictures("The camera", folder, shown))
 
-    effects = {"Effects": "Effect File", "EffectFile": options.effects} if options.effects else {}
-    simulated = cameras.simulate(samples, camera, **effects)
     pipeline.save_table(simulated, os.path.join(folder, "simulated.csv"))
     measured = bool(cameras.responses(samples))
     real, title = samples, "real minus simulated"

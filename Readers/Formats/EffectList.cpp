@@ -143,7 +143,7 @@ private:
 
   std::string readMedium() const
   {
-    const std::string medium = text("medium").value_or("");
+    std::string medium = text("medium").value_or("");
     const bool needed = Definition->need == EffectNeed::Medium;
     if (needed && medium.empty())
     {

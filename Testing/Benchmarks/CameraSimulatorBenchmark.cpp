@@ -16,7 +16,8 @@ namespace
 constexpr msi::ImageExtent Extent{ 2048, 2048 };
 constexpr int Wavelengths = 31;
 constexpr int Channels = 16;
-constexpr int StripRows = 256;
+// The whole image at once, as the peer does it: narrow strips compute their surround twice.
+constexpr int StripRows = 2048;
 
 msi::CameraModel sixteenChannels()
 {

@@ -111,9 +111,9 @@ void writeConfusionPicture(
   }
   for (std::size_t c = 0; c < names.size(); ++c)
   {
-    const double x = Margin + Cell * (static_cast<double>(c) + 0.6);
-    svg << "<text text-anchor=\"end\" transform=\"translate(" << x << ',' << Head + side + 8.0
-        << ") rotate(-60)\">" << names[c] << "</text>\n";
+    const double x = Margin + Cell * (static_cast<double>(c) + 0.4);
+    svg << "<text transform=\"translate(" << x << ',' << Head + side + 12.0 << ") rotate(60)\">"
+        << names[c] << "</text>\n";
   }
   svg << "</svg>\n";
   if (!svg.flush())

@@ -130,16 +130,18 @@ void setUnknownNoise(GapData& data)
 }
 
 // The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
-// it allows, only as much of it stays in the variance as what is left shows.
-void limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
+// it allows, only as much of it stays in the variance as what is left shows. Returns the mean variance taken away.
+double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
 {
   const double allowed = measuredOnly(data, integration).sum();
   const double other = measuredOnly(data, data.variance).sum() - allowed;
+  double kept = 1.0;
   if (allowed > 0.0)
   {
-    const double kept = std::fmin(std::fmax((unpredicted - other) / allowed, 0.0), 1.0);
+    kept = std::fmin(std::fmax((unpredicted - other) / allowed, 0.0), 1.0);
     data.variance -= (1.0 - kept) * integration;
   }
+  return (1.0 - kept) * allowed / static_cast<double>(data.elements);
 }
 
 // Per-sample energies before and after, and what noise allows.
@@ -206,9 +208,11 @@ bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShar
 }
 
 // A gap that nothing predicts but that noise, with the largest reflectance noise allowed for, does not make.
-bool beyondNoise(const GapFigures& gap)
+// integration: further variance that sums over wavelength may make.
+bool beyondNoise(const GapFigures& gap, double integration)
 {
-  return gap.rmsBefore > UnpredictableFactor * gap.noiseFloor;
+  return gap.rmsBefore >
+    UnpredictableFactor * std::sqrt(gap.noiseFloor * gap.noiseFloor + integration);
 }
 
 std::string whereIs(const AxisShares& shares)
@@ -323,7 +327,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
 
   const AxisShares rest = shareOverAxes(data, after, true);
   const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
-  limitIntegration(data, integration, unpredicted);
+  const double doubted = limitIntegration(data, integration, unpredicted);
   double reflectanceNoise = options.reflectanceNoise.value_or(0.0);
   if (!options.reflectanceNoise && !noise.unknown)
   {
@@ -372,7 +376,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   }
   else if ((predictable(data, before, where) &&
              where.predictable > negligible * static_cast<double>(data.elements)) ||
-    beyondNoise(report.gap))
+    beyondNoise(report.gap, doubted))
   {
     report.verdict = GapVerdict::Unexplained;
     report.unexplained = { 1.0, whereIs(where) };

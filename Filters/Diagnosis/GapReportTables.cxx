@@ -143,6 +143,18 @@ void writeSummary(const GapReport& report, vtkTable* table)
   table->GetFieldData()->AddArray(text);
 }
 
+void writeEffects(
+  const GapReport& report, const std::vector<std::string>& channels, vtkTable* table)
+{
+  if (!report.correction.empty())
+  {
+    vtkNew<vtkStringArray> text;
+    text->SetName("Effects");
+    text->InsertNextValue(effectListText(report.correction, channels));
+    table->GetFieldData()->AddArray(text);
+  }
+}
+
 void writeWhere(const GapReport& report, vtkTable* table)
 {
   TableRows rows(table,

@@ -16,6 +16,9 @@ void nameSamples(GapReport& report, const std::vector<std::string>& names);
 
 // One row; field data Report: the text of report.json.
 void writeSummary(const GapReport& report, vtkTable* table);
+// Field data Effects of a table: the correction as the text of an effect list, where there is one.
+void writeEffects(
+  const GapReport& report, const std::vector<std::string>& channels, vtkTable* table);
 // One row an axis (with an empty cell), below it its worst cells.
 void writeWhere(const GapReport& report, vtkTable* table);
 // One row a parameter, at least one a cause.

@@ -7,21 +7,17 @@
 #include "SpectralImage.h"
 
 #include "vtkDataObject.h"
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkStringArray.h"
 #include "vtkTable.h"
 
-#include "Formats/EffectList.h"
 #include "Kernels/Gap/Field/FieldCorrection.h"
 
 #include <algorithm>
@@ -239,13 +235,7 @@ int vtkImageSimToRealGap::RequestData(
 
       const auto table = [outputs](OutputPort port) { return vtkTable::GetData(outputs, port); };
       msi::writeSummary(found.report, table(SUMMARY));
-      if (!found.report.correction.empty())
-      {
-        vtkNew<vtkStringArray> effects;
-        effects->SetName("Effects");
-        effects->InsertNextValue(msi::effectListText(found.report.correction, pair.channels));
-        table(SUMMARY)->GetFieldData()->AddArray(effects);
-      }
+      msi::writeEffects(found.report, pair.channels, table(SUMMARY));
       msi::writeWhere(found.report, table(WHERE));
       msi::writeCauses(found.report, table(CAUSES));
       msi::writeCandidates(found.report, table(CANDIDATES));

@@ -10,35 +10,133 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <atomic>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkFlatFieldCorrection);
 
 namespace
 {
+constexpr const char* MaskArray = "Mask";
 constexpr const char* NameOfRaw = "the raw image";
 constexpr const char* NameOfFrame[] = { NameOfRaw, "the white image", "the dark image" };
 
-// A reference frame of the same channels as the raw image, or null where none is connected.
-vtkSmartPointer<vtkFloatArray> frame(
-  vtkImageData* image, const char* name, vtkImageData* raw, vtkFloatArray* rawValues)
+using SDDP = vtkStreamingDemandDrivenPipeline;
+
+// A reference of the same channels as the raw image: its size, or one row or one column for all.
+struct Frame
 {
+  vtkSmartPointer<vtkFloatArray> values; // null where none is connected
+  int extent[6] = { 0, -1, 0, -1, 0, -1 };
+  bool oneColumn = false;
+  bool oneRow = false;
+
+  // The channels of the pixel at (x, y), or null.
+  const float* at(vtkIdType x, vtkIdType y) const
+  {
+    if (!values)
+    {
+      return nullptr;
+    }
+    const vtkIdType column = oneColumn ? 0 : x - extent[0];
+    const vtkIdType row = oneRow ? 0 : y - extent[2];
+    return values->GetPointer(
+      (row * (extent[1] - extent[0] + 1) + column) * values->GetNumberOfComponents());
+  }
+};
+
+bool isOne(vtkInformation* info, int axis)
+{
+  int whole[6];
+  info->Get(SDDP::WHOLE_EXTENT(), whole);
+  return whole[2 * axis] == whole[2 * axis + 1];
+}
+
+Frame frame(vtkInformationVector* input, const char* name, vtkImageData* raw, vtkFloatArray* rawValues)
+{
+  Frame result;
+  auto* image = vtkImageData::GetData(input);
   if (!image)
   {
-    return nullptr;
+    return result;
   }
-  auto values = msi::asFloats(msi::requireSpectralArray(image, name));
+  result.values = msi::asFloats(msi::requireSpectralArray(image, name));
   msi::requireSameChannels(
-    msi::axisOf(image, values), name, msi::axisOf(raw, rawValues), NameOfRaw);
-  if (values->GetNumberOfTuples() != rawValues->GetNumberOfTuples())
+    msi::axisOf(image, result.values), name, msi::axisOf(raw, rawValues), NameOfRaw);
+  image->GetExtent(result.extent);
+  auto* info = input->GetInformationObject(0);
+  result.oneColumn = isOne(info, 0);
+  result.oneRow = isOne(info, 1);
+  const int* held = raw->GetExtent();
+  const int* mine = result.extent;
+  const bool covers = (result.oneColumn || (mine[0] <= held[0] && mine[1] >= held[1])) &&
+    (result.oneRow || (mine[2] <= held[2] && mine[3] >= held[3]));
+  if (!covers)
   {
     throw std::invalid_argument(std::string(name) + " shows another region than the raw image");
   }
-  return values;
+  return result;
 }
+
+// One factor a channel: signals are compared per exposure time.
+std::vector<float> exposureFactors(
+  const std::vector<double>& raw, const std::vector<double>& white, int channels)
+{
+  const auto timeOf = [channels](const std::vector<double>& times, int k, const char* name)
+  {
+    const bool fits = times.size() <= 1 || static_cast<int>(times.size()) == channels;
+    const double time = times.empty() ? 1.0 : times[times.size() == 1 || !fits ? 0 : static_cast<std::size_t>(k)];
+    if (!fits || !(time > 0.0))
+    {
+      throw std::invalid_argument(std::string(name) + " holds " + std::to_string(times.size()) +
+        " times; expected one for all channels or " + std::to_string(channels) +
+        ", one for each, all above 0");
+    }
+    return time;
+  };
+  if (raw.empty() != white.empty())
+  {
+    throw std::invalid_argument(std::string(raw.empty() ? "ExposureTimes are" : "WhiteExposureTimes are") +
+      " missing; give the times of both, or of none where they are equal");
+  }
+  std::vector<float> factors;
+  for (int k = 0; k < channels; ++k)
+  {
+    factors.push_back(static_cast<float>(
+      timeOf(white, k, "WhiteExposureTimes") / timeOf(raw, k, "ExposureTimes")));
+  }
+  return factors;
+}
+}
+
+void vtkFlatFieldCorrection::AddExposureTime(double time)
+{
+  this->ExposureTimes.push_back(time);
+  this->Modified();
+}
+
+void vtkFlatFieldCorrection::ClearExposureTimes()
+{
+  this->ExposureTimes.clear();
+  this->Modified();
+}
+
+void vtkFlatFieldCorrection::AddWhiteExposureTime(double time)
+{
+  this->WhiteExposureTimes.push_back(time);
+  this->Modified();
+}
+
+void vtkFlatFieldCorrection::ClearWhiteExposureTimes()
+{
+  this->WhiteExposureTimes.clear();
+  this->Modified();
 }
 
 vtkFlatFieldCorrection::vtkFlatFieldCorrection()
@@ -52,7 +150,21 @@ void vtkFlatFieldCorrection::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "WhiteReflectance: " << this->WhiteReflectance << "\n"
      << indent << "WhiteLevel: " << this->WhiteLevel << "\n"
-     << indent << "DeadCount: " << this->DeadCount << "\n";
+     << indent << "ExposureTimes:";
+  for (const double time : this->ExposureTimes)
+  {
+    os << " " << time;
+  }
+  os << "\n" << indent << "WhiteExposureTimes:";
+  for (const double time : this->WhiteExposureTimes)
+  {
+    os << " " << time;
+  }
+  os << "\n"
+     << indent << "SaturationLevel: " << this->SaturationLevel << "\n"
+     << indent << "ComputeMask: " << this->ComputeMask << "\n"
+     << indent << "DeadCount: " << this->DeadCount << "\n"
+     << indent << "SaturatedCount: " << this->SaturatedCount << "\n";
 }
 
 int vtkFlatFieldCorrection::FillInputPortInformation(int port, vtkInformation* info)
@@ -74,16 +186,52 @@ int vtkFlatFieldCorrection::RequestInformation(
       auto* raw = inputs[0]->GetInformationObject(0);
       for (int port = 1; port < 3; ++port)
       {
-        msi::requireSameSize(inputs[port]->GetInformationObject(0), NameOfFrame[port], raw,
-          NameOfRaw, "take both with the same camera settings");
+        auto* reference = inputs[port]->GetInformationObject(0);
+        // One row or one column counts for all; along the other side the sizes have to agree.
+        if (reference && (isOne(reference, 0) || isOne(reference, 1)))
+        {
+          int sizes[2][6];
+          raw->Get(SDDP::WHOLE_EXTENT(), sizes[0]);
+          reference->Get(SDDP::WHOLE_EXTENT(), sizes[1]);
+          const auto length = [&](int image, int axis)
+          { return sizes[image][2 * axis + 1] - sizes[image][2 * axis] + 1; };
+          if ((length(1, 0) == 1 || length(1, 0) == length(0, 0)) &&
+            (length(1, 1) == 1 || length(1, 1) == length(0, 1)))
+          {
+            continue;
+          }
+        }
+        msi::requireSameSize(reference, NameOfFrame[port], raw, NameOfRaw,
+          "take both with the same camera settings");
       }
     });
+}
+
+int vtkFlatFieldCorrection::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+  for (int port = 1; port < 3; ++port)
+  {
+    auto* info = inputs[port]->GetInformationObject(0);
+    if (info && (isOne(info, 0) || isOne(info, 1)))
+    {
+      // One row or one column is needed whole by every piece.
+      int whole[6];
+      info->Get(SDDP::WHOLE_EXTENT(), whole);
+      info->Set(SDDP::UPDATE_PIECE_NUMBER(), 0);
+      info->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), 1);
+      info->Set(SDDP::UPDATE_EXTENT(), whole, 6);
+    }
+  }
+  return 1;
 }
 
 int vtkFlatFieldCorrection::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->DeadCount = 0;
+  this->SaturatedCount = 0;
   return msi::runAlgorithm(this, outputs,
     [&]
     {
@@ -95,39 +243,75 @@ int vtkFlatFieldCorrection::RequestData(
       auto* rawImage = vtkImageData::GetData(inputs[0]);
       auto* rawArray = msi::requireSpectralArray(rawImage, NameOfRaw);
       const auto raw = msi::asFloats(rawArray);
-      const auto white = frame(vtkImageData::GetData(inputs[1]), NameOfFrame[1], rawImage, raw);
-      const auto dark = frame(vtkImageData::GetData(inputs[2]), NameOfFrame[2], rawImage, raw);
+      const auto white = frame(inputs[1], NameOfFrame[1], rawImage, raw);
+      const auto dark = frame(inputs[2], NameOfFrame[2], rawImage, raw);
+      const int channels = raw->GetNumberOfComponents();
+      const auto factors = exposureFactors(this->ExposureTimes, this->WhiteExposureTimes, channels);
 
       auto* output = vtkImageData::GetData(outputs, 0);
       output->ShallowCopy(rawImage);
       vtkNew<vtkFloatArray> responses;
       responses->SetName(msi::ResponsesArray);
-      responses->SetNumberOfComponents(raw->GetNumberOfComponents());
+      responses->SetNumberOfComponents(channels);
       responses->SetNumberOfTuples(raw->GetNumberOfTuples());
+      vtkNew<vtkUnsignedCharArray> mask;
+      mask->SetName(MaskArray);
+      mask->SetNumberOfComponents(channels);
+      mask->SetNumberOfTuples(this->ComputeMask ? raw->GetNumberOfTuples() : 0);
       const float* rawValues = raw->GetPointer(0);
-      const float* whiteValues = white ? white->GetPointer(0) : nullptr;
-      const float* darkValues = dark ? dark->GetPointer(0) : nullptr;
       float* out = responses->GetPointer(0);
+      unsigned char* flags = this->ComputeMask ? mask->GetPointer(0) : nullptr;
       const auto level = static_cast<float>(this->WhiteLevel);
       const auto scale = static_cast<float>(this->WhiteReflectance);
+      const float saturation = this->SaturationLevel > 0.0
+        ? static_cast<float>(this->SaturationLevel)
+        : std::numeric_limits<float>::infinity();
+      const int* extent = rawImage->GetExtent();
+      const vtkIdType width = extent[1] - extent[0] + 1;
       std::atomic<vtkIdType> dead{ 0 };
-      msi::forBlocks(this, raw->GetNumberOfValues(),
+      std::atomic<vtkIdType> saturated{ 0 };
+      msi::forBlocks(this, raw->GetNumberOfTuples(),
         [&](vtkIdType begin, vtkIdType end)
         {
           vtkIdType deadHere = 0;
-          for (vtkIdType i = begin; i < end; ++i)
+          vtkIdType saturatedHere = 0;
+          for (vtkIdType pixel = begin; pixel < end; ++pixel)
           {
-            const float black = darkValues ? darkValues[i] : 0.0f;
-            const float span = (whiteValues ? whiteValues[i] : level) - black;
-            const bool alive = span > 0.0f;
-            deadHere += alive ? 0 : 1;
-            out[i] = alive ? scale * (rawValues[i] - black) / span
-                           : std::numeric_limits<float>::quiet_NaN();
+            const vtkIdType x = extent[0] + pixel % width;
+            const vtkIdType y = extent[2] + pixel / width;
+            const float* whites = white.at(x, y);
+            const float* darks = dark.at(x, y);
+            for (int k = 0; k < channels; ++k)
+            {
+              const vtkIdType i = pixel * channels + k;
+              const float black = darks ? darks[k] : 0.0f;
+              const float full = whites ? whites[k] : level;
+              const float span = full - black;
+              unsigned char flag = span > 0.0f ? 0 : DEAD;
+              flag |= rawValues[i] >= saturation ? RAW_SATURATED : 0;
+              flag |= whites && full >= saturation ? WHITE_SATURATED : 0;
+              deadHere += (flag & DEAD) != 0 ? 1 : 0;
+              saturatedHere += (flag & (RAW_SATURATED | WHITE_SATURATED)) != 0 ? 1 : 0;
+              out[i] = flag == 0 ? scale * factors[static_cast<std::size_t>(k)] * (rawValues[i] - black) / span
+                                 : std::numeric_limits<float>::quiet_NaN();
+              if (flags)
+              {
+                flags[i] = flag;
+              }
+            }
           }
           dead += deadHere;
+          saturated += saturatedHere;
         });
       this->DeadCount = dead;
-      msi::setAxis(output, responses, msi::axisOf(rawImage, rawArray));
+      this->SaturatedCount = saturated;
+      const auto axis = msi::axisOf(rawImage, rawArray);
+      msi::setAxis(output, responses, axis);
       msi::replaceArray(output, rawArray, responses);
+      if (flags)
+      {
+        msi::setAxis(output, mask, axis);
+        output->GetPointData()->AddArray(mask);
+      }
     });
 }

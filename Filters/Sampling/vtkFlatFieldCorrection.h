@@ -2,16 +2,21 @@
  * @class   vtkFlatFieldCorrection
  * @brief   From raw counts to responses relative to white: (raw - dark) / (white - dark)
  *
- * Input 0 is the raw image, input 1 (optional) an image of a white reference under the same light and
- * exposure, input 2 (optional) an image taken with the lens covered. All have the same size and
- * channels. The output array "Responses" is 1 where the raw image equals the white one, times
- * WhiteReflectance. Pixels whose white is not above the dark become NaN; how many is told in DeadCount.
+ * Input 0 is the raw image, input 1 (optional) an image of a white reference under the same light, input 2
+ * (optional) an image taken with the lens covered. References have the size of the raw image, or one row or one
+ * column, which then counts for all; and the same channels. The output array "Responses" is 1 where the raw image
+ * equals the white one, times WhiteReflectance. Where exposure times are given, signals are compared per time.
+ *
+ * Values whose white is not above the dark, and values that are saturated, become NaN; how many is told in DeadCount
+ * and SaturatedCount, and where in the array "Mask".
  */
 #ifndef vtkFlatFieldCorrection_h
 #define vtkFlatFieldCorrection_h
 
 #include "MultispectralFiltersSamplingModule.h"
 #include "vtkImageAlgorithm.h"
+
+#include <vector>
 
 class MULTISPECTRALFILTERSSAMPLING_EXPORT vtkFlatFieldCorrection : public vtkImageAlgorithm
 {
@@ -36,10 +41,48 @@ public:
   vtkGetMacro(WhiteLevel, double);
   ///@}
 
+  ///@{
   /**
-   * Values of the last execution whose white was not above the dark.
+   * Exposure times of the raw image and of the white reference, in any one unit: one for all channels, or one for each.
+   * None (default): equal.
+   */
+  void AddExposureTime(double time);
+  void ClearExposureTimes();
+  void AddWhiteExposureTime(double time);
+  void ClearWhiteExposureTimes();
+  ///@}
+
+  ///@{
+  /**
+   * Raw and white values from this level on are saturated. 0 (default): none is.
+   */
+  vtkSetMacro(SaturationLevel, double);
+  vtkGetMacro(SaturationLevel, double);
+  ///@}
+
+  enum MaskBits : unsigned char
+  {
+    DEAD = 1,
+    RAW_SATURATED = 2,
+    WHITE_SATURATED = 4
+  };
+  ///@{
+  /**
+   * Add the point array "Mask" (bytes, one component a channel): the sum of MaskBits, 0 where the value is good. Default
+   * off.
+   */
+  vtkSetMacro(ComputeMask, bool);
+  vtkGetMacro(ComputeMask, bool);
+  vtkBooleanMacro(ComputeMask, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Values of the last execution whose white was not above the dark, and those that were saturated.
    */
   vtkGetMacro(DeadCount, vtkIdType);
+  vtkGetMacro(SaturatedCount, vtkIdType);
+  ///@}
 
 protected:
   vtkFlatFieldCorrection();
@@ -47,6 +90,8 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -57,7 +102,12 @@ private:
 
   double WhiteReflectance = 1.0;
   double WhiteLevel = 1.0;
+  std::vector<double> ExposureTimes;
+  std::vector<double> WhiteExposureTimes;
+  double SaturationLevel = 0.0;
+  bool ComputeMask = false;
   vtkIdType DeadCount = 0;
+  vtkIdType SaturatedCount = 0;
 };
 
 #endif

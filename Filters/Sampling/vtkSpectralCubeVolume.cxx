@@ -126,6 +126,7 @@ int vtkSpectralCubeVolume::RequestInformation(
       out->Set(SDDP::WHOLE_EXTENT(), whole, 6);
       out->Set(vtkDataObject::ORIGIN(), origin, 3);
       out->Set(vtkDataObject::SPACING(), spacing, 3);
+      out->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
       vtkDataObject::SetPointDataActiveScalarInfo(out, VTK_FLOAT, 1);
     });
 }
@@ -140,6 +141,9 @@ int vtkSpectralCubeVolume::RequestUpdateExtent(
   in->Get(SDDP::WHOLE_EXTENT(), whole);
   extent[4] = whole[4];
   extent[5] = whole[5];
+  // The pixels of the volume's piece, whatever the piece's number.
+  in->Set(SDDP::UPDATE_PIECE_NUMBER(), 0);
+  in->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), 1);
   in->Set(SDDP::UPDATE_EXTENT(), extent, 6);
   return 1;
 }

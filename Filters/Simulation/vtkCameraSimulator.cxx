@@ -18,7 +18,6 @@
 #include "vtkTable.h"
 
 #include "Formats/EffectList.h"
-#include "Formats/Storage/WholeFile.h"
 
 #include "Kernels/Camera/CameraResampling.h"
 #include "Kernels/Camera/CameraSimulator.h"
@@ -160,8 +159,7 @@ vtkCameraSimulator::Work vtkCameraSimulator::Prepare(vtkTable* table)
   }
   else if (this->Effects == EFFECT_FILE)
   {
-    work.effects = msi::parseEffectList(this->EffectFile,
-      msi::readTextFile(this->EffectFile, "a list of effects (JSON)"), model.channels());
+    work.effects = msi::readEffectList(this->EffectFile, model.channels());
   }
   if (this->Noise == NOISE_OF_CAMERA)
   {

@@ -1,6 +1,7 @@
 #include "Formats/EffectList.h"
 
 #include "Formats/FormatError.h"
+#include "Formats/Storage/WholeFile.h"
 #include "Formats/Text/JsonText.h"
 #include "Formats/Text/NumberText.h"
 
@@ -289,6 +290,12 @@ std::vector<CameraEffect> parseEffectList(
     effects.push_back(EffectReader(reader, entry, effects.size(), channels).read());
   }
   return effects;
+}
+
+std::vector<CameraEffect> readEffectList(
+  const std::string& path, const std::vector<std::string>& channels)
+{
+  return parseEffectList(path, readTextFile(path, "a list of effects (JSON)"), channels);
 }
 
 std::string effectListText(

@@ -22,6 +22,10 @@ namespace msi
 std::vector<CameraEffect> parseEffectList(
   const std::string& file, const std::string& text, const std::vector<std::string>& channels);
 
+// The same from a file: such a list, or the description of a camera that has one.
+std::vector<CameraEffect> readEffectList(
+  const std::string& path, const std::vector<std::string>& channels);
+
 // The text that parseEffectList reads back to the same effects, bit for bit.
 // Errors: std::invalid_argument for an effect that does not fit the library or the channels.
 std::string effectListText(

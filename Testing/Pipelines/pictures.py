@@ -22,7 +22,7 @@ root = os.environ["MULTISPECTRAL_ROOT"]
 sys.path.insert(0, os.path.join(root, "Plugin", "Scripts"))
 from support import pictures, pipeline  # noqa: E402
 
-MEAN = {"rgb.png": 0.05, "error.png": 0.15, "swatches.png": 0.02}
+MEAN = {"rgb.png": 0.05, "error.png": 0.15, "swatches.png": 0.02, "spectra.png": 0.02}
 
 
 def read(path):
@@ -93,6 +93,19 @@ def draw(folder, factor):
                                 "R650": ("650 nm", (0.84, 0.37, 0.0))})
     plot.limits(left=(0.0, 1.0))
     plot.save(os.path.join(folder, "swatches.png"))
+
+    profile = pipeline.create("SpectralProfile", Input=estimate, SpectralArray="Reflectance",
+                              Labels=labels)
+    pipeline.update(profile)
+    spectra = pictures.Chart("Spectra of three swatches, mean and standard deviation", "Wavelength (nm)",
+                             "Reflectance factor")
+    for number, color in ((3, (0.0, 0.45, 0.70)), (10, (0.0, 0.62, 0.45)), (17, (0.84, 0.37, 0.0))):
+        name = f"label {number}"
+        spectra.add(profile, "wavelength", {
+            name: (name, color), f"{name} -s": ("", color, pictures.LineStyle.DOT, 1.0),
+            f"{name} +s": ("", color, pictures.LineStyle.DOT, 1.0)})
+    spectra.limits(left=(0.0, 1.0))
+    spectra.save(os.path.join(folder, "spectra.png"))
 
 
 def main():

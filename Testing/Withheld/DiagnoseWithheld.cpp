@@ -1,4 +1,5 @@
 // Diagnoses withheld cases without their key: DiagnoseWithheld FOLDER RESULTFILE [threads] [case]
+// Every result is written as soon as it is there; cases that RESULTFILE has already are not done again.
 #include "CaptureInput.h"
 
 #include <atomic>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -47,6 +49,17 @@ std::string lineOf(const msi::GapReport& report, double seconds)
   line << ',' << seconds;
   return line.str();
 }
+
+std::set<std::string> casesIn(const char* path)
+{
+  std::set<std::string> names;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);)
+  {
+    names.insert(line.substr(0, line.find(',')));
+  }
+  return names;
+}
 }
 
 int main(int argc, char** argv)
@@ -59,6 +72,7 @@ int main(int argc, char** argv)
   const std::string folder = argv[1];
   const int threads = argc > 3 ? std::stoi(argv[3]) : 1;
   const std::string only = argc > 4 ? argv[4] : "";
+  const std::set<std::string> done = casesIn(argv[2]);
   std::ifstream list(folder + "/cases.csv");
   std::vector<std::pair<std::string, std::string>> cases;
   std::string line;
@@ -67,12 +81,18 @@ int main(int argc, char** argv)
   {
     const std::size_t comma = line.find(',');
     const std::string name = line.substr(0, comma);
-    if (only.empty() || only == name)
+    if ((only.empty() || only == name) && done.count(name) == 0)
     {
       cases.emplace_back(name, line.substr(comma + 1));
     }
   }
-  std::vector<std::string> results(cases.size());
+  std::ofstream output(argv[2], std::ios::app);
+  if (done.empty())
+  {
+    output << "case,verdict,axis,where,rms_before,rms_after,noise_floor,shrink,shrink_low,shrink_"
+              "high,causes,unexplained,candidates,seconds"
+           << std::endl;
+  }
   std::atomic<std::size_t> next{ 0 };
   std::atomic<int> failed{ 0 };
   std::mutex console;
@@ -91,7 +111,8 @@ int main(int argc, char** argv)
         const auto start = std::chrono::steady_clock::now();
         const auto report = msi::diagnoseGap(capture, options);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        results[i] = lineOf(*report, seconds.count());
+        const std::lock_guard<std::mutex> lock(console);
+        output << cases[i].first << ',' << lineOf(*report, seconds.count()) << std::endl;
       }
       catch (const std::exception& error)
       {
@@ -109,14 +130,6 @@ int main(int argc, char** argv)
   for (std::thread& thread : pool)
   {
     thread.join();
-  }
-  std::ofstream output(argv[2]);
-  output << "case,verdict,axis,where,rms_before,rms_after,noise_floor,shrink,shrink_low,shrink_"
-            "high,causes,"
-            "unexplained,candidates,seconds\n";
-  for (std::size_t i = 0; i < cases.size(); ++i)
-  {
-    output << cases[i].first << ',' << results[i] << '\n';
   }
   return failed == 0 && output ? 0 : 1;
 }

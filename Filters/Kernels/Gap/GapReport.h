@@ -85,7 +85,7 @@ struct GapCandidate
   std::string effect;
   std::string form;
   std::string medium;
-  double shrink = 0.0; // by this effect alone, cross-validated
+  double shrink = 0.0;                              // by this effect alone, cross-validated
   std::array<double, 2> shrinkInterval{ 0.0, 0.0 }; // 95 % bootstrap over samples
 };
 

@@ -40,7 +40,7 @@ std::array<double, 4> interpolation(double t, bool derivative)
 
 std::vector<double> gaussian(double variance, int reach)
 {
-  std::vector<double> weight(static_cast<std::size_t>(2 * reach + 1), 0.0);
+  std::vector<double> weight(2 * static_cast<std::size_t>(reach) + 1, 0.0);
   double sum = 0.0;
   for (int i = -reach; i <= reach; ++i)
   {
@@ -49,7 +49,8 @@ std::vector<double> gaussian(double variance, int reach)
     const double value = i == 0 ? 1.0
       : inside                  ? std::exp(-0.5 * distance * distance / variance)
                                 : 0.0;
-    weight[static_cast<std::size_t>(i + reach)] = value;
+    const int tap = i + reach;
+    weight[static_cast<std::size_t>(tap)] = value;
     sum += value;
   }
   for (double& value : weight)
@@ -64,7 +65,7 @@ std::vector<double> gaussianSlope(double variance, int reach)
 {
   if (variance < SmallVariance)
   {
-    std::vector<double> weight(static_cast<std::size_t>(2 * reach + 1), 0.0);
+    std::vector<double> weight(2 * static_cast<std::size_t>(reach) + 1, 0.0);
     const auto middle = static_cast<std::size_t>(reach);
     weight[middle - 1] = weight[middle + 1] = 0.5;
     weight[middle] = -1.0;
@@ -166,7 +167,8 @@ struct Neighbourhood
         value(i, j) = sum(y.value, first, step);
         down(i, j) = sum(y.shift, first, step);
         right(i, j) = sum(y.value, first + window.width, step);
-        blur(i, j) = sum(y.blur, first, step) + sum(y.value, first + 2 * window.width, step);
+        blur(i, j) = sum(y.blur, first, step) +
+          sum(y.value, first + 2 * static_cast<std::ptrdiff_t>(window.width), step);
       }
     }
   }

@@ -13,6 +13,7 @@ constexpr double Trimmed = 0.1; // on each side
 constexpr std::size_t LevelBins = 4;
 constexpr double Unequal = 1.1; // differences along one axis this much above the other's: banding
 constexpr double LeastNoise = 1e-5;
+constexpr double FewestPairs = 4.0;    // in a block that tells the noise
 constexpr double TolerancePart = 0.05; // of the gap
 
 double varianceOf(const ReadingNoise& noise, double level) noexcept
@@ -68,8 +69,8 @@ void addDifferences(const FieldScratch& scratch, const ImageWindow& window, Bloc
       pairsDown += 1.0;
     }
   }
-  sums.difference = 0.5 * across / std::max(pairsAcross, 1.0);
-  sums.differenceDown = 0.5 * down / std::max(pairsDown, 1.0);
+  sums.difference = pairsAcross < FewestPairs ? 0.0 : 0.5 * across / pairsAcross;
+  sums.differenceDown = pairsDown < FewestPairs ? 0.0 : 0.5 * down / pairsDown;
   sums.gradient = slope / std::max(pairsAcross + pairsDown, 1.0);
 }
 
@@ -115,7 +116,7 @@ std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics)
     std::vector<const BlockSums*> smooth;
     for (std::size_t b = 0; b < blocks; ++b)
     {
-      if (statistics.at(b, k).pixels >= 8.0)
+      if (statistics.at(b, k).difference > 0.0 && statistics.at(b, k).differenceDown > 0.0)
       {
         smooth.push_back(&statistics.at(b, k));
       }

@@ -23,7 +23,7 @@ struct BlockSums
   double mean = 0.0;   // of the residual
   double level = 0.0;  // mean prediction
   double difference =
-    0.0; // half the mean squared difference of residuals two pixels apart: along x
+    0.0; // half the mean squared difference of residuals two pixels apart, 0 where there are few: along x
   double differenceDown = 0.0; // along y
   double gradient = 0.0;       // mean squared gradient of the prediction
 };

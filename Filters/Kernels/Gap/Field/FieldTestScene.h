@@ -160,7 +160,8 @@ inline ImagePlane gaussianBlurred(const ImagePlane& plane, double deviation)
       double value = 0.0;
       for (int i = -reach; i <= reach; ++i)
       {
-        value += kernel[static_cast<std::size_t>(i + reach)] * plane.read(x + i, y);
+        const int tap = i + reach;
+        value += kernel[static_cast<std::size_t>(tap)] * plane.read(x + i, y);
       }
       across.at(x, y) = value / sum;
     }
@@ -173,7 +174,8 @@ inline ImagePlane gaussianBlurred(const ImagePlane& plane, double deviation)
       double value = 0.0;
       for (int i = -reach; i <= reach; ++i)
       {
-        value += kernel[static_cast<std::size_t>(i + reach)] * across.read(x, y + i);
+        const int tap = i + reach;
+        value += kernel[static_cast<std::size_t>(tap)] * across.read(x, y + i);
       }
       both.at(x, y) = value / sum;
     }

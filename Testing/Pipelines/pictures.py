@@ -99,11 +99,13 @@ def draw(folder, factor):
     pipeline.update(profile)
     spectra = pictures.Chart("Spectra of three swatches, mean and standard deviation", "Wavelength (nm)",
                              "Reflectance factor")
+    series = {}
     for number, color in ((3, (0.0, 0.45, 0.70)), (10, (0.0, 0.62, 0.45)), (17, (0.84, 0.37, 0.0))):
         name = f"label {number}"
-        spectra.add(profile, "wavelength", {
-            name: (name, color), f"{name} -s": ("", color, pictures.LineStyle.DOT, 1.0),
-            f"{name} +s": ("", color, pictures.LineStyle.DOT, 1.0)})
+        series[name] = (name, color)
+        for side in ("-s", "+s"):
+            series[f"{name} {side}"] = ("", color, pictures.LineStyle.DOT, 1.0)
+    spectra.add(profile, "wavelength", series)
     spectra.limits(left=(0.0, 1.0))
     spectra.save(os.path.join(folder, "spectra.png"))
 

@@ -125,8 +125,8 @@ const std::array<unsigned char, Steps + 1>& encoding()
     std::array<unsigned char, Steps + 1> bytes{};
     for (int i = 0; i <= Steps; ++i)
     {
-      bytes[static_cast<std::size_t>(i)] =
-        static_cast<unsigned char>(std::lround(255.0 * SRGB::encode(static_cast<double>(i) / Steps)));
+      bytes[static_cast<std::size_t>(i)] = static_cast<unsigned char>(
+        std::lround(255.0 * SRGB::encode(static_cast<double>(i) / Steps)));
     }
     return bytes;
   }();
@@ -170,7 +170,8 @@ void SpectralPreview::apply(
   const Eigen::Index bands = Weights.cols();
   for (Eigen::Index i = 0; i < count; ++i, rgb += 3)
   {
-    const Eigen::Vector3f linear = Weights * Eigen::Map<const Eigen::VectorXf>(pixels + i * bands, bands);
+    const Eigen::Vector3f linear =
+      Weights * Eigen::Map<const Eigen::VectorXf>(pixels + i * bands, bands);
     for (int c = 0; c < 3; ++c)
     {
       rgb[c] = linear.allFinite()

@@ -34,8 +34,7 @@ void vtkLabelImageReader::PrintSelf(ostream& os, vtkIndent indent)
 // Where the last row lies that is read.
 double vtkLabelImageReader::Bottom() const
 {
-  return this->File->wholeHeight() - 1.0 -
-    (this->File->height() - 1.0) * this->Stride[1];
+  return this->File->wholeHeight() - 1.0 - (this->File->height() - 1.0) * this->Stride[1];
 }
 
 void vtkLabelImageReader::Open()

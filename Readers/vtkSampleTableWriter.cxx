@@ -54,7 +54,8 @@ void vtkSampleTableWriter::WriteData()
     {
       if (!samples.hasReflectance())
       {
-        throw std::invalid_argument(this->FileName + ": the table has no reflectance, which CGATS is for; expected "
+        throw std::invalid_argument(this->FileName +
+          ": the table has no reflectance, which CGATS is for; expected "
           "columns R400, R410, ..; name the file .csv");
       }
       msi::writeSampleTableCgats(this->FileName, samples);

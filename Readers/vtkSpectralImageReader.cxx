@@ -168,7 +168,8 @@ void vtkSpectralImageReader::Open()
   this->File = msi::selectFrom(std::move(file), selection, this->FileNames.front());
   this->Origin[0] = selection.region.x0;
   this->Origin[1] = height - 1 -
-    (selection.region.y0 + (this->File->info().height - 1) * static_cast<double>(selection.strideY));
+    (selection.region.y0 +
+      (this->File->info().height - 1) * static_cast<double>(selection.strideY));
   for (const auto& note : this->File->info().notes)
   {
     this->Notes += (this->Notes.empty() ? "" : "\n") + note;

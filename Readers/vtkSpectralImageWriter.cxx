@@ -113,7 +113,7 @@ msi::SpectralImageInfo infoOf(
       {
         const char* component = array->GetComponentName(c);
         info.bandNames.push_back(array->GetNumberOfComponents() == 1 ? name
-            : component ? name + " " + component
+            : component                                              ? name + " " + component
                         : name + " " + std::to_string(c + 1));
       }
     }
@@ -272,8 +272,10 @@ std::unique_ptr<msi::SpectralImageWriter> vtkSpectralImageWriter::CreateFile(
     options.interleave = Interleaves[this->Interleave - BSQ];
     if (named && *named != options.interleave)
     {
-      throw std::invalid_argument(this->FileName + ": the name says another interleave than the property "
-        "Interleave, which is " + Names[this->Interleave - BSQ] + "; change one of them");
+      throw std::invalid_argument(this->FileName +
+        ": the name says another interleave than the property "
+        "Interleave, which is " +
+        Names[this->Interleave - BSQ] + "; change one of them");
     }
   }
   options.type = typeOf(this->SampleType);
@@ -288,7 +290,8 @@ void vtkSpectralImageWriter::WriteBlocks()
     throw std::invalid_argument("no file is given; set FileName");
   }
   int port = 0;
-  auto* source = this->GetNumberOfInputConnections(0) > 0 ? this->GetInputAlgorithm(0, 0, port) : nullptr;
+  auto* source =
+    this->GetNumberOfInputConnections(0) > 0 ? this->GetInputAlgorithm(0, 0, port) : nullptr;
   if (!source)
   {
     throw std::invalid_argument("there is no input; connect a spectral image");
@@ -367,7 +370,8 @@ void vtkSpectralImageWriter::WriteBlocks()
     if (!measured)
     {
       // All ranks alike, as the first one found.
-      const auto held = std::max<unsigned long long>(1, bytesUpstream(source) / (extent[3] - extent[2] + 1));
+      const auto held =
+        std::max<unsigned long long>(1, bytesUpstream(source) / (extent[3] - extent[2] + 1));
       rowsPerRank = static_cast<int>(std::clamp<unsigned long long>(
         static_cast<unsigned long long>(this->BlockSize * MiB) / held, 1, whole[3] - whole[2] + 1));
       if (controller)

@@ -58,8 +58,9 @@ std::vector<ErrorMap> errorMapsOf(vtkImageData* image)
     auto* array = points->GetArray(i);
     for (int c = 0; array && c < array->GetNumberOfComponents(); ++c)
     {
-      const char* text =
-        array->GetNumberOfComponents() == 1 && !array->HasAComponentName() ? array->GetName() : array->GetComponentName(c);
+      const char* text = array->GetNumberOfComponents() == 1 && !array->HasAComponentName()
+        ? array->GetName()
+        : array->GetComponentName(c);
       ErrorMap map{ {}, array, c };
       if (text && parse(text, map.name))
       {
@@ -69,8 +70,9 @@ std::vector<ErrorMap> errorMapsOf(vtkImageData* image)
   }
   if (maps.empty())
   {
-    throw std::invalid_argument("the image has no error map; expected arrays or components named 'rms' or "
-                                "'dE00 D65', as CIEDE2000 Evaluator makes them");
+    throw std::invalid_argument(
+      "the image has no error map; expected arrays or components named 'rms' or "
+      "'dE00 D65', as CIEDE2000 Evaluator makes them");
   }
   return maps;
 }

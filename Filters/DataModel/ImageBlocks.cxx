@@ -65,13 +65,14 @@ void ImageBlocks::start(vtkInformation* input)
   const long long rank = controller ? controller->GetLocalProcessId() : 0;
   const long long height = Whole[3] - Whole[2] + 1;
   // From the top down, as files are read; the first rank has rows wherever there are any.
-  const auto before = [&](long long r) { return static_cast<int>((height * r + ranks - 1) / ranks); };
+  const auto before = [&](long long r)
+  { return static_cast<int>((height * r + ranks - 1) / ranks); };
   Last = Whole[3] - before(rank);
   First = Whole[3] + 1 - before(rank + 1);
-  const long long rowBytes = 4LL * (Whole[1] - Whole[0] + 1) * (Whole[5] - Whole[4] + 1) *
-    componentsOf(input);
-  Rows = static_cast<int>(
-    std::clamp(BlockBytes / std::max(1LL, rowBytes), 1LL, std::max(1LL, height)));
+  const long long rowBytes =
+    4LL * (Whole[1] - Whole[0] + 1) * (Whole[5] - Whole[4] + 1) * componentsOf(input);
+  Rows =
+    static_cast<int>(std::clamp(BlockBytes / std::max(1LL, rowBytes), 1LL, std::max(1LL, height)));
   Pass = 0;
   startPass();
 }
@@ -85,8 +86,9 @@ void ImageBlocks::startPass()
 
 double ImageBlocks::progress() const noexcept
 {
-  return isEmpty() ? 1.0
-                   : static_cast<double>(Last - Block[2] + 1) / static_cast<double>(Last - First + 1);
+  return isEmpty()
+    ? 1.0
+    : static_cast<double>(Last - Block[2] + 1) / static_cast<double>(Last - First + 1);
 }
 
 bool ImageBlocks::next(vtkInformation* request, int passes)

@@ -24,8 +24,9 @@ inline constexpr const char* UncertaintyArray = "Uncertainty";
 inline constexpr const char* LabelArray = "Label";
 inline constexpr const char* PictureArray = "sRGB"; // 3 bytes a pixel, for views
 inline constexpr const char* WavelengthArray = "Wavelength";
-inline constexpr const char* FwhmArray = "FWHM";          // field data: nm, one value per component
-inline constexpr const char* GoodBandsArray = "GoodBands"; // field data: 0 where a file marks a band as bad
+inline constexpr const char* FwhmArray = "FWHM"; // field data: nm, one value per component
+inline constexpr const char* GoodBandsArray =
+  "GoodBands"; // field data: 0 where a file marks a band as bad
 
 // The spectral array of an image: the named one, else the active scalars (where they are a picture: "Reflectance" or
 // "Responses" beside it), else the only point array.

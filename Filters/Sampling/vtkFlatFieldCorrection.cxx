@@ -58,7 +58,8 @@ bool isOne(vtkInformation* info, int axis)
   return whole[2 * axis] == whole[2 * axis + 1];
 }
 
-Frame frame(vtkInformationVector* input, const char* name, vtkImageData* raw, vtkFloatArray* rawValues)
+Frame frame(
+  vtkInformationVector* input, const char* name, vtkImageData* raw, vtkFloatArray* rawValues)
 {
   Frame result;
   auto* image = vtkImageData::GetData(input);
@@ -91,7 +92,8 @@ std::vector<float> exposureFactors(
   const auto timeOf = [channels](const std::vector<double>& times, int k, const char* name)
   {
     const bool fits = times.size() <= 1 || static_cast<int>(times.size()) == channels;
-    const double time = times.empty() ? 1.0 : times[times.size() == 1 || !fits ? 0 : static_cast<std::size_t>(k)];
+    const double time =
+      times.empty() ? 1.0 : times[times.size() == 1 || !fits ? 0 : static_cast<std::size_t>(k)];
     if (!fits || !(time > 0.0))
     {
       throw std::invalid_argument(std::string(name) + " holds " + std::to_string(times.size()) +
@@ -102,14 +104,15 @@ std::vector<float> exposureFactors(
   };
   if (raw.empty() != white.empty())
   {
-    throw std::invalid_argument(std::string(raw.empty() ? "ExposureTimes are" : "WhiteExposureTimes are") +
+    throw std::invalid_argument(
+      std::string(raw.empty() ? "ExposureTimes are" : "WhiteExposureTimes are") +
       " missing; give the times of both, or of none where they are equal");
   }
   std::vector<float> factors;
   for (int k = 0; k < channels; ++k)
   {
-    factors.push_back(static_cast<float>(
-      timeOf(white, k, "WhiteExposureTimes") / timeOf(raw, k, "ExposureTimes")));
+    factors.push_back(
+      static_cast<float>(timeOf(white, k, "WhiteExposureTimes") / timeOf(raw, k, "ExposureTimes")));
   }
   return factors;
 }
@@ -201,8 +204,8 @@ int vtkFlatFieldCorrection::RequestInformation(
             continue;
           }
         }
-        msi::requireSameSize(reference, NameOfFrame[port], raw, NameOfRaw,
-          "take both with the same camera settings");
+        msi::requireSameSize(
+          reference, NameOfFrame[port], raw, NameOfRaw, "take both with the same camera settings");
       }
     });
 }
@@ -292,8 +295,9 @@ int vtkFlatFieldCorrection::RequestData(
               flag |= whites && full >= saturation ? WHITE_SATURATED : 0;
               deadHere += (flag & DEAD) != 0 ? 1 : 0;
               saturatedHere += (flag & (RAW_SATURATED | WHITE_SATURATED)) != 0 ? 1 : 0;
-              out[i] = flag == 0 ? scale * factors[static_cast<std::size_t>(k)] * (rawValues[i] - black) / span
-                                 : std::numeric_limits<float>::quiet_NaN();
+              out[i] = flag == 0
+                ? scale * factors[static_cast<std::size_t>(k)] * (rawValues[i] - black) / span
+                : std::numeric_limits<float>::quiet_NaN();
               if (flags)
               {
                 flags[i] = flag;

@@ -220,8 +220,7 @@ int vtkPatchSampler::RequestData(
     sampling.blocks.stop(request);
   }
   return msi::runAlgorithm(this, outputs,
-    [&]
-    { this->WriteTable(vtkTable::GetData(inputs[2]), outputs->GetInformationObject(0)); });
+    [&] { this->WriteTable(vtkTable::GetData(inputs[2]), outputs->GetInformationObject(0)); });
 }
 
 void vtkPatchSampler::AddBlock(vtkInformationVector** inputs)
@@ -258,8 +257,7 @@ void vtkPatchSampler::WriteTable(vtkTable* patchTable, vtkInformation* outInfo)
   auto* controller = msi::controllerOfTables();
   msi::throwOnAnyRank(sampling.failure, controller);
   const int patches = msi::maximumOverRanks(sampling.patches, controller);
-  const int channels =
-    msi::maximumOverRanks(static_cast<int>(sampling.axis.size()), controller);
+  const int channels = msi::maximumOverRanks(static_cast<int>(sampling.axis.size()), controller);
   if (patches == 0)
   {
     throw std::invalid_argument("the label image is 0 everywhere; expected patches 1, 2, ..");

@@ -109,8 +109,8 @@ int vtkSpectralCubeVolume::RequestInformation(
       requests->SetInformationObject(port, request);
       source->Update(port, requests);
       auto* image = vtkImageData::SafeDownCast(source->GetOutputDataObject(port));
-      this->Slices = bandsOf(
-        image, msi::requireSpectralArray(image, NameOfImage, this->SpectralArray.c_str()));
+      this->Slices =
+        bandsOf(image, msi::requireSpectralArray(image, NameOfImage, this->SpectralArray.c_str()));
 
       whole[4] = 0;
       whole[5] = static_cast<int>(this->Slices.size()) - 1;

@@ -34,8 +34,10 @@ std::vector<int> bandsIn(const std::string& list, int bands, const std::string& 
       dash == std::string::npos ? first : parseInteger(trimmed(item.substr(dash + 1)));
     if (!first || !last || *first < 1 || *last < *first)
     {
-      throw FormatError(name, "'" + item + "' in the list of bands '" + list + "' is no band or range of bands",
-        "band numbers from 1 on, such as 1-16, 20", "correct the list, or leave it empty for all bands");
+      throw FormatError(name,
+        "'" + item + "' in the list of bands '" + list + "' is no band or range of bands",
+        "band numbers from 1 on, such as 1-16, 20",
+        "correct the list, or leave it empty for all bands");
     }
     if (*last > bands)
     {
@@ -71,8 +73,9 @@ void keepWavelengths(std::vector<int>& bands, const SpectralImageInfo& info,
   }
   if (info.wavelengths.empty())
   {
-    throw FormatError(name, "bands from " + range + " were asked for, but its wavelengths are not known",
-      "", "choose bands by number, or state the wavelengths");
+    throw FormatError(name,
+      "bands from " + range + " were asked for, but its wavelengths are not known", "",
+      "choose bands by number, or state the wavelengths");
   }
   bands.erase(std::remove_if(bands.begin(), bands.end(),
                 [&](int b)
@@ -229,8 +232,8 @@ bool ImageSelection::isEverything() const noexcept
     region.width() <= 0 && region.height() <= 0 && strideX == 1 && strideY == 1;
 }
 
-std::unique_ptr<SpectralImageFile> selectFrom(std::unique_ptr<SpectralImageFile> file,
-  const ImageSelection& selection, const std::string& name)
+std::unique_ptr<SpectralImageFile> selectFrom(
+  std::unique_ptr<SpectralImageFile> file, const ImageSelection& selection, const std::string& name)
 {
   if (selection.isEverything())
   {

@@ -63,7 +63,8 @@ LabelImage readLabelImage(const std::string& path)
   LabelImage image;
   image.width = file.width();
   image.height = file.height();
-  image.labels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  image.labels.resize(
+    static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   file.read({ 0, image.width, 0, image.height }, image.labels.data());
   return image;
 }

@@ -26,7 +26,7 @@ struct SpectralImageInfo
   double reflectanceScale = 1.0;      // stored values were divided by it
   std::string format;                 // "ENVI", "TIFF", "OpenEXR", "MAT", ...
   std::string sampleType;             // as stored: "uint16", "float32", ...
-  std::string quantity;               // "reflectance", "responses", "emission" or empty when unknown
+  std::string quantity; // "reflectance", "responses", "emission" or empty when unknown
   std::map<std::string, std::string> metadata; // all else, keys in lower case
   std::vector<std::string> notes;              // what was recognized and done, for the user to see
 

@@ -43,7 +43,8 @@ std::unique_ptr<SpectralImageWriter> createSpectralImage(
   }
   if (!isEnviName(path))
   {
-    throw FormatError(path, "has the extension '" + extension + "', which no spectral image is written in",
+    throw FormatError(path,
+      "has the extension '" + extension + "', which no spectral image is written in",
       ".exr (spectral OpenEXR) or .hdr, .img, .dat, .raw, .bin, .cube, .bsq, .bil, .bip (ENVI)",
       "choose one of these names");
   }

@@ -105,17 +105,20 @@ TEST_F(ImageSelectionTest, NamesWhatIsNotInTheFile)
     "cube: band 5 was asked for; expected bands from 1 to 4; correct the list of bands");
   bands.bands = "2-x";
   EXPECT_EQ(errorOf(bands),
-    "cube: '2-x' in the list of bands '2-x' is no band or range of bands; expected band numbers from 1 on, such as "
+    "cube: '2-x' in the list of bands '2-x' is no band or range of bands; expected band numbers "
+    "from 1 on, such as "
     "1-16, 20; correct the list, or leave it empty for all bands");
   ImageSelection region;
   region.region = { 0, 6, 0, 1 };
   EXPECT_EQ(errorOf(region),
-    "cube: the region of columns 0 to 5 and rows 0 to 0 was asked for; expected first and last column within 0 to 4, "
+    "cube: the region of columns 0 to 5 and rows 0 to 0 was asked for; expected first and last "
+    "column within 0 to 4, "
     "first and last row within 0 to 3; correct the region");
   ImageSelection range;
   range.shortestWavelength = 600.0;
   range.longestWavelength = 700.0;
-  EXPECT_EQ(errorOf(range), "cube: no band lies in 600 to 700 nm; expected a part of 400 to 550 nm");
+  EXPECT_EQ(
+    errorOf(range), "cube: no band lies in 600 to 700 nm; expected a part of 400 to 550 nm");
   ImageSelection stride;
   stride.strideX = 0;
   EXPECT_EQ(errorOf(stride), "cube: the stride is 0 x 1; expected whole numbers from 1 on");
@@ -134,7 +137,8 @@ TEST(SpectralImageNames, UnknownExtensionsAreRefused)
   catch (const FormatError& error)
   {
     EXPECT_STREQ(error.what(),
-      "/tmp/a.tif: has the extension '.tif', which no spectral image is written in; expected .exr (spectral OpenEXR) "
+      "/tmp/a.tif: has the extension '.tif', which no spectral image is written in; expected .exr "
+      "(spectral OpenEXR) "
       "or .hdr, .img, .dat, .raw, .bin, .cube, .bsq, .bil, .bip (ENVI); choose one of these names");
   }
 }

@@ -45,8 +45,8 @@ TEST(ErrorSummary, EqualsTheEvaluatorInSmallBlocks)
   const auto pattern = patternValues(2, Width * Height);
   const auto grays = [&](Eigen::Index row)
   {
-    auto image = newImage(Width, Height, ReflectanceArray,
-      pattern.row(row).replicate(GrayGrid.size(), 1), GrayGrid);
+    auto image = newImage(
+      Width, Height, ReflectanceArray, pattern.row(row).replicate(GrayGrid.size(), 1), GrayGrid);
     return image;
   };
   vtkNew<PieceSource> estimate;
@@ -87,7 +87,8 @@ TEST(ErrorSummary, RefusesAnImageWithoutMaps)
   vtkNew<vtkErrorSummary> summary;
   summary->SetInputData(grayImage({ 0.5 }));
   EXPECT_EQ(errorOf(summary),
-    "the image has no error map; expected arrays or components named 'rms' or 'dE00 D65', as CIEDE2000 "
+    "the image has no error map; expected arrays or components named 'rms' or 'dE00 D65', as "
+    "CIEDE2000 "
     "Evaluator makes them");
 }
 }

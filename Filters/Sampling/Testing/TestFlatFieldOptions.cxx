@@ -43,7 +43,8 @@ TEST(FlatFieldOptions, ComparesSignalsPerExposureTime)
   correction->AddWhiteExposureTime(1.0);
   correction->AddWhiteExposureTime(2.0);
   EXPECT_EQ(errorOf(correction),
-    "WhiteExposureTimes holds 2 times; expected one for all channels or 1, one for each, all above 0");
+    "WhiteExposureTimes holds 2 times; expected one for all channels or 1, one for each, all above "
+    "0");
 }
 
 TEST(FlatFieldOptions, MasksDeadAndSaturatedValues)
@@ -74,7 +75,8 @@ TEST(FlatFieldOptions, TakesOneRowOrOneColumnForAll)
   EXPECT_EQ(responses(correction), (Eigen::RowVector4d(0.5, 1.0, 0.75, 1.0)));
   correction->SetInputData(1, counts(3, 1, { 2.0, 4.0, 8.0 }));
   EXPECT_EQ(errorOf(correction),
-    "the white image has 3 x 1 pixels, but the raw image has 2 x 2; take both with the same camera settings");
+    "the white image has 3 x 1 pixels, but the raw image has 2 x 2; take both with the same camera "
+    "settings");
 }
 
 TEST(FlatFieldOptions, GivesTheSameBytesInPiecesWithOneRow)

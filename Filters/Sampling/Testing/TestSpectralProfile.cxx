@@ -36,8 +36,7 @@ TEST(SpectralProfile, GivesTheSpectraOfPoints)
   profile->AddPoint(0.0, 1.0);
   ASSERT_EQ(errorOf(profile), "");
   auto* table = profile->GetOutput();
-  EXPECT_EQ(
-    columnNames(table), (std::vector<std::string>{ "wavelength", "point 1", "point 2" }));
+  EXPECT_EQ(columnNames(table), (std::vector<std::string>{ "wavelength", "point 1", "point 2" }));
   ASSERT_EQ(table->GetNumberOfRows(), 2);
   EXPECT_EQ(cell(table, 1, "wavelength"), 500.0);
   EXPECT_EQ(cell(table, 0, "point 1"), 3.0);
@@ -53,7 +52,8 @@ TEST(SpectralProfile, GivesMeanAndDeviationOfARegion)
   ASSERT_EQ(errorOf(profile), "");
   auto* table = profile->GetOutput();
   EXPECT_EQ(columnNames(table),
-    (std::vector<std::string>{ "channel", "region", "region deviation", "region -s", "region +s" }));
+    (std::vector<std::string>{
+      "channel", "region", "region deviation", "region -s", "region +s" }));
   // 2, 3, 5, 6: mean 4, squares about it 4 + 1 + 1 + 4 over 3.
   const double deviation = std::sqrt(10.0 / 3.0);
   EXPECT_EQ(cell(table, 0, "region"), 4.0);
@@ -84,8 +84,8 @@ TEST(SpectralProfile, ReadsOnlyTheRowsOfItsPoints)
   profile->SetInputConnection(0, source->GetOutputPort());
   profile->AddPoint(1.0, 700.0);
   ASSERT_EQ(errorOf(profile), "");
-  EXPECT_EQ(cell(profile->GetOutput(), 1, "point 1"),
-    valuesOf(whole, ResponsesArray)(1, 700 * 4 + 1));
+  EXPECT_EQ(
+    cell(profile->GetOutput(), 1, "point 1"), valuesOf(whole, ResponsesArray)(1, 700 * 4 + 1));
   EXPECT_EQ(source->LargestRequest(), 4);
 }
 
@@ -94,8 +94,8 @@ TEST(SpectralProfile, NamesAPointOutsideAndAnEmptyLabelImage)
   vtkNew<vtkSpectralProfile> profile;
   profile->SetInputData(0, image());
   profile->AddPoint(3.0, 0.0);
-  EXPECT_EQ(errorOf(profile),
-    "the point (3, 0) is not in the image, which reaches from (0, 0) to (2, 1)");
+  EXPECT_EQ(
+    errorOf(profile), "the point (3, 0) is not in the image, which reaches from (0, 0) to (2, 1)");
   profile->SetInputData(1, newLabels(3, 2, { 0, 0, 0, 0, 0, 0 }));
   EXPECT_EQ(errorOf(profile), "the label image is 0 everywhere; expected labels 1, 2, ..");
 }
@@ -151,7 +151,7 @@ TEST(SpectralCubeVolume, RefusesAVolume)
   const auto slices = image();
   slices->SetDimensions(1, 2, 3);
   cube->SetInputData(0, slices);
-  EXPECT_EQ(errorOf(cube),
-    "the image has 3 slices; expected one, whose components are the wavelengths");
+  EXPECT_EQ(
+    errorOf(cube), "the image has 3 slices; expected one, whose components are the wavelengths");
 }
 }

@@ -6,9 +6,9 @@ namespace msi
 
 std::vector<EffectEntry> imageEffects()
 {
-  const std::vector<EffectParameter> stripes = { { "period", "pixels", 32.0, 2.0, 4096.0, 8.0,
-                                                   "one cycle", false, true },
-    { "amplitude", "1", 0.0, 0.0, 0.45, 0.01, "relative", true },
+  const std::vector<EffectParameter> stripes = { { "amplitude", "1", 0.0, 0.0, 0.45, 0.01,
+                                                   "relative", true },
+    { "period", "pixels", 32.0, 2.0, 4096.0, 8.0, "one cycle", false, true },
     { "start", "cycle", 0.0, 0.0, 1.0, 0.1, "phase at pixel 0", true, true } };
   return {
     { { "misregistration", "Misregistration",

@@ -184,7 +184,7 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
     }
     const Eigen::MatrixXd E = LB.transpose() * A[k]; // O x C
     const Eigen::LDLT<Eigen::MatrixXd> factor(D);
-    toCommon.emplace_back(O > 0 ? Eigen::MatrixXd(factor.solve(E)) : E);
+    toCommon.emplace_back(O > 0 && C > 0 ? Eigen::MatrixXd(factor.solve(E)) : E);
     alone.emplace_back(O > 0 ? Eigen::VectorXd(factor.solve(h)) : h);
     if (O > 0)
     {

@@ -105,7 +105,10 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
     {
       const Eigen::LDLT<Eigen::MatrixXd> factor(ridged(part(N, own)));
       const Eigen::MatrixXd across = E;
-      E = factor.solve(across);
+      if (C > 0)
+      {
+        E = factor.solve(across);
+      }
       h = factor.solve(h).eval();
       H -= across.transpose() * E;
       g -= across.transpose() * h;

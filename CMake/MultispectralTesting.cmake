@@ -1,7 +1,8 @@
-# multispectral_add_unit_tests(NAME <room> SOURCES <file>... [LINK <target>...])
+# multispectral_add_unit_tests(NAME <room> SOURCES <file>... [LINK <target>...] [SANITIZED <filter>])
 #
 # One GoogleTest program for the tests of one room; each TEST becomes a CTest test named
 # <face>.<room>.<Suite>.<Test>, so that the same test run against several builds stays apart.
+# SANITIZED: the tests (a GoogleTest filter) that run under the sanitizers, where all would take many minutes.
 if(BUILD_TESTING)
   enable_testing()
   find_package(GTest REQUIRED)
@@ -15,7 +16,7 @@ else()
 endif()
 
 function(multispectral_add_unit_tests)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;SANITIZED" "SOURCES;LINK")
   if(NOT BUILD_TESTING)
     return()
   endif()
@@ -24,7 +25,11 @@ function(multispectral_add_unit_tests)
   target_link_libraries(${target} PRIVATE ${arg_LINK} MultispectralOptions GTest::gtest GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE
     MULTISPECTRAL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${target}
+  set(filter)
+  if(MULTISPECTRAL_SANITIZE AND arg_SANITIZED)
+    set(filter TEST_FILTER "${arg_SANITIZED}")
+  endif()
+  gtest_discover_tests(${target} ${filter}
     TEST_PREFIX "${MULTISPECTRAL_TEST_PREFIX}${arg_NAME}."
     DISCOVERY_MODE PRE_TEST
     PROPERTIES LABELS "${arg_NAME}" TIMEOUT 300)

@@ -51,7 +51,7 @@ struct Frame
   }
 };
 
-bool isOne(vtkInformation* info, int axis)
+bool isOne(vtkInformation* info, std::ptrdiff_t axis)
 {
   int whole[6];
   info->Get(SDDP::WHOLE_EXTENT(), whole);
@@ -109,6 +109,7 @@ std::vector<float> exposureFactors(
       " missing; give the times of both, or of none where they are equal");
   }
   std::vector<float> factors;
+  factors.reserve(static_cast<std::size_t>(channels));
   for (int k = 0; k < channels; ++k)
   {
     factors.push_back(
@@ -196,7 +197,7 @@ int vtkFlatFieldCorrection::RequestInformation(
           int sizes[2][6];
           raw->Get(SDDP::WHOLE_EXTENT(), sizes[0]);
           reference->Get(SDDP::WHOLE_EXTENT(), sizes[1]);
-          const auto length = [&](int image, int axis)
+          const auto length = [&](std::ptrdiff_t image, std::ptrdiff_t axis)
           { return sizes[image][2 * axis + 1] - sizes[image][2 * axis] + 1; };
           if ((length(1, 0) == 1 || length(1, 0) == length(0, 0)) &&
             (length(1, 1) == 1 || length(1, 1) == length(0, 1)))

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -150,10 +151,11 @@ void vtkSpectralProfile::FindPlaces(vtkInformation* image, bool labelled)
   {
     return;
   }
-  const auto index = [&](int axis, double x) { return (x - origin[axis]) / spacing[axis]; };
+  const auto index = [&](std::ptrdiff_t axis, double x)
+  { return (x - origin[axis]) / spacing[axis]; };
   const auto require = [&](const Place& place, const std::string& name)
   {
-    for (int axis = 0; axis < 2; ++axis)
+    for (std::ptrdiff_t axis = 0; axis < 2; ++axis)
     {
       if (place.first[axis] < whole[2 * axis] || place.last[axis] > whole[2 * axis + 1] ||
         place.first[axis] > place.last[axis])
@@ -177,7 +179,7 @@ void vtkSpectralProfile::FindPlaces(vtkInformation* image, bool labelled)
     Place place{ { whole[0], whole[2] }, { whole[1], whole[3] } };
     if (r[0] != 0.0 || r[1] != 0.0 || r[2] != 0.0 || r[3] != 0.0)
     {
-      for (int axis = 0; axis < 2; ++axis)
+      for (std::ptrdiff_t axis = 0; axis < 2; ++axis)
       {
         place.first[axis] = static_cast<int>(std::ceil(index(axis, r[2 * axis])));
         place.last[axis] = static_cast<int>(std::floor(index(axis, r[2 * axis + 1])));

@@ -20,6 +20,15 @@ int count(int length, int stride)
   return (length + stride - 1) / stride;
 }
 
+[[noreturn]] void refuseBands(
+  const std::string& name, const std::string& item, const std::string& list)
+{
+  throw FormatError(name,
+    "'" + item + "' in the list of bands '" + list + "' is no band or range of bands",
+    "band numbers from 1 on, such as 1-16, 20",
+    "correct the list, or leave it empty for all bands");
+}
+
 // 0-based, increasing.
 std::vector<int> bandsIn(const std::string& list, int bands, const std::string& name)
 {
@@ -34,10 +43,7 @@ std::vector<int> bandsIn(const std::string& list, int bands, const std::string& 
       dash == std::string::npos ? first : parseInteger(trimmed(item.substr(dash + 1)));
     if (!first || !last || *first < 1 || *last < *first)
     {
-      throw FormatError(name,
-        "'" + item + "' in the list of bands '" + list + "' is no band or range of bands",
-        "band numbers from 1 on, such as 1-16, 20",
-        "correct the list, or leave it empty for all bands");
+      refuseBands(name, item, list);
     }
     if (*last > bands)
     {

@@ -75,7 +75,7 @@ std::string readTextFile(const std::string& path, const std::string& expected)
   {
     throw FormatError(path, "is UTF-16 text", expected + " in UTF-8", "save it as UTF-8");
   }
-  if (std::memchr(text.data(), '\0', text.size()) != nullptr)
+  if (text.find('\0') != std::string::npos)
   {
     throw FormatError(path, "is a binary file", expected, "name another file");
   }

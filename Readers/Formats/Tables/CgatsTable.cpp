@@ -34,7 +34,7 @@ public:
     const auto line = Line;
     const auto column = static_cast<std::int32_t>(At - LineBegin + 1);
     std::size_t begin = At;
-    std::size_t end = At;
+    std::size_t end;
     const char quote = Text[At];
     if (quote == '"' || quote == '\'')
     {

@@ -51,11 +51,12 @@ void addDifferences(const FieldScratch& scratch, const ImageWindow& window, Bloc
   for (int i = 0; i < static_cast<int>(window.pixels()); ++i)
   {
     const int self = at[static_cast<std::size_t>(i)];
-    const int right =
-      i % window.width + lag < window.width ? at[static_cast<std::size_t>(i + lag)] : -1;
+    const int right = i % window.width + lag < window.width
+      ? at[static_cast<std::size_t>(i) + std::size_t{ lag }]
+      : -1;
     const int below = i / window.width + lag < window.height
       ? at[static_cast<std::size_t>(i) +
-          static_cast<std::size_t>(lag) * static_cast<std::size_t>(window.width)]
+          std::size_t{ lag } * static_cast<std::size_t>(window.width)]
       : -1;
     if (self >= 0 && right >= 0)
     {

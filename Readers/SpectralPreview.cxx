@@ -44,6 +44,7 @@ Eigen::Matrix3Xd colorimetricWeights(
   const SpectralImageInfo& info, const std::vector<Eigen::Index>& bands)
 {
   std::vector<double> wavelengths;
+  wavelengths.reserve(bands.size());
   for (const auto b : bands)
   {
     wavelengths.push_back(info.wavelengths[static_cast<std::size_t>(b)]);
@@ -90,7 +91,7 @@ double whiteOf(const SpectralImageFile& file, const Eigen::Matrix3Xd& weights)
   std::vector<float> largest;
   for (int i = 0; i < rows; ++i)
   {
-    const int y = static_cast<int>((2LL * i + 1) * info.height / (2 * rows));
+    const int y = static_cast<int>((2LL * i + 1) * info.height / (2LL * rows));
     file.readBlock({ x0, x0 + width, y, y + 1 }, {}, values.data());
     for (int x = 0; x < width; ++x)
     {

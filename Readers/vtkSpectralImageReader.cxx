@@ -58,9 +58,11 @@ void addDescription(vtkImageData* image, const msi::SpectralImageInfo& info)
   addField<vtkUnsignedCharArray>(image, msi::GoodBandsArray, info.goodBands);
   addField<vtkStringArray>(image, "Notes", info.notes);
   std::vector<std::string> metadata;
+  metadata.reserve(info.metadata.size());
   for (const auto& [key, value] : info.metadata)
   {
-    metadata.push_back(key + " = " + value);
+    metadata.push_back(key);
+    metadata.back().append(" = ").append(value);
   }
   addField<vtkStringArray>(image, "Metadata", metadata);
 }

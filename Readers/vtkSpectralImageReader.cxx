@@ -64,7 +64,8 @@ void addDescription(vtkImageData* image, const msi::SpectralImageInfo& info)
     metadata.push_back(key);
     metadata.back().append(" = ").append(value);
   }
-  addField<vtkStringArray>(image, "Metadata", metadata);
+  // Not "Metadata": VTK's legacy format, in which servers send tables, takes that for its own keyword.
+  addField<vtkStringArray>(image, "FileMetadata", metadata);
 }
 }
 

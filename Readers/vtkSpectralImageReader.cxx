@@ -228,8 +228,9 @@ int vtkSpectralImageReader::RequestData(
         static_cast<std::ptrdiff_t>(info.bands()) * (extent[1] - extent[0] + 1);
       // A few megabytes a call, so that progress moves and a stop is heard.
       constexpr std::ptrdiff_t BlockValues = 4 << 20;
-      const int rowsPerBlock =
-        static_cast<int>(std::clamp<std::ptrdiff_t>(BlockValues / rowSize, 1, info.height));
+      // More ranks than pixels leave a rank without any.
+      const int rowsPerBlock = static_cast<int>(std::clamp<std::ptrdiff_t>(
+        BlockValues / std::max<std::ptrdiff_t>(rowSize, 1), 1, info.height));
       for (int y = extent[2]; y <= extent[3]; y += rowsPerBlock)
       {
         if (this->GetAbortExecute())

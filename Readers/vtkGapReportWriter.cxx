@@ -1,16 +1,15 @@
 #include "vtkGapReportWriter.h"
 
-#include "vtkErrorCode.h"
+#include "TableWriting.h"
+
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include "Formats/Storage/AtomicFile.h"
 
-#include <exception>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkGapReportWriter);
@@ -29,31 +28,17 @@ int vtkGapReportWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkGapReportWriter::WriteData()
 {
-  auto* table = vtkTable::SafeDownCast(this->GetInput());
-  auto* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller && controller->GetLocalProcessId() > 0)
-  {
-    return; // small tables stand whole on the first rank
-  }
-  try
-  {
-    if (this->FileName.empty())
+  this->SetErrorCode(msi::writeTable(this, this->FileName,
+    [this](vtkTable* table)
     {
-      throw std::invalid_argument("no file is given; set FileName");
-    }
-    auto* text = vtkStringArray::SafeDownCast(table->GetFieldData()->GetAbstractArray("Report"));
-    if (!text || text->GetNumberOfValues() == 0)
-    {
-      throw std::invalid_argument("the input has no field data 'Report'; expected the summary, "
-                                  "output 0 of Sim To Real Gap");
-    }
-    msi::AtomicFile file(this->FileName);
-    file.append(std::string(text->GetValue(0)));
-    file.commit();
-  }
-  catch (const std::exception& error)
-  {
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-    vtkErrorMacro(<< error.what());
-  }
+      auto* text = vtkStringArray::SafeDownCast(table->GetFieldData()->GetAbstractArray("Report"));
+      if (!text || text->GetNumberOfValues() == 0)
+      {
+        throw std::invalid_argument("the input has no field data 'Report'; expected the summary, "
+                                    "output 0 of Sim To Real Gap");
+      }
+      msi::AtomicFile file(this->FileName);
+      file.append(std::string(text->GetValue(0)));
+      file.commit();
+    }));
 }

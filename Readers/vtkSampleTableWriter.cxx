@@ -1,16 +1,14 @@
 #include "vtkSampleTableWriter.h"
 
 #include "SampleTableConversion.h"
+#include "TableWriting.h"
 
-#include "vtkErrorCode.h"
 #include "vtkInformation.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 
 #include "Formats/SampleTable.h"
 
-#include <exception>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkSampleTableWriter);
@@ -37,37 +35,23 @@ int vtkSampleTableWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkSampleTableWriter::WriteData()
 {
-  auto* table = vtkTable::SafeDownCast(this->GetInput());
-  auto* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller && controller->GetLocalProcessId() > 0)
-  {
-    return; // small tables stand whole on the first rank
-  }
-  try
-  {
-    if (this->FileName.empty())
+  this->SetErrorCode(msi::writeTable(this, this->FileName,
+    [this](vtkTable* table)
     {
-      throw std::invalid_argument("no file is given; set FileName");
-    }
-    const auto samples = msi::fromVTK(table);
-    if (endsWith(this->FileName, ".ti3") || endsWith(this->FileName, ".cie"))
-    {
-      if (!samples.hasReflectance())
+      const auto samples = msi::fromVTK(table);
+      if (endsWith(this->FileName, ".ti3") || endsWith(this->FileName, ".cie"))
       {
-        throw std::invalid_argument(this->FileName +
-          ": the table has no reflectance, which CGATS is for; expected "
-          "columns R400, R410, ..; name the file .csv");
+        if (!samples.hasReflectance())
+        {
+          throw std::invalid_argument(this->FileName +
+            ": the table has no reflectance, which CGATS is for; expected "
+            "columns R400, R410, ..; name the file .csv");
+        }
+        msi::writeSampleTableCgats(this->FileName, samples);
       }
-      msi::writeSampleTableCgats(this->FileName, samples);
-    }
-    else
-    {
-      msi::writeSampleTableCsv(this->FileName, samples);
-    }
-  }
-  catch (const std::exception& error)
-  {
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-    vtkErrorMacro(<< error.what());
-  }
+      else
+      {
+        msi::writeSampleTableCsv(this->FileName, samples);
+      }
+    }));
 }

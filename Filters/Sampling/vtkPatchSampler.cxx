@@ -1,9 +1,8 @@
 #include "vtkPatchSampler.h"
 
 #include "AlgorithmSupport.h"
-#include "ImageBlocks.h"
 #include "ImagePieces.h"
-#include "PatchPixels.h"
+#include "PatchSampling.h"
 #include "SampleColumns.h"
 #include "SpectralImage.h"
 
@@ -18,7 +17,6 @@
 #include "Kernels/Sampling/PatchStatistics.h"
 
 #include <cmath>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -119,24 +117,9 @@ void writeRows(const msi::PatchStatistics& statistics, const msi::SpectralAxis& 
 }
 }
 
-// What is known of the image so far.
-struct vtkPatchSampler::Sampling
+struct vtkPatchSampler::Sampling : msi::PatchSampling
 {
-  msi::ImageBlocks blocks;
-  std::optional<msi::PatchStatistics> statistics;
-  msi::SpectralAxis axis;
   bool isReflectance = false;
-  int patches = 0;
-  std::string failure;
-
-  void reset()
-  {
-    statistics.reset();
-    axis = {};
-    isReflectance = false;
-    patches = 0;
-    failure.clear();
-  }
 };
 
 vtkPatchSampler::vtkPatchSampler()
@@ -194,7 +177,7 @@ int vtkPatchSampler::RequestUpdateExtent(
   blocks.setBlockBytes(static_cast<long long>(this->BlockSize) << 20);
   if (blocks.request(inputs, { 0, 1 }))
   {
-    this->Current->reset();
+    this->Current->restart();
   }
   msi::requestWhole(inputs, 2);
   return 1;
@@ -203,21 +186,9 @@ int vtkPatchSampler::RequestUpdateExtent(
 int vtkPatchSampler::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  auto& sampling = *this->Current;
-  // What fails on one rank is told where the ranks meet.
-  try
+  if (this->Current->takeBlock(this, request, [&] { this->AddBlock(inputs); }))
   {
-    this->AddBlock(inputs);
-    this->UpdateProgress(sampling.blocks.progress());
-    if (sampling.blocks.next(request))
-    {
-      return 1;
-    }
-  }
-  catch (const std::exception& error)
-  {
-    sampling.failure = error.what();
-    sampling.blocks.stop(request);
+    return 1;
   }
   return msi::runAlgorithm(this, outputs,
     [&] { this->WriteTable(vtkTable::GetData(inputs[2]), outputs->GetInformationObject(0)); });
@@ -236,39 +207,15 @@ void vtkPatchSampler::AddBlock(vtkInformationVector** inputs)
   auto* array = msi::requireSpectralArray(image, "the image", this->SpectralArray.c_str());
   const auto map = labels ? msi::mapFromLabels(labels, image)
                           : msi::mapFromGrid(this->MakeGrid(inputs[0]->GetInformationObject(0)));
-  if (!sampling.statistics)
-  {
-    sampling.axis = msi::axisOf(image, array);
-    sampling.isReflectance =
-      array->GetName() && std::string(array->GetName()) == msi::ReflectanceArray;
-    sampling.statistics.emplace(std::max(1, map.patches), array->GetNumberOfComponents());
-  }
-  sampling.patches = std::max(sampling.patches, map.patches);
-  if (map.patches > 0)
-  {
-    sampling.statistics->grow(map.patches);
-    msi::addPixels(this, image, array, map, *sampling.statistics);
-  }
+  sampling.isReflectance =
+    array->GetName() && std::string(array->GetName()) == msi::ReflectanceArray;
+  sampling.add(this, image, array, map);
 }
 
 void vtkPatchSampler::WriteTable(vtkTable* patchTable, vtkInformation* outInfo)
 {
   auto& sampling = *this->Current;
-  auto* controller = msi::controllerOfTables();
-  msi::throwOnAnyRank(sampling.failure, controller);
-  const int patches = msi::maximumOverRanks(sampling.patches, controller);
-  const int channels = msi::maximumOverRanks(static_cast<int>(sampling.axis.size()), controller);
-  if (patches == 0)
-  {
-    throw std::invalid_argument("the label image is 0 everywhere; expected patches 1, 2, ..");
-  }
-  if (!sampling.statistics)
-  {
-    sampling.statistics.emplace(patches, channels);
-  }
-  auto& statistics = *sampling.statistics;
-  statistics.grow(patches);
-  msi::sumOverRanks(statistics, controller);
+  const auto& statistics = sampling.gather("patches");
 
   // A piece of the table: the first rank of many has all rows, a rank that asked for the whole too.
   if (outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) == 0)
@@ -280,7 +227,7 @@ void vtkPatchSampler::WriteTable(vtkTable* patchTable, vtkInformation* outInfo)
                                                   : msi::SampleQuantity::Reflectance;
     writeRows(statistics, sampling.axis, quantity, patchTable, vtkTable::GetData(outInfo));
   }
-  sampling.reset();
+  sampling.restart();
 }
 
 msi::PatchGrid vtkPatchSampler::MakeGrid(vtkInformation* imageInfo) const

@@ -1,8 +1,7 @@
 #include "vtkSpectralProfile.h"
 
 #include "AlgorithmSupport.h"
-#include "ImageBlocks.h"
-#include "PatchPixels.h"
+#include "PatchSampling.h"
 #include "SampleColumns.h"
 #include "SpectralImage.h"
 
@@ -17,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -40,38 +38,9 @@ std::string text(double x, double y)
 }
 }
 
-// What is known of the image so far.
-struct vtkSpectralProfile::Sampling
+struct vtkSpectralProfile::Sampling : msi::PatchSampling
 {
-  msi::ImageBlocks blocks;
   std::vector<Place> places; // none: by labels
-  std::optional<msi::PatchStatistics> statistics;
-  msi::SpectralAxis axis;
-  int profiles = 0;
-  std::string failure;
-
-  void reset()
-  {
-    statistics.reset();
-    axis = {};
-    profiles = 0;
-    failure.clear();
-  }
-
-  void add(vtkAlgorithm* self, vtkImageData* image, vtkDataArray* array, const msi::PatchMap& map)
-  {
-    if (!statistics)
-    {
-      axis = msi::axisOf(image, array);
-      statistics.emplace(std::max(1, map.patches), array->GetNumberOfComponents());
-    }
-    profiles = std::max(profiles, map.patches);
-    if (map.patches > 0)
-    {
-      statistics->grow(map.patches);
-      msi::addPixels(self, image, array, map, *statistics);
-    }
-  }
 };
 
 vtkSpectralProfile::vtkSpectralProfile()
@@ -202,7 +171,7 @@ int vtkSpectralProfile::RequestUpdateExtent(
 {
   if (this->Current->blocks.request(inputs, { 0, 1 }))
   {
-    this->Current->reset();
+    this->Current->restart();
   }
   return 1;
 }
@@ -210,21 +179,9 @@ int vtkSpectralProfile::RequestUpdateExtent(
 int vtkSpectralProfile::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  auto& sampling = *this->Current;
-  // What fails on one rank is told where the ranks meet.
-  try
+  if (this->Current->takeBlock(this, request, [&] { this->AddBlock(inputs); }))
   {
-    this->AddBlock(inputs);
-    this->UpdateProgress(sampling.blocks.progress());
-    if (sampling.blocks.next(request))
-    {
-      return 1;
-    }
-  }
-  catch (const std::exception& error)
-  {
-    sampling.failure = error.what();
-    sampling.blocks.stop(request);
+    return 1;
   }
   return msi::runAlgorithm(this, outputs,
     [&]
@@ -250,13 +207,7 @@ void vtkSpectralProfile::AddBlock(vtkInformationVector** inputs)
     sampling.add(this, image, array, msi::mapFromLabels(labels, image));
     return;
   }
-  if (!sampling.statistics)
-  {
-    sampling.axis = msi::axisOf(image, array);
-    sampling.statistics.emplace(
-      static_cast<int>(sampling.places.size()), array->GetNumberOfComponents());
-  }
-  sampling.profiles = sampling.statistics->patches();
+  auto& statistics = sampling.prepare(image, array, static_cast<int>(sampling.places.size()));
   // Places may share pixels.
   for (std::size_t i = 0; i < sampling.places.size(); ++i)
   {
@@ -275,33 +226,20 @@ void vtkSpectralProfile::AddBlock(vtkInformationVector** inputs)
     const int label = static_cast<int>(i) + 1;
     msi::addPixels(this, pixels,
       msi::requireSpectralArray(pixels, "the image", this->SpectralArray.c_str()),
-      { label, [label](vtkIdType, double, double) { return label; } }, *sampling.statistics);
+      { label, [label](vtkIdType, double, double) { return label; } }, statistics);
   }
 }
 
 void vtkSpectralProfile::WriteTable(vtkInformation* outInfo, bool labelled)
 {
   auto& sampling = *this->Current;
-  auto* controller = msi::controllerOfTables();
-  msi::throwOnAnyRank(sampling.failure, controller);
-  const int profiles = msi::maximumOverRanks(sampling.profiles, controller);
-  const int channels = msi::maximumOverRanks(static_cast<int>(sampling.axis.size()), controller);
-  if (profiles == 0)
-  {
-    throw std::invalid_argument("the label image is 0 everywhere; expected labels 1, 2, ..");
-  }
-  if (!sampling.statistics)
-  {
-    sampling.statistics.emplace(profiles, channels);
-  }
-  auto& statistics = *sampling.statistics;
-  statistics.grow(profiles);
-  msi::sumOverRanks(statistics, controller);
+  const auto& statistics = sampling.gather("labels");
   // A piece of the table: the first rank of many has all rows.
   if (outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) == 0)
   {
     auto* table = vtkTable::GetData(outInfo);
     const auto& axis = sampling.axis;
+    const auto channels = statistics.channels();
     Eigen::VectorXd rows = Eigen::VectorXd::LinSpaced(channels, 1.0, channels);
     if (axis.wavelengths)
     {
@@ -313,7 +251,7 @@ void vtkSpectralProfile::WriteTable(vtkInformation* outInfo, bool labelled)
     vtkNew<vtkIdTypeArray> counts;
     names->SetName("Profile");
     counts->SetName("Count");
-    for (int label = 1; label <= profiles; ++label)
+    for (int label = 1; label <= statistics.patches(); ++label)
     {
       if (labelled && statistics.count(label) + statistics.leftOut(label) == 0)
       {
@@ -338,5 +276,5 @@ void vtkSpectralProfile::WriteTable(vtkInformation* outInfo, bool labelled)
     table->GetFieldData()->AddArray(names);
     table->GetFieldData()->AddArray(counts);
   }
-  sampling.reset();
+  sampling.restart();
 }

@@ -1,5 +1,6 @@
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -11,65 +12,30 @@ namespace msi
 
 namespace
 {
-constexpr int Taps = 4;
-
-// Where one output position of one channel reads: four neighbours from First on.
-struct Reading
+// Cubic convolution around a place on an axis: weights of the pixels from `first` on.
+struct Cubic
 {
-  std::array<int, Taps> position;
-  std::array<float, Taps> weight;
+  int first;
+  std::array<float, 4> weight;
 };
 
-Reading readingAt(double source, int lowest, int highest)
+Cubic cubicAt(double place)
 {
-  const double below = std::floor(source);
-  const double t = source - below;
+  const double below = std::floor(place);
+  const double t = place - below;
   const double t2 = t * t;
   const double t3 = t2 * t;
-  Reading reading;
-  reading.weight = { static_cast<float>(-0.5 * t + t2 - 0.5 * t3),
-    static_cast<float>(1.0 - 2.5 * t2 + 1.5 * t3),
-    static_cast<float>(0.5 * t + 2.0 * t2 - 1.5 * t3), static_cast<float>(-0.5 * t2 + 0.5 * t3) };
-  for (int i = 0; i < Taps; ++i)
-  {
-    reading.position[static_cast<std::size_t>(i)] =
-      std::min(std::max(static_cast<int>(below) - 1 + i, lowest), highest);
-  }
-  return reading;
+  return { static_cast<int>(below) - 1,
+    { static_cast<float>(-0.5 * t + t2 - 0.5 * t3), static_cast<float>(1.0 - 2.5 * t2 + 1.5 * t3),
+      static_cast<float>(0.5 * t + 2.0 * t2 - 1.5 * t3),
+      static_cast<float>(-0.5 * t2 + 0.5 * t3) } };
 }
 
-// The readings of all positions of an axis, channel by channel within a position.
-std::vector<Reading> readings(int first, int count, int extent, const Eigen::ArrayXd& displacement,
-  const Eigen::ArrayXd& magnification)
+// Where the output position of an axis lies in the image before.
+Cubic sourceOf(int position, int extent, double displacement, double magnification)
 {
   const double middle = 0.5 * (extent - 1);
-  std::vector<Reading> all;
-  all.reserve(static_cast<std::size_t>(count) * static_cast<std::size_t>(displacement.size()));
-  for (int position = first; position < first + count; ++position)
-  {
-    for (Eigen::Index k = 0; k < displacement.size(); ++k)
-    {
-      const double source =
-        middle + (position - middle - displacement[k]) / (1.0 + magnification[k]);
-      all.push_back(readingAt(source, first, first + count - 1));
-    }
-  }
-  return all;
-}
-
-// `step` floats lie between neighbours on the axis.
-void readAlong(const Reading* reading, const float* line, std::ptrdiff_t step, int first,
-  int channels, float* out) noexcept
-{
-  for (int k = 0; k < channels; ++k)
-  {
-    float sum = 0.0F;
-    for (std::size_t i = 0; i < Taps; ++i)
-    {
-      sum += reading[k].weight[i] * line[(reading[k].position[i] - first) * step + k];
-    }
-    out[k] = sum;
-  }
+  return cubicAt(middle + (position - middle - displacement) / (1.0 + magnification));
 }
 }
 
@@ -101,28 +67,102 @@ ChannelRegistration::ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd do
 void ChannelRegistration::operator()(PixelBuffer& buffer, PixelBuffer& scratch) const
 {
   const ImageWindow window = buffer.window;
-  const int channels = buffer.channels;
-  scratch.resize(window, channels);
-  const auto columns = readings(window.x, window.width, Extent.width, Right, Magnification);
-  const auto rows = readings(window.y, window.height, Extent.height, Down, Magnification);
-  const std::ptrdiff_t pixelStep = channels;
-  const std::ptrdiff_t rowStep = pixelStep * window.width;
-  for (int y = window.y; y < window.y + window.height; ++y)
+  RegistrationRows rows;
+  rows.begin(*this, window);
+  scratch.resize(window, buffer.channels);
+  const auto count =
+    static_cast<std::size_t>(window.width) * static_cast<std::size_t>(buffer.channels);
+  int y = window.y;
+  for (int row = window.y; row < window.y + window.height; ++row)
   {
-    for (int x = window.x; x < window.x + window.width; ++x)
+    rows.push(buffer.pixel(window.x, row),
+      [&](const float* out) { std::copy_n(out, count, scratch.pixel(window.x, y++)); });
+  }
+  std::swap(buffer.values, scratch.values);
+}
+
+void RegistrationRows::begin(const ChannelRegistration& registration, const ImageWindow& window)
+{
+  Window = window;
+  Extent = registration.Extent;
+  Down = registration.Down;
+  Magnification = registration.Magnification;
+  Reach = registration.Reach;
+  Channels = static_cast<std::size_t>(Down.size());
+  Count = static_cast<std::size_t>(window.width) * Channels;
+  Taken = 0;
+  Given = 0;
+  Span = std::min(2 * Reach + 1, window.height);
+  Ring.resize(static_cast<std::size_t>(Span) * Count);
+  Out.resize(Count);
+  for (std::size_t tap = 0; tap < Taps; ++tap)
+  {
+    Along.from[tap].resize(Count);
+    Along.weight[tap].resize(Count);
+    Across.from[tap].resize(Channels);
+    Across.weight[tap].resize(Channels);
+  }
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    const auto x = static_cast<int>(i / Channels);
+    const auto k = static_cast<Eigen::Index>(i % Channels);
+    const Cubic cubic =
+      sourceOf(window.x + x, Extent.width, registration.Right[k], Magnification[k]);
+    for (std::size_t tap = 0; tap < Taps; ++tap)
     {
-      readAlong(columns.data() + (x - window.x) * pixelStep, buffer.pixel(window.x, y), pixelStep,
-        window.x, channels, scratch.pixel(x, y));
+      const int from = cubic.first + static_cast<int>(tap) - window.x;
+      Along.from[tap][i] =
+        static_cast<std::ptrdiff_t>(std::clamp(from, 0, window.width - 1)) * Down.size() + k;
+      Along.weight[tap][i] = cubic.weight[tap];
     }
   }
-  for (int y = window.y; y < window.y + window.height; ++y)
+}
+
+void RegistrationRows::take(const float* row)
+{
+  float* out = Ring.data() + static_cast<std::size_t>(Taken % Span) * Count;
+  for (std::size_t i = 0; i < Count; ++i)
   {
-    for (int x = window.x; x < window.x + window.width; ++x)
+    float sum = 0.0F;
+    for (std::size_t tap = 0; tap < Taps; ++tap)
     {
-      readAlong(rows.data() + (y - window.y) * pixelStep, scratch.pixel(x, window.y), rowStep,
-        window.y, channels, buffer.pixel(x, y));
+      sum += Along.weight[tap][i] * row[Along.from[tap][i]];
+    }
+    out[i] = sum;
+  }
+  ++Taken;
+}
+
+const float* RegistrationRows::next()
+{
+  for (std::size_t channel = 0; channel < Channels; ++channel)
+  {
+    const auto k = static_cast<Eigen::Index>(channel);
+    const Cubic cubic = sourceOf(Window.y + Given, Extent.height, Down[k], Magnification[k]);
+    for (std::size_t tap = 0; tap < Taps; ++tap)
+    {
+      const int from = cubic.first + static_cast<int>(tap) - Window.y;
+      const int row = std::clamp(from, 0, Window.height - 1) % Span;
+      Across.from[tap][channel] =
+        static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(Count) + k;
+      Across.weight[tap][channel] = cubic.weight[tap];
     }
   }
+  const float* ring = Ring.data();
+  for (std::size_t first = 0; first < Count; first += Channels, ring += Channels)
+  {
+    for (std::size_t k = 0; k < Channels; ++k)
+    {
+      float sum = 0.0F;
+      for (std::size_t tap = 0; tap < Taps; ++tap)
+      {
+        sum += Across.weight[tap][k] * ring[Across.from[tap][k]];
+      }
+      Out[first + k] = sum;
+    }
+  }
+  ++Given;
+  return Out.data();
 }
 
 } // namespace msi

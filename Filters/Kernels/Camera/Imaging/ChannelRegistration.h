@@ -5,6 +5,10 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstddef>
+#include <vector>
+
 namespace msi
 {
 
@@ -28,11 +32,65 @@ public:
   void operator()(PixelBuffer& buffer, PixelBuffer& scratch) const;
 
 private:
+  friend class RegistrationRows;
+
   Eigen::ArrayXd Right;
   Eigen::ArrayXd Down;
   Eigen::ArrayXd Magnification;
   ImageExtent Extent;
   int Reach;
+};
+
+// The same of an image that comes row by row: the same bytes, and memory for the rows that are read alone.
+class RegistrationRows
+{
+public:
+  // For the rows of this window; forgets those of the window before, keeps their memory.
+  void begin(const ChannelRegistration& registration, const ImageWindow& window);
+
+  // As RowConvolution::push().
+  template <typename Emit>
+  void push(const float* row, const Emit& emit)
+  {
+    take(row);
+    while (hasNext())
+    {
+      emit(next());
+    }
+  }
+
+private:
+  static constexpr std::size_t Taps = 4;
+
+  // Where the values of a line come from, and their weights; tap by tap.
+  struct Reading
+  {
+    std::array<std::vector<std::ptrdiff_t>, Taps> from;
+    std::array<std::vector<float>, Taps> weight;
+  };
+
+  void take(const float* row);
+  bool hasNext() const noexcept
+  {
+    return Given < Window.height && (Taken == Window.height || Given + Reach < Taken);
+  }
+  const float* next();
+
+  ImageWindow Window;
+  ImageExtent Extent;
+  Eigen::ArrayXd Down;
+  Eigen::ArrayXd Magnification;
+  int Reach = 0;
+  std::size_t Channels = 0;
+  std::size_t Count = 0; // values of a row
+  Reading Along;         // of every value of a row, in that row
+  Reading Across;        // of a row's first pixel, in the ring
+  int Taken = 0;         // rows
+  int Given = 0;
+  // Rows moved along x; a row's place is its number modulo their count.
+  int Span = 1;
+  std::vector<float> Ring;
+  std::vector<float> Out;
 };
 
 } // namespace msi

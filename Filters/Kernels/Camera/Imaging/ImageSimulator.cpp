@@ -1,10 +1,8 @@
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 
 #include "Kernels/Camera/Effects/EffectChain.h"
-#include "Kernels/Camera/Imaging/ChannelRegistration.h"
-#include "Kernels/Camera/Imaging/ScatterTail.h"
-#include "Kernels/Camera/Imaging/SeparableFilter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -185,33 +183,63 @@ struct ImageSimulator::Implementation
     Chain.illuminate<float>(blockOf(signal, channels(), count), columns);
   }
 
-  // All rows of `region` in runs: use(reflectance and media of the run, x, y, count).
+  // A row of `region` in runs: use(reflectance and media of the run, x, count).
   template <typename Use>
   void forRuns(const float* reflectance, const int* medium, const ImageWindow& available,
-    const ImageWindow& region, Use use) const
+    const ImageWindow& region, int y, const Use& use) const
   {
-    for (int y = region.y; y < region.y + region.height; ++y)
+    for (int x = region.x; x < region.x + region.width; x += BlockPixels)
     {
-      for (int x = region.x; x < region.x + region.width; x += BlockPixels)
-      {
-        const int count = std::min(BlockPixels, region.x + region.width - x);
-        const std::size_t pixel =
-          static_cast<std::size_t>(y - available.y) * static_cast<std::size_t>(available.width) +
-          static_cast<std::size_t>(x - available.x);
-        const float* source = reflectance + pixel * static_cast<std::size_t>(wavelengths());
-        use(source, medium == nullptr ? nullptr : medium + pixel, x, y, count);
-      }
+      const int count = std::min(BlockPixels, region.x + region.width - x);
+      const std::size_t pixel =
+        static_cast<std::size_t>(y - available.y) * static_cast<std::size_t>(available.width) +
+        static_cast<std::size_t>(x - available.x);
+      const float* source = reflectance + pixel * static_cast<std::size_t>(wavelengths());
+      use(source, medium == nullptr ? nullptr : medium + pixel, x, count);
     }
   }
 
-  // Stray light, detector, noise: a run of one row, in place.
-  void detect(
-    float* signal, int x, int y, int count, const Eigen::VectorXf& mean, ImageWorkspace& work) const
+  // The effects that need rows in turn: each hands its complete rows on; use(row) gets the last one's.
+  template <typename Use>
+  void registerRow(const float* row, ImageWorkspace& work, const Use& use) const
+  {
+    if (!Registration)
+    {
+      use(row);
+      return;
+    }
+    work.registration.push(row, use);
+  }
+  template <typename Use>
+  void blurRow(const float* row, ImageWorkspace& work, const Use& use) const
+  {
+    if (!Blur)
+    {
+      use(row);
+      return;
+    }
+    work.blur.push(row, use);
+  }
+
+  // Stray light, detector, noise: a row of the window, in place. tail: null where there is none.
+  void detectRow(float* signal, const float* tail, const ImageWindow& window, int y,
+    const Eigen::VectorXf& mean, ImageWorkspace& work) const
+  {
+    for (int x = 0; x < window.width; x += BlockPixels)
+    {
+      const std::ptrdiff_t place = static_cast<std::ptrdiff_t>(x) * channels();
+      detect(signal + place, tail == nullptr ? nullptr : tail + place, window.x + x, y,
+        std::min(BlockPixels, window.width - x), mean, work);
+    }
+  }
+
+  void detect(float* signal, const float* scattered, int x, int y, int count,
+    const Eigen::VectorXf& mean, ImageWorkspace& work) const
   {
     auto block = blockOf(signal, channels(), count);
-    if (Tail)
+    if (scattered != nullptr)
     {
-      const Eigen::Map<const Eigen::MatrixXf> tail(work.tail.pixel(x, y), channels(), count);
+      const Eigen::Map<const Eigen::MatrixXf> tail(scattered, channels(), count);
       Chain.localStrayLight()->apply(block, tail);
     }
     if (Chain.veilingGlare() != nullptr)
@@ -248,6 +276,73 @@ struct ImageSimulator::Implementation
       static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(Extent.width) +
       static_cast<std::uint64_t>(x);
     Noise(block, firstPixel, Exposure);
+  }
+
+  void simulate(const float* reflectance, const int* medium, const ImageWindow& available,
+    const ImageWindow& region, const ImageWindow& window, const Eigen::VectorXf& mean,
+    float* response, ImageWorkspace& work) const
+  {
+    if (Registration)
+    {
+      work.registration.begin(*Registration, region);
+    }
+    if (Blur)
+    {
+      work.blur.begin(*Blur, region.width, region.height);
+    }
+    if (Tail)
+    {
+      work.tail.begin(*Tail, channels(), region.width, region.height);
+    }
+    const auto perPixel = static_cast<std::size_t>(channels());
+    const std::size_t count = static_cast<std::size_t>(window.width) * perPixel;
+    const std::size_t left = static_cast<std::size_t>(window.x - region.x) * perPixel;
+    // The window's part of a row of the region; null outside.
+    const auto responseRow = [&](int y)
+    {
+      return y < window.y || y >= window.y + window.height
+        ? nullptr
+        : response + static_cast<std::size_t>(y - window.y) * count;
+    };
+    work.row.resize(static_cast<std::size_t>(region.width) * perPixel);
+    int focused = region.y;
+    int scattered = region.y;
+    const auto useTail = [&](const float* tail)
+    {
+      const int y = scattered++;
+      if (float* out = responseRow(y))
+      {
+        detectRow(out, tail + left, window, y, mean, work);
+      }
+    };
+    const auto useFocused = [&](const float* row)
+    {
+      const int y = focused++;
+      float* out = responseRow(y);
+      if (out != nullptr)
+      {
+        std::copy_n(row + left, count, out);
+      }
+      if (Tail)
+      {
+        work.tail.push(row, useTail);
+      }
+      else if (out != nullptr)
+      {
+        detectRow(out, nullptr, window, y, mean, work);
+      }
+    };
+    for (int y = region.y; y < region.y + region.height; ++y)
+    {
+      forRuns(reflectance, medium, available, region, y,
+        [&](const float* source, const int* media, int x, int run)
+        {
+          const std::size_t place = static_cast<std::size_t>(x - region.x) * perPixel;
+          irradiate(source, media, x, y, run, work.row.data() + place, work);
+        });
+      registerRow(work.row.data(), work,
+        [&](const float* registered) { blurRow(registered, work, useFocused); });
+    }
   }
 };
 
@@ -286,14 +381,18 @@ void ImageSimulator::addToMean(const float* reflectance, const int* medium,
   const ImageWindow& window, SceneMean& mean, ImageWorkspace& workspace) const
 {
   Self->requireWindow(window, medium);
-  workspace.signal.resize({ 0, 0, BlockPixels, 1 }, channelCount());
-  Self->forRuns(reflectance, medium, window, window,
-    [&](const float* source, const int* media, int x, int y, int count)
-    {
-      float* signal = workspace.signal.values.data();
-      Self->irradiate(source, media, x, y, count, signal, workspace);
-      mean.add(signal, count);
-    });
+  workspace.row.resize(static_cast<std::size_t>(BlockPixels) *
+    static_cast<std::size_t>(channelCount()));
+  float* signal = workspace.row.data();
+  for (int y = window.y; y < window.y + window.height; ++y)
+  {
+    Self->forRuns(reflectance, medium, window, window, y,
+      [&](const float* source, const int* media, int x, int count)
+      {
+        Self->irradiate(source, media, x, y, count, signal, workspace);
+        mean.add(signal, count);
+      });
+  }
 }
 
 void ImageSimulator::simulate(const float* reflectance, const int* medium,
@@ -312,38 +411,7 @@ void ImageSimulator::simulate(const float* reflectance, const int* medium,
     reject("the effect veiling_glare needs the mean of the scene");
   }
   const Eigen::VectorXf glare = needsSceneMean() ? mean->value() : Eigen::VectorXf();
-  PixelBuffer& signal = workspace.signal;
-  signal.resize(region, channelCount());
-  Self->forRuns(reflectance, medium, available, region,
-    [&](const float* source, const int* media, int x, int y, int count)
-    { Self->irradiate(source, media, x, y, count, signal.pixel(x, y), workspace); });
-  if (Self->Registration)
-  {
-    (*Self->Registration)(signal, workspace.scratch);
-  }
-  if (Self->Blur)
-  {
-    convolve(*Self->Blur, signal);
-  }
-  if (Self->Tail)
-  {
-    workspace.blurred = signal;
-    (*Self->Tail)(workspace.blurred, workspace.tail);
-  }
-  const auto channels = static_cast<std::size_t>(channelCount());
-  for (int y = window.y; y < window.y + window.height; ++y)
-  {
-    for (int x = window.x; x < window.x + window.width; x += BlockPixels)
-    {
-      const int count = std::min(BlockPixels, window.x + window.width - x);
-      const std::size_t pixel =
-        static_cast<std::size_t>(y - window.y) * static_cast<std::size_t>(window.width) +
-        static_cast<std::size_t>(x - window.x);
-      float* out = response + pixel * channels;
-      std::copy_n(signal.pixel(x, y), static_cast<std::size_t>(count) * channels, out);
-      Self->detect(out, x, y, count, glare, workspace);
-    }
-  }
+  Self->simulate(reflectance, medium, available, region, window, glare, response, workspace);
 }
 
 } // namespace msi

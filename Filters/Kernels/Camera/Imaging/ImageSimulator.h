@@ -4,7 +4,10 @@
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/CameraNoise.h"
+#include "Kernels/Camera/Imaging/ChannelRegistration.h"
 #include "Kernels/Camera/Imaging/ImageWindow.h"
+#include "Kernels/Camera/Imaging/RowConvolution.h"
+#include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Camera/Imaging/SceneMean.h"
 
 #include <cstdint>
@@ -24,11 +27,14 @@ struct ImageSimulatorOptions
   std::vector<std::string> media = {}; // names of the numbers 0, 1, ... in a medium image
 };
 
-// Memory of a run, one for each thread; it grows to what a window needs and stays.
+// Memory of a run, one for each thread: the rows that neighbourhood effects reach; it grows to what a window needs
+// and stays.
 struct ImageWorkspace
 {
-  PixelBuffer signal, scratch, blurred, tail;
-  std::vector<float> reflectance, surround;
+  RegistrationRows registration;
+  RowConvolution blur;
+  ScatterRows tail;
+  std::vector<float> row, reflectance, surround;
   std::vector<double> fieldX, fieldY;
   std::vector<int> medium;
 };

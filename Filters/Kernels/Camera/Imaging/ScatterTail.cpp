@@ -1,7 +1,8 @@
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 
-#include "Kernels/Camera/Imaging/SeparableFilter.h"
+#include "Kernels/Camera/Imaging/WeightedSum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -65,20 +66,47 @@ int ScatterTail::reach() const noexcept
   return 2 * ((1 << Weights.size()) - 1);
 }
 
-void ScatterTail::operator()(PixelBuffer& buffer, PixelBuffer& tail) const
+void ScatterTail::operator()(const PixelBuffer& buffer, PixelBuffer& tail) const
 {
-  tail.resize(buffer.window, buffer.channels);
-  std::fill(tail.values.begin(), tail.values.end(), 0.0F);
-  int stride = 1;
-  for (const float weight : Weights)
+  const ImageWindow& window = buffer.window;
+  tail.resize(window, buffer.channels);
+  ScatterRows rows;
+  rows.begin(*this, buffer.channels, window.width, window.height);
+  const auto count =
+    static_cast<std::size_t>(window.width) * static_cast<std::size_t>(buffer.channels);
+  int y = window.y;
+  for (int row = window.y; row < window.y + window.height; ++row)
   {
-    convolve(splineKernel(buffer.channels, stride), buffer);
-    for (std::size_t i = 0; i < tail.values.size(); ++i)
-    {
-      tail.values[i] += weight * buffer.values[i];
-    }
+    rows.push(buffer.pixel(window.x, row),
+      [&](const float* out) { std::copy_n(out, count, tail.pixel(window.x, y++)); });
+  }
+}
+
+void ScatterRows::begin(const ScatterTail& tail, int channels, int width, int height)
+{
+  Weights = tail.weights();
+  Passes.resize(Weights.size());
+  int stride = 1;
+  for (RowConvolution& pass : Passes)
+  {
+    pass.begin(splineKernel(channels, stride), width, height);
     stride *= 2;
   }
+  Given.assign(Weights.size(), 0);
+  Count = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+  Span = std::min(tail.reach() + 1, height);
+  Sums.resize(static_cast<std::size_t>(Span) * Count);
+}
+
+float* ScatterRows::add(std::size_t number, const float* out)
+{
+  float* sum = Sums.data() + static_cast<std::size_t>(Given[number]++ % Span) * Count;
+  if (number == 0)
+  {
+    std::fill_n(sum, Count, 0.0F);
+  }
+  addScaled(Weights[number], out, sum, Count);
+  return sum;
 }
 
 } // namespace msi

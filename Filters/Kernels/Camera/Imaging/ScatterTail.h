@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Kernels/Camera/Imaging/ImageWindow.h"
+#include "Kernels/Camera/Imaging/RowConvolution.h"
 
 #include <vector>
 
@@ -25,11 +26,53 @@ public:
   int reach() const noexcept;
   const std::vector<float>& weights() const noexcept { return Weights; }
 
-  // tail = T buffer. Edges as in convolve(). `buffer` is used up.
-  void operator()(PixelBuffer& buffer, PixelBuffer& tail) const;
+  // tail = T buffer. Edges as in convolve().
+  void operator()(const PixelBuffer& buffer, PixelBuffer& tail) const;
 
 private:
   std::vector<float> Weights; // of pass 1, 2, ...
+};
+
+// The same of an image that comes row by row: the same bytes, and memory for the rows that the tail spans alone.
+class ScatterRows
+{
+public:
+  // For an image of this many pixels; forgets the rows of the image before, keeps their memory.
+  void begin(const ScatterTail& tail, int channels, int width, int height);
+
+  // As RowConvolution::push().
+  template <typename Emit>
+  void push(const float* row, const Emit& emit)
+  {
+    pass(0, row, emit);
+  }
+
+private:
+  template <typename Emit>
+  void pass(std::size_t number, const float* row, const Emit& emit)
+  {
+    Passes[number].push(row,
+      [&](const float* out)
+      {
+        float* sum = add(number, out);
+        if (number + 1 < Weights.size())
+        {
+          pass(number + 1, out, emit);
+          return;
+        }
+        emit(static_cast<const float*>(sum));
+      });
+  }
+  // Adds a row that a pass gave to its sum.
+  float* add(std::size_t number, const float* out);
+
+  std::vector<float> Weights;
+  std::vector<RowConvolution> Passes;
+  std::vector<int> Given; // rows, of each pass
+  std::size_t Count = 0;  // values of a row
+  // Sums between the first pass and the last; a row's place is its number modulo their count.
+  int Span = 1;
+  std::vector<float> Sums;
 };
 
 } // namespace msi

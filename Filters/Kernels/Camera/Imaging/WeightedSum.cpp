@@ -1,0 +1,94 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "Kernels/Camera/Imaging/WeightedSum.cpp"
+#include <hwy/foreach_target.h>
+
+#include "Kernels/Camera/Imaging/WeightedSum.h"
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+HWY_BEFORE_NAMESPACE();
+namespace msi
+{
+namespace HWY_NAMESPACE
+{
+namespace hn = hwy::HWY_NAMESPACE;
+
+void sumTaps(const float* weights, std::size_t period, const float* self,
+  const float* const* before, const float* const* after, std::size_t taps, float* out,
+  std::size_t count)
+{
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t first = 0; first < count; first += period)
+  {
+    const std::size_t end = std::min(period, count - first);
+    std::size_t i = 0;
+    for (; i + lanes <= end; i += lanes)
+    {
+      const std::size_t place = first + i;
+      auto sum = hn::Mul(hn::LoadU(d, weights + i), hn::LoadU(d, self + place));
+      for (std::size_t tap = 1; tap < taps; ++tap)
+      {
+        const auto both =
+          hn::Add(hn::LoadU(d, before[tap] + place), hn::LoadU(d, after[tap] + place));
+        sum = hn::Add(sum, hn::Mul(hn::LoadU(d, weights + tap * period + i), both));
+      }
+      hn::StoreU(sum, d, out + place);
+    }
+    for (; i < end; ++i)
+    {
+      const std::size_t place = first + i;
+      float sum = weights[i] * self[place];
+      for (std::size_t tap = 1; tap < taps; ++tap)
+      {
+        sum += weights[tap * period + i] * (before[tap][place] + after[tap][place]);
+      }
+      out[place] = sum;
+    }
+  }
+}
+
+void addTo(float weight, const float* values, float* sum, std::size_t count)
+{
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto factor = hn::Set(d, weight);
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes)
+  {
+    hn::StoreU(
+      hn::Add(hn::LoadU(d, sum + i), hn::Mul(factor, hn::LoadU(d, values + i))), d, sum + i);
+  }
+  for (; i < count; ++i)
+  {
+    sum[i] += weight * values[i];
+  }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace msi
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace msi
+{
+
+HWY_EXPORT(sumTaps);
+HWY_EXPORT(addTo);
+
+void symmetricSum(const float* weights, std::size_t period, const float* self,
+  const float* const* before, const float* const* after, std::size_t taps, float* out,
+  std::size_t count) noexcept
+{
+  HWY_DYNAMIC_DISPATCH(sumTaps)(weights, period, self, before, after, taps, out, count);
+}
+
+void addScaled(float weight, const float* values, float* sum, std::size_t count) noexcept
+{
+  HWY_DYNAMIC_DISPATCH(addTo)(weight, values, sum, count);
+}
+
+} // namespace msi
+#endif

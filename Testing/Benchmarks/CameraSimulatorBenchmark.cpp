@@ -1,24 +1,25 @@
 // Camera simulation of a 2048 x 2048 image, 31 wavelengths to 16 channels, one thread, single precision.
 //
 // The memcpy beside it moves the same bytes (reflectance in, response out); CameraSimulatorPeer.py does the same
-// work in NumPy.
+// work in NumPy. `BenchmarkCameraSimulator --results FOLDER SIDE` writes what both must agree on for a square image:
+// NAME.responsivity (K x N) and NAME.response, without noise, single precision.
 #include "Kernels/Camera/CameraDesign.h"
+#include "Kernels/Camera/CameraSimulator.h"
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 
 #include <benchmark/benchmark.h>
 
 #include <cstring>
+#include <fstream>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace
 {
-constexpr msi::ImageExtent Extent{ 2048, 2048 };
+msi::ImageExtent Extent{ 2048, 2048 };
 constexpr int Wavelengths = 31;
 constexpr int Channels = 16;
-// The whole image at once, as the peer does it: narrow strips compute their surround twice.
-constexpr int StripRows = 2048;
-
 msi::CameraModel sixteenChannels()
 {
   const auto grid = msi::WavelengthGrid::uniform(400.0, 700.0, 10.0);
@@ -120,25 +121,27 @@ msi::ImageSimulatorOptions withNoise(bool noisy)
   return options;
 }
 
+void run(const msi::ImageSimulator& simulator, msi::ImageWorkspace& workspace)
+{
+  msi::SceneMean mean(Channels);
+  const msi::ImageWindow all = msi::wholeImage(Extent);
+  if (simulator.needsSceneMean())
+  {
+    simulator.addToMean(reflectance().data(), media().data(), all, mean, workspace);
+  }
+  simulator.simulate(
+    reflectance().data(), media().data(), all, all, &mean, response().data(), workspace);
+}
+
 void simulate(benchmark::State& state, std::vector<msi::CameraEffect> effects, bool noisy)
 {
   const msi::ImageSimulator simulator(
     sixteenChannels(), std::move(effects), Extent, withNoise(noisy));
   msi::ImageWorkspace workspace;
+  run(simulator, workspace); // the pages of the images are there, as they are for the copy
   for (auto _ : state)
   {
-    msi::SceneMean mean(Channels);
-    const msi::ImageWindow all = msi::wholeImage(Extent);
-    if (simulator.needsSceneMean())
-    {
-      simulator.addToMean(reflectance().data(), media().data(), all, mean, workspace);
-    }
-    for (int y = 0; y < Extent.height; y += StripRows)
-    {
-      const std::size_t first = static_cast<std::size_t>(y) * Extent.width * Channels;
-      simulator.simulate(reflectance().data(), media().data(), all,
-        { 0, y, Extent.width, StripRows }, &mean, response().data() + first, workspace);
-    }
+    run(simulator, workspace);
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(
@@ -170,4 +173,44 @@ BENCHMARK_CAPTURE(simulate, all, everyEffect(), true)
   ->Name("camera/all_effects_and_noise")
   ->Unit(benchmark::kMillisecond);
 
-BENCHMARK_MAIN();
+namespace
+{
+void write(const std::string& file, const void* values, std::size_t bytes)
+{
+  std::ofstream(file, std::ios::binary)
+    .write(static_cast<const char*>(values), static_cast<std::streamsize>(bytes));
+}
+
+void writeResults(const std::string& folder, int side)
+{
+  Extent = { side, side };
+  const std::vector<std::pair<const char*, std::vector<msi::CameraEffect>>> jobs = { { "ideal",
+                                                                                       {} },
+    { "pixel_effects", pixelEffects() }, { "all_effects", everyEffect() } };
+  for (const auto& [name, effects] : jobs)
+  {
+    msi::ImageWorkspace workspace;
+    run(
+      msi::ImageSimulator(sixteenChannels(), effects, Extent, withNoise(false)), workspace);
+    const msi::CameraSimulator camera(sixteenChannels(), effects);
+    const Eigen::MatrixXf responsivity =
+      camera.effectiveResponsivity().transpose().cast<float>();
+    write(folder + "/" + name + ".responsivity", responsivity.data(),
+      static_cast<std::size_t>(responsivity.size()) * sizeof(float));
+    write(folder + "/" + name + ".response", response().data(),
+      response().size() * sizeof(float));
+  }
+}
+}
+
+int main(int argc, char** argv)
+{
+  if (argc == 4 && std::string(argv[1]) == "--results")
+  {
+    writeResults(argv[2], std::stoi(argv[3]));
+    return 0;
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

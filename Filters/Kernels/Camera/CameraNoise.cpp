@@ -1,5 +1,6 @@
 #include "Kernels/Camera/CameraNoise.h"
 
+#include "Kernels/Camera/CameraNoiseKernel.h"
 #include "Kernels/Camera/CounterRandom.h"
 
 #include <algorithm>
@@ -48,29 +49,64 @@ double noiseVariance(const CameraNoise& noise, double response) noexcept
   return noise.read * noise.read + noise.shot * noise.shot * (response > 0.0 ? response : 0.0);
 }
 
-template <typename Matrix>
-void NoiseGenerator::add(
-  Eigen::Ref<Matrix> response, std::uint64_t firstColumn, std::uint32_t exposure) const noexcept
+// Value number i of the chunk is number firstIndex + i of its streams.
+template <>
+void NoiseGenerator::addToChunk<Eigen::MatrixXf>(Eigen::Ref<Eigen::MatrixXf> response,
+  Eigen::Index firstChannel, std::uint64_t firstIndex, std::uint32_t exposure) const noexcept
 {
-  const Eigen::Index channels = response.rows();
-  const Eigen::Index rows = std::min(channels, ChunkValues);
-  const Eigen::Index columns = rows > 0 ? ChunkValues / rows : 1;
-  for (Eigen::Index j = 0; j < response.cols(); j += columns)
+  using Chunk = std::array<float, ChunkValues>;
+  Chunk gain;
+  Chunk offset;
+  Chunk temporal;
+  Chunk factor;
+  const auto count = static_cast<std::size_t>(response.size());
+  const auto draw = [&](std::uint32_t stream, Chunk& memory)
   {
-    for (Eigen::Index k = 0; k < channels; k += rows)
+    CounterRandom(Seed, stream).normals(firstIndex, memory.data(), count);
+    return memory.data();
+  };
+  NoiseTerms terms;
+  if (Noise.fixedPatternGain > 0.0)
+  {
+    terms.gainPattern = draw(GainPatternStream, gain);
+    terms.gain = static_cast<float>(Noise.fixedPatternGain);
+  }
+  if (Noise.fixedPatternOffset > 0.0)
+  {
+    terms.offsetPattern = draw(OffsetPatternStream, offset);
+    terms.offset = static_cast<float>(Noise.fixedPatternOffset);
+  }
+  if (Noise.read > 0.0 || Noise.shot > 0.0)
+  {
+    terms.temporal = draw(FirstExposureStream + exposure, temporal);
+    terms.readVariance = static_cast<float>(Noise.read * Noise.read);
+    terms.shotVariance = static_cast<float>(Noise.shot * Noise.shot);
+    if (DeviationFactor.size() > 0)
     {
-      // Columns are taken together only where a chunk holds all of their channels.
-      const std::uint64_t index =
-        (firstColumn + static_cast<std::uint64_t>(j)) * static_cast<std::uint64_t>(channels) +
-        static_cast<std::uint64_t>(k);
-      addToChunk<Matrix>(
-        response.block(k, j, std::min(rows, channels - k), std::min(columns, response.cols() - j)),
-        k, index, exposure);
+      Eigen::Map<Eigen::ArrayXXf> factors(factor.data(), response.rows(), response.cols());
+      factors.colwise() = DeviationFactor.segment(firstChannel, response.rows()).cast<float>();
+      terms.factor = factor.data();
     }
+  }
+  terms.step = static_cast<float>(Noise.quantisationStep);
+  const auto rows = static_cast<std::size_t>(response.rows());
+  if (response.outerStride() == response.rows())
+  {
+    addNoise(terms, response.data(), count);
+    return;
+  }
+  const auto advance = [rows](const float*& values)
+  { values = values == nullptr ? nullptr : values + rows; };
+  for (Eigen::Index j = 0; j < response.cols(); ++j)
+  {
+    addNoise(terms, response.col(j).data(), rows);
+    advance(terms.gainPattern);
+    advance(terms.offsetPattern);
+    advance(terms.temporal);
+    advance(terms.factor);
   }
 }
 
-// Value number i of the chunk is number firstIndex + i of its streams.
 template <typename Matrix>
 void NoiseGenerator::addToChunk(Eigen::Ref<Matrix> response, Eigen::Index firstChannel,
   std::uint64_t firstIndex, std::uint32_t exposure) const noexcept
@@ -115,6 +151,28 @@ void NoiseGenerator::addToChunk(Eigen::Ref<Matrix> response, Eigen::Index firstC
   {
     const auto step = static_cast<Scalar>(Noise.quantisationStep);
     response = response.unaryExpr([step](Scalar u) { return step * nearest(u / step); });
+  }
+}
+
+template <typename Matrix>
+void NoiseGenerator::add(
+  Eigen::Ref<Matrix> response, std::uint64_t firstColumn, std::uint32_t exposure) const noexcept
+{
+  const Eigen::Index channels = response.rows();
+  const Eigen::Index rows = std::min(channels, ChunkValues);
+  const Eigen::Index columns = rows > 0 ? ChunkValues / rows : 1;
+  for (Eigen::Index j = 0; j < response.cols(); j += columns)
+  {
+    for (Eigen::Index k = 0; k < channels; k += rows)
+    {
+      // Columns are taken together only where a chunk holds all of their channels.
+      const std::uint64_t index =
+        (firstColumn + static_cast<std::uint64_t>(j)) * static_cast<std::uint64_t>(channels) +
+        static_cast<std::uint64_t>(k);
+      addToChunk<Matrix>(
+        response.block(k, j, std::min(rows, channels - k), std::min(columns, response.cols() - j)),
+        k, index, exposure);
+    }
   }
 }
 

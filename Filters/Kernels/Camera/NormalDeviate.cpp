@@ -37,9 +37,7 @@ const NormalDeviate& NormalDeviate::instance()
 }
 
 NormalDeviate::NormalDeviate()
-  : Constant{}
-  , Slope{}
-  , Bend{}
+  : Parabolas{}
 {
   constexpr double Scale = 0x1p-32;
   for (std::size_t cell = 0; cell < Cells; ++cell)
@@ -51,9 +49,10 @@ NormalDeviate::NormalDeviate()
     const double a = upperQuantile(first);
     const double b = upperQuantile(first + 0.5 * width);
     const double c = upperQuantile(first + width);
-    Constant[cell] = static_cast<float>(a);
-    Slope[cell] = static_cast<float>(4.0 * b - 3.0 * a - c);
-    Bend[cell] = static_cast<float>(2.0 * a - 4.0 * b + 2.0 * c);
+    float* parabola = Parabolas.data() + CellStride * cell;
+    parabola[0] = static_cast<float>(a);
+    parabola[1] = static_cast<float>(4.0 * b - 3.0 * a - c);
+    parabola[2] = static_cast<float>(2.0 * a - 4.0 * b + 2.0 * c);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -30,7 +31,8 @@ public:
     const std::uint64_t cell = (bits >> CellShift) - FirstCell;
     const auto within =
       static_cast<float>((bits >> WithinShift) & ((1U << WithinBits) - 1U)) * WithinScale;
-    const float size = Constant[cell] + within * (Slope[cell] + within * Bend[cell]);
+    const float* parabola = Parabolas.data() + CellStride * cell;
+    const float size = parabola[0] + within * (parabola[1] + within * parabola[2]);
     return (word & 0x80000000U) != 0 ? size : -size;
   }
 
@@ -38,9 +40,9 @@ public:
   static constexpr int WithinBits = 23;
   static constexpr float WithinScale = 1.0F / (1U << WithinBits);
   static constexpr std::size_t Cells = std::size_t{ 32 } << CellBits;
-  const float* constants() const noexcept { return Constant.data(); }
-  const float* slopes() const noexcept { return Slope.data(); }
-  const float* bends() const noexcept { return Bend.data(); }
+  // Of each cell the constant, the slope and the bend of its parabola, and a zero: one vector of four.
+  static constexpr std::size_t CellStride = 4;
+  const float* parabolas() const noexcept { return Parabolas.data(); }
 
 private:
   NormalDeviate();
@@ -49,7 +51,7 @@ private:
   static constexpr int WithinShift = CellShift - WithinBits;
   static constexpr std::uint64_t FirstCell = std::uint64_t{ 1023 - 1 } << CellBits; // of 1/2
 
-  std::array<float, Cells> Constant, Slope, Bend;
+  alignas(64) std::array<float, CellStride * Cells> Parabolas;
 };
 
 } // namespace msi

@@ -31,6 +31,55 @@ HWY_INLINE V multiplyHigh(D d, V a, V b)
   return hn::OddEven(hn::BitCast(d, odd), hn::BitCast(d, hn::ShiftRight<32>(even)));
 }
 
+#if HWY_HAVE_SCALABLE
+template <class D, class V>
+HWY_INLINE void loadParabolas(D df, const float* table, V cell, hn::Vec<D>& constant,
+  hn::Vec<D>& slope, hn::Vec<D>& bend)
+{
+  const hn::RebindToSigned<D> di;
+  const auto index = hn::BitCast(di, hn::ShiftLeft<2>(cell));
+  constant = hn::GatherIndex(df, table, index);
+  slope = hn::GatherIndex(df, table + 1, index);
+  bend = hn::GatherIndex(df, table + 2, index);
+}
+#else
+// A parabola from each of the places 0, 4, 8, ...
+template <class D>
+HWY_INLINE hn::Vec<D> loadEveryFourth(D d, const float* table, const std::uint32_t* place)
+{
+  if constexpr (hn::MaxLanes(D()) <= 4)
+  {
+    return hn::LoadU(d, table + place[0]);
+  }
+  else
+  {
+    const hn::Half<D> half;
+    return hn::Combine(d, loadEveryFourth(half, table, place + hn::MaxLanes(D()) / 2),
+      loadEveryFourth(half, table, place));
+  }
+}
+
+// Loads of four values and a transposition: less work than three gathers.
+template <class D, class V>
+HWY_INLINE void loadParabolas(D df, const float* table, V cell, hn::Vec<D>& constant,
+  hn::Vec<D>& slope, hn::Vec<D>& bend)
+{
+  const hn::RebindToUnsigned<D> du;
+  HWY_ALIGN std::uint32_t place[hn::MaxLanes(D())];
+  hn::Store(hn::ShiftLeft<2>(cell), du, place);
+  const auto a = loadEveryFourth(df, table, place);
+  const auto b = loadEveryFourth(df, table, place + 1);
+  const auto c = loadEveryFourth(df, table, place + 2);
+  const auto e = loadEveryFourth(df, table, place + 3);
+  const auto first = hn::InterleaveLower(df, a, c);
+  const auto second = hn::InterleaveLower(df, b, e);
+  constant = hn::InterleaveLower(df, first, second);
+  slope = hn::InterleaveUpper(df, first, second);
+  bend =
+    hn::InterleaveLower(df, hn::InterleaveUpper(df, a, c), hn::InterleaveUpper(df, b, e));
+}
+#endif
+
 // NormalDeviate of every lane. Its exponent and mantissa come from the leading bit of 2 tail + 1.
 template <class D, class V>
 HWY_INLINE auto deviateOf(D d, V word, const NormalDeviate& table)
@@ -52,10 +101,10 @@ HWY_INLINE auto deviateOf(D d, V word, const NormalDeviate& table)
     hn::ShiftLeft<1 + NormalDeviate::CellBits>(mantissa));
   const auto within =
     hn::Mul(hn::ConvertTo(df, hn::BitCast(di, below)), hn::Set(df, NormalDeviate::WithinScale));
-  const auto index = hn::BitCast(di, cell);
-  const auto constant = hn::GatherIndex(df, table.constants(), index);
-  const auto slope = hn::GatherIndex(df, table.slopes(), index);
-  const auto bend = hn::GatherIndex(df, table.bends(), index);
+  hn::Vec<decltype(df)> constant;
+  hn::Vec<decltype(df)> slope;
+  hn::Vec<decltype(df)> bend;
+  loadParabolas(df, table.parabolas(), cell, constant, slope, bend);
   const auto size = hn::Add(constant, hn::Mul(within, hn::Add(slope, hn::Mul(within, bend))));
   // Negative where the leading bit of the word is not set.
   const V sign = hn::AndNot(word, hn::Set(d, 0x80000000U));

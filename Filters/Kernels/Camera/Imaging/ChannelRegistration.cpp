@@ -1,5 +1,7 @@
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
 
+#include "Kernels/Camera/Imaging/WeightedSum.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +14,9 @@ namespace msi
 
 namespace
 {
+// A row's weights are repeated over so many pixels that a loop over them is worth its start.
+constexpr std::size_t TilePixels = 32;
+
 // Cubic convolution around a place on an axis: weights of the pixels from `first` on.
 struct Cubic
 {
@@ -29,6 +34,39 @@ Cubic cubicAt(double place)
     { static_cast<float>(-0.5 * t + t2 - 0.5 * t3), static_cast<float>(1.0 - 2.5 * t2 + 1.5 * t3),
       static_cast<float>(0.5 * t + 2.0 * t2 - 1.5 * t3),
       static_cast<float>(-0.5 * t2 + 0.5 * t3) } };
+}
+
+// The pixels that all channels together read.
+struct Span
+{
+  int first;
+  int last;
+};
+
+Span spanOf(const Cubic* cubics, std::size_t channels)
+{
+  Span span{ cubics[0].first, cubics[0].first };
+  for (std::size_t k = 1; k < channels; ++k)
+  {
+    span.first = std::min(span.first, cubics[k].first);
+    span.last = std::max(span.last, cubics[k].first);
+  }
+  span.last += 3;
+  return span;
+}
+
+// The channels' weights on the pixels of their span, `step` apart.
+void spread(const Cubic* cubics, std::size_t channels, std::size_t step, float* weights)
+{
+  const int first = spanOf(cubics, channels).first;
+  for (std::size_t k = 0; k < channels; ++k)
+  {
+    const auto tap = static_cast<std::size_t>(cubics[k].first - first);
+    for (std::size_t i = 0; i < cubics[k].weight.size(); ++i)
+    {
+      weights[(tap + i) * step + k] = cubics[k].weight[i];
+    }
+  }
 }
 
 // Where the output position of an axis lies in the image before.
@@ -92,75 +130,83 @@ void RegistrationRows::begin(const ChannelRegistration& registration, const Imag
   Count = static_cast<std::size_t>(window.width) * Channels;
   Taken = 0;
   Given = 0;
-  Span = std::min(2 * Reach + 1, window.height);
-  Ring.resize(static_cast<std::size_t>(Span) * Count);
+  Ring.begin(std::min(2 * Reach + 1, window.height), Count);
   Out.resize(Count);
-  for (std::size_t tap = 0; tap < Taps; ++tap)
+
+  std::vector<Cubic> cubics(Count);
+  Runs.clear();
+  int most = 0;
+  for (int x = 0; x < window.width; ++x)
   {
-    Along.from[tap].resize(Count);
-    Along.weight[tap].resize(Count);
-    Across.from[tap].resize(Channels);
-    Across.weight[tap].resize(Channels);
-  }
-  for (std::size_t i = 0; i < Count; ++i)
-  {
-    const auto x = static_cast<int>(i / Channels);
-    const auto k = static_cast<Eigen::Index>(i % Channels);
-    const Cubic cubic =
-      sourceOf(window.x + x, Extent.width, registration.Right[k], Magnification[k]);
-    for (std::size_t tap = 0; tap < Taps; ++tap)
+    Cubic* cubic = cubics.data() + static_cast<std::size_t>(x) * Channels;
+    for (Eigen::Index k = 0; k < Down.size(); ++k)
     {
-      const int from = cubic.first + static_cast<int>(tap) - window.x;
-      Along.from[tap][i] =
-        static_cast<std::ptrdiff_t>(std::clamp(from, 0, window.width - 1)) * Down.size() + k;
-      Along.weight[tap][i] = cubic.weight[tap];
+      cubic[k] =
+        sourceOf(window.x + x, Extent.width, registration.Right[k], registration.Magnification[k]);
     }
+    const Span span = spanOf(cubic, Channels);
+    most = std::max(most, span.last - span.first + 1);
+    const int offset = span.first - window.x - x;
+    if (Runs.empty() || Runs.back().offset != offset)
+    {
+      Runs.push_back({ x, offset });
+    }
+  }
+  Taps = static_cast<std::size_t>(most);
+  Margin = static_cast<std::size_t>(Reach + most);
+  Weights.assign(Taps * Count, 0.0F);
+  for (std::size_t x = 0; x < static_cast<std::size_t>(window.width); ++x)
+  {
+    spread(cubics.data() + x * Channels, Channels, Count, Weights.data() + x * Channels);
   }
 }
 
 void RegistrationRows::take(const float* row)
 {
-  float* out = Ring.data() + static_cast<std::size_t>(Taken % Span) * Count;
-  for (std::size_t i = 0; i < Count; ++i)
+  padRow(row, Count / Channels, Channels, Margin, Padded);
+  float* out = Ring.row(Taken);
+  Sources.resize(Taps);
+  for (std::size_t run = 0; run < Runs.size(); ++run)
   {
-    float sum = 0.0F;
+    const auto first = static_cast<std::ptrdiff_t>(Runs[run].first);
+    const auto end =
+      static_cast<std::ptrdiff_t>(run + 1 < Runs.size() ? Runs[run + 1].first : Window.width);
+    const auto channels = static_cast<std::ptrdiff_t>(Channels);
+    const std::ptrdiff_t from = first + Runs[run].offset + static_cast<std::ptrdiff_t>(Margin);
     for (std::size_t tap = 0; tap < Taps; ++tap)
     {
-      sum += Along.weight[tap][i] * row[Along.from[tap][i]];
+      Sources[tap] = Padded.data() + (from + static_cast<std::ptrdiff_t>(tap)) * channels;
     }
-    out[i] = sum;
+    const auto count = static_cast<std::size_t>((end - first) * channels);
+    weightedSum(Weights.data() + first * channels, Count, count, Sources.data(), Taps,
+      out + first * channels, count);
   }
   ++Taken;
 }
 
 const float* RegistrationRows::next()
 {
-  for (std::size_t channel = 0; channel < Channels; ++channel)
+  std::vector<Cubic> cubics(Channels);
+  for (Eigen::Index k = 0; k < Down.size(); ++k)
   {
-    const auto k = static_cast<Eigen::Index>(channel);
-    const Cubic cubic = sourceOf(Window.y + Given, Extent.height, Down[k], Magnification[k]);
-    for (std::size_t tap = 0; tap < Taps; ++tap)
-    {
-      const int from = cubic.first + static_cast<int>(tap) - Window.y;
-      const int row = std::clamp(from, 0, Window.height - 1) % Span;
-      Across.from[tap][channel] =
-        static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(Count) + k;
-      Across.weight[tap][channel] = cubic.weight[tap];
-    }
+    cubics[static_cast<std::size_t>(k)] =
+      sourceOf(Window.y + Given, Extent.height, Down[k], Magnification[k]);
   }
-  const float* ring = Ring.data();
-  for (std::size_t first = 0; first < Count; first += Channels, ring += Channels)
+  const Span span = spanOf(cubics.data(), Channels);
+  const auto taps = static_cast<std::size_t>(span.last - span.first + 1);
+  const std::size_t period = TilePixels * Channels;
+  RowWeights.assign(taps * period, 0.0F);
+  for (std::size_t pixel = 0; pixel < TilePixels; ++pixel)
   {
-    for (std::size_t k = 0; k < Channels; ++k)
-    {
-      float sum = 0.0F;
-      for (std::size_t tap = 0; tap < Taps; ++tap)
-      {
-        sum += Across.weight[tap][k] * ring[Across.from[tap][k]];
-      }
-      Out[first + k] = sum;
-    }
+    spread(cubics.data(), Channels, period, RowWeights.data() + pixel * Channels);
   }
+  Sources.resize(taps);
+  for (std::size_t tap = 0; tap < taps; ++tap)
+  {
+    const int from = span.first + static_cast<int>(tap) - Window.y;
+    Sources[tap] = Ring.row(std::clamp(from, 0, Window.height - 1));
+  }
+  weightedSum(RowWeights.data(), period, period, Sources.data(), taps, Out.data(), Count);
   ++Given;
   return Out.data();
 }

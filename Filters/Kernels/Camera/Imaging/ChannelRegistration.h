@@ -2,10 +2,10 @@
 #pragma once
 
 #include "Kernels/Camera/Imaging/ImageWindow.h"
+#include "Kernels/Camera/Imaging/RowRing.h"
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -60,13 +60,12 @@ public:
   }
 
 private:
-  static constexpr std::size_t Taps = 4;
-
-  // Where the values of a line come from, and their weights; tap by tap.
-  struct Reading
+  // Neighbouring positions that read the same number of pixels away: the first of them, and how far the first pixel
+  // that they read lies from their own.
+  struct Run
   {
-    std::array<std::vector<std::ptrdiff_t>, Taps> from;
-    std::array<std::vector<float>, Taps> weight;
+    int first;
+    int offset;
   };
 
   void take(const float* row);
@@ -83,14 +82,17 @@ private:
   int Reach = 0;
   std::size_t Channels = 0;
   std::size_t Count = 0; // values of a row
-  Reading Along;         // of every value of a row, in that row
-  Reading Across;        // of a row's first pixel, in the ring
+  // Of every value of a row; tap by tap, zero where a channel does not read what another one does.
+  std::vector<float> Weights;
+  std::size_t Taps = 0;
+  std::vector<Run> Runs;
+  std::size_t Margin = 0; // pixels that rows are padded with
+  std::vector<float> RowWeights; // as Weights, for a tile of pixels in one row
   int Taken = 0;         // rows
   int Given = 0;
-  // Rows moved along x; a row's place is its number modulo their count.
-  int Span = 1;
-  std::vector<float> Ring;
-  std::vector<float> Out;
+  RowRing Ring; // rows moved along x
+  std::vector<float> Padded, Out;
+  std::vector<const float*> Sources;
 };
 
 } // namespace msi

@@ -60,11 +60,31 @@ struct Banding
       start = effect.perChannel("start");
     }
   }
-  double factor(Eigen::Index channel, int x, int y) const noexcept
+  // A run of pixels from (x, y) to the right.
+  void apply(Eigen::Map<Eigen::MatrixXf> block, int x, int y) const
+  {
+    Eigen::ArrayXf factor = factors(alongRows ? y : x);
+    for (Eigen::Index j = 0; j < block.cols(); ++j)
+    {
+      if (!alongRows && j > 0)
+      {
+        factor = factors(x + static_cast<int>(j));
+      }
+      block.col(j).array() *= factor;
+    }
+  }
+
+private:
+  Eigen::ArrayXf factors(int place) const
   {
     constexpr double TwoPi = 6.283185307179586;
-    const double cycles = (alongRows ? y : x) / period + start[channel];
-    return 1.0 + amplitude[channel] * std::sin(TwoPi * cycles);
+    Eigen::ArrayXf factors(amplitude.size());
+    for (Eigen::Index k = 0; k < factors.size(); ++k)
+    {
+      const double cycles = place / period + start[k];
+      factors[k] = static_cast<float>(1.0 + amplitude[k] * std::sin(TwoPi * cycles));
+    }
+    return factors;
   }
 };
 }
@@ -251,25 +271,17 @@ struct ImageSimulator::Implementation
     }
     if (Retained != 0.0F)
     {
-      for (Eigen::Index k = block.rows() - 1; k > 0; --k)
+      for (Eigen::Index j = 0; j < block.cols(); ++j)
       {
-        block.row(k) += Retained * block.row(k - 1);
+        for (Eigen::Index k = block.rows() - 1; k > 0; --k)
+        {
+          block(k, j) += Retained * block(k - 1, j);
+        }
       }
     }
     if (Bands)
     {
-      for (Eigen::Index k = 0; k < block.rows(); ++k)
-      {
-        if (Bands->alongRows)
-        {
-          block.row(k) *= static_cast<float>(Bands->factor(k, x, y));
-          continue;
-        }
-        for (int i = 0; i < count; ++i)
-        {
-          block(k, i) *= static_cast<float>(Bands->factor(k, x + i, y));
-        }
-      }
+      Bands->apply(block, x, y);
     }
     Chain.detect<float>(block, {});
     const auto firstPixel =

@@ -11,23 +11,6 @@ namespace
 {
 // The kernel's weights are repeated over so many pixels that a loop over them is worth its start.
 constexpr std::size_t TilePixels = 32;
-
-// A row with its first and last pixel repeated `margin` times.
-void padRow(const float* row, std::size_t pixels, std::size_t channels, std::size_t margin,
-  std::vector<float>& padded)
-{
-  padded.resize((pixels + 2 * margin) * channels);
-  float* out = padded.data();
-  for (std::size_t i = 0; i < margin; ++i, out += channels)
-  {
-    std::copy_n(row, channels, out);
-  }
-  out = std::copy_n(row, pixels * channels, out);
-  for (std::size_t i = 0; i < margin; ++i, out += channels)
-  {
-    std::copy_n(row + (pixels - 1) * channels, channels, out);
-  }
-}
 }
 
 void RowConvolution::begin(const SymmetricKernel& kernel, int width, int height)
@@ -50,8 +33,7 @@ void RowConvolution::begin(const SymmetricKernel& kernel, int width, int height)
   Height = height;
   Taken = 0;
   Given = 0;
-  Span = std::min(2 * Radius + 1, height);
-  Ring.resize(static_cast<std::size_t>(Span) * Count);
+  Ring.begin(std::min(2 * Radius + 1, height), Count);
   Out.resize(Count);
   Before.resize(Taps);
   After.resize(Taps);
@@ -69,7 +51,7 @@ void RowConvolution::take(const float* row)
     After[tap] = self + step;
   }
   symmetricSum(
-    Weights.data(), Period, self, Before.data(), After.data(), Taps, inRing(Taken), Count);
+    Weights.data(), Period, self, Before.data(), After.data(), Taps, Ring.row(Taken), Count);
   ++Taken;
 }
 
@@ -78,11 +60,11 @@ const float* RowConvolution::next()
   for (std::size_t tap = 1; tap < Taps; ++tap)
   {
     const int step = static_cast<int>(tap) * Stride;
-    Before[tap] = inRing(std::max(Given - step, 0));
-    After[tap] = inRing(std::min(Given + step, Height - 1));
+    Before[tap] = Ring.row(std::max(Given - step, 0));
+    After[tap] = Ring.row(std::min(Given + step, Height - 1));
   }
   symmetricSum(
-    Weights.data(), Period, inRing(Given), Before.data(), After.data(), Taps, Out.data(), Count);
+    Weights.data(), Period, Ring.row(Given), Before.data(), After.data(), Taps, Out.data(), Count);
   ++Given;
   return Out.data();
 }

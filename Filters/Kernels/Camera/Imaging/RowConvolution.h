@@ -1,6 +1,7 @@
 // Convolution along rows and columns of an image that comes row by row.
 #pragma once
 
+#include "Kernels/Camera/Imaging/RowRing.h"
 #include "Kernels/Camera/Imaging/SeparableFilter.h"
 
 #include <cstddef>
@@ -35,10 +36,6 @@ private:
     return Given < Height && (Taken == Height || Given + Radius < Taken);
   }
   const float* next();
-  float* inRing(int y) noexcept
-  {
-    return Ring.data() + static_cast<std::size_t>(y % Span) * Count;
-  }
 
   std::vector<float> Weights; // tap by tap, each repeated over a tile of pixels
   std::size_t Period = 0;
@@ -50,9 +47,7 @@ private:
   int Height = 0;
   int Taken = 0; // rows
   int Given = 0;
-  // Rows convolved along x; a row's place is its number modulo their count.
-  int Span = 1;
-  std::vector<float> Ring;
+  RowRing Ring; // rows convolved along x
   std::vector<float> Padded, Out;
   std::vector<const float*> Before, After;
 };

@@ -94,13 +94,12 @@ void ScatterRows::begin(const ScatterTail& tail, int channels, int width, int he
   }
   Given.assign(Weights.size(), 0);
   Count = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
-  Span = std::min(tail.reach() + 1, height);
-  Sums.resize(static_cast<std::size_t>(Span) * Count);
+  Sums.begin(std::min(tail.reach() + 1, height), Count);
 }
 
 float* ScatterRows::add(std::size_t number, const float* out)
 {
-  float* sum = Sums.data() + static_cast<std::size_t>(Given[number]++ % Span) * Count;
+  float* sum = Sums.row(Given[number]++);
   if (number == 0)
   {
     std::fill_n(sum, Count, 0.0F);

@@ -70,9 +70,7 @@ private:
   std::vector<RowConvolution> Passes;
   std::vector<int> Given; // rows, of each pass
   std::size_t Count = 0;  // values of a row
-  // Sums between the first pass and the last; a row's place is its number modulo their count.
-  int Span = 1;
-  std::vector<float> Sums;
+  RowRing Sums;           // between the first pass and the last
 };
 
 } // namespace msi

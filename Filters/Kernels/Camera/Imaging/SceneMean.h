@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,30 +20,13 @@ public:
   explicit SceneMean(int channels)
     : Sums(static_cast<std::size_t>(channels))
     , Counts(static_cast<std::size_t>(channels), 0)
+    , PartSums(static_cast<std::size_t>(channels))
+    , PartCounts(static_cast<std::size_t>(channels))
   {
   }
 
-  // Pixels with all their channels together. At most 2^10 pixels a call keep the sums within 63 bits.
-  void add(const float* pixels, int count) noexcept
-  {
-    for (std::size_t k = 0; k < Sums.size(); ++k)
-    {
-      std::int64_t sum = 0;
-      std::int64_t finite = 0;
-      for (int i = 0; i < count; ++i)
-      {
-        const double value = pixels[static_cast<std::size_t>(i) * Sums.size() + k];
-        if (std::abs(value) < Largest)
-        {
-          sum += std::llrint(value * Quanta);
-          ++finite;
-        }
-      }
-      Sums[k].add(static_cast<double>(sum >> HalfBits) * Half / Quanta);
-      Sums[k].add(static_cast<double>(sum & (static_cast<std::int64_t>(Half) - 1)) / Quanta);
-      Counts[k] += finite;
-    }
-  }
+  // Pixels with all their channels together.
+  void add(const float* pixels, int count) noexcept;
 
   void merge(const SceneMean& other) noexcept
   {
@@ -76,13 +59,10 @@ public:
   }
 
 private:
-  static constexpr double Largest = 0x1p20;
-  static constexpr double Quanta = 0x1p32;
-  static constexpr int HalfBits = 32;
-  static constexpr double Half = 0x1p32;
-
   std::vector<ExactSum> Sums;
   std::vector<std::int64_t> Counts;
+  std::vector<double> PartSums;
+  std::vector<std::int64_t> PartCounts;
 };
 
 } // namespace msi

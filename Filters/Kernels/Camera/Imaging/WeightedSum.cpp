@@ -50,6 +50,40 @@ void sumTaps(const float* weights, std::size_t period, const float* self,
   }
 }
 
+template <class D>
+HWY_INLINE void weighOne(D d, const float* weight, std::size_t step, const float* const* sources,
+  std::size_t taps, std::size_t place, float* out)
+{
+  auto sum = hn::Mul(hn::LoadU(d, weight), hn::LoadU(d, sources[0] + place));
+  for (std::size_t tap = 1; tap < taps; ++tap)
+  {
+    sum = hn::Add(
+      sum, hn::Mul(hn::LoadU(d, weight + tap * step), hn::LoadU(d, sources[tap] + place)));
+  }
+  hn::StoreU(sum, d, out + place);
+}
+
+void weigh(const float* weights, std::size_t step, std::size_t period, const float* const* sources,
+  std::size_t taps, float* out, std::size_t count)
+{
+  const hn::ScalableTag<float> d;
+  const hn::CappedTag<float, 1> one;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t first = 0; first < count; first += period)
+  {
+    const std::size_t end = std::min(period, count - first);
+    std::size_t i = 0;
+    for (; i + lanes <= end; i += lanes)
+    {
+      weighOne(d, weights + i, step, sources, taps, first + i, out);
+    }
+    for (; i < end; ++i)
+    {
+      weighOne(one, weights + i, step, sources, taps, first + i, out);
+    }
+  }
+}
+
 void addTo(float weight, const float* values, float* sum, std::size_t count)
 {
   const hn::ScalableTag<float> d;
@@ -76,6 +110,7 @@ namespace msi
 {
 
 HWY_EXPORT(sumTaps);
+HWY_EXPORT(weigh);
 HWY_EXPORT(addTo);
 
 void symmetricSum(const float* weights, std::size_t period, const float* self,
@@ -83,6 +118,12 @@ void symmetricSum(const float* weights, std::size_t period, const float* self,
   std::size_t count) noexcept
 {
   HWY_DYNAMIC_DISPATCH(sumTaps)(weights, period, self, before, after, taps, out, count);
+}
+
+void weightedSum(const float* weights, std::size_t step, std::size_t period,
+  const float* const* sources, std::size_t taps, float* out, std::size_t count) noexcept
+{
+  HWY_DYNAMIC_DISPATCH(weigh)(weights, step, period, sources, taps, out, count);
 }
 
 void addScaled(float weight, const float* values, float* sum, std::size_t count) noexcept

@@ -13,6 +13,11 @@ void symmetricSum(const float* weights, std::size_t period, const float* self,
   const float* const* before, const float* const* after, std::size_t taps, float* out,
   std::size_t count) noexcept;
 
+// Per value out = weight 0 x source 0 + weight 1 x source 1 + ..., in this order; weights as above, but those of tap t
+// begin at weights[t * step].
+void weightedSum(const float* weights, std::size_t step, std::size_t period,
+  const float* const* sources, std::size_t taps, float* out, std::size_t count) noexcept;
+
 // sum += weight x values.
 void addScaled(float weight, const float* values, float* sum, std::size_t count) noexcept;
 

@@ -1,7 +1,11 @@
 // The detector's curve, offset and end.
 #include "Kernels/Camera/Effects/EffectEntry.h"
+#include "Kernels/Camera/Effects/SaturationKernel.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 
 namespace msi
 {
@@ -94,18 +98,34 @@ public:
   template <typename Scalar>
   void run(Block<Scalar> response, const ColumnContext&) const noexcept
   {
-    const auto level = static_cast<Scalar>(Level);
-    const auto width2 = static_cast<Scalar>(Softness * Softness);
-    // One value at a time: Eigen's packets of sqrt() and their remainders round differently.
-    response = response.unaryExpr(
-      [level, width2](Scalar u)
+    if constexpr (std::is_same_v<Scalar, float>)
+    {
+      for (Eigen::Index j = 0; j < response.cols(); j += columnsTogether(response))
       {
-        const Scalar beyond = u - level;
-        return Scalar(0.5) * (u + level - std::sqrt(beyond * beyond + width2));
-      });
+        saturate(static_cast<float>(Level), static_cast<float>(Softness * Softness),
+          response.col(j).data(),
+          static_cast<std::size_t>(response.rows() * columnsTogether(response)));
+      }
+    }
+    else
+    {
+      // One value at a time: Eigen's packets of sqrt() and their remainders round differently.
+      response = response.unaryExpr(
+        [level = Level, width2 = Softness * Softness](double u)
+        {
+          const double beyond = u - level;
+          return 0.5 * (u + level - std::sqrt(beyond * beyond + width2));
+        });
+    }
   }
 
 private:
+  // All where they lie one after the other.
+  static Eigen::Index columnsTogether(const Block<float>& block) noexcept
+  {
+    return block.outerStride() == block.rows() ? std::max<Eigen::Index>(1, block.cols()) : 1;
+  }
+
   double Level;
   double Softness;
 };

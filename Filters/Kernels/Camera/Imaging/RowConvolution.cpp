@@ -17,14 +17,15 @@ void RowConvolution::begin(const SymmetricKernel& kernel, int width, int height)
 {
   Channels = static_cast<std::size_t>(kernel.weights.rows());
   Taps = static_cast<std::size_t>(kernel.weights.cols());
-  Period = TilePixels * Channels;
+  const bool same = (kernel.weights.rowwise() - kernel.weights.row(0) == 0.0F).all();
+  Period = same ? 1 : TilePixels * Channels;
   Weights.clear();
   for (Eigen::Index tap = 0; tap < kernel.weights.cols(); ++tap)
   {
     const float* weight = kernel.weights.col(tap).data();
-    for (std::size_t pixel = 0; pixel < TilePixels; ++pixel)
+    for (std::size_t i = 0; i < Period; ++i)
     {
-      Weights.insert(Weights.end(), weight, weight + Channels);
+      Weights.push_back(weight[i % Channels]);
     }
   }
   Stride = kernel.stride;
@@ -41,9 +42,28 @@ void RowConvolution::begin(const SymmetricKernel& kernel, int width, int height)
 
 void RowConvolution::take(const float* row)
 {
+  const std::size_t pixels = Count / Channels;
   const auto margin = static_cast<std::size_t>(Radius);
-  padRow(row, Count / Channels, Channels, margin, Padded);
-  const float* self = Padded.data() + margin * Channels;
+  float* out = Ring.row(Taken);
+  ++Taken;
+  if (pixels <= 4 * margin)
+  {
+    padRow(row, pixels, Channels, margin, Padded);
+    alongRow(Padded.data() + margin * Channels, out, pixels);
+    return;
+  }
+  // The ends need the edge repeated, the middle does not.
+  const std::size_t inner = pixels - 2 * margin;
+  alongRow(row + margin * Channels, out + margin * Channels, inner);
+  padRow(row, 2 * margin, Channels, margin, Padded);
+  alongRow(Padded.data() + margin * Channels, out, margin);
+  padRow(row + inner * Channels, 2 * margin, Channels, margin, Padded);
+  alongRow(Padded.data() + 2 * margin * Channels, out + (margin + inner) * Channels, margin);
+}
+
+// Pixels of a row around which the kernel's reach can be read. The weights' period begins with any pixel.
+void RowConvolution::alongRow(const float* self, float* out, std::size_t pixels)
+{
   for (std::size_t tap = 1; tap < Taps; ++tap)
   {
     const std::size_t step = tap * static_cast<std::size_t>(Stride) * Channels;
@@ -51,8 +71,7 @@ void RowConvolution::take(const float* row)
     After[tap] = self + step;
   }
   symmetricSum(
-    Weights.data(), Period, self, Before.data(), After.data(), Taps, Ring.row(Taken), Count);
-  ++Taken;
+    Weights.data(), Period, self, Before.data(), After.data(), Taps, out, pixels * Channels);
 }
 
 const float* RowConvolution::next()

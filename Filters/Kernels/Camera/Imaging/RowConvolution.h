@@ -31,6 +31,7 @@ public:
 
 private:
   void take(const float* row);
+  void alongRow(const float* self, float* out, std::size_t pixels);
   bool hasNext() const noexcept
   {
     return Given < Height && (Taken == Height || Given + Radius < Taken);

@@ -15,38 +15,68 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// What one vector of weights is: the same for all values, or as they lie in memory.
+template <bool Same, class D>
+HWY_INLINE hn::Vec<D> weightsAt(D d, const float* weights)
+{
+  if constexpr (Same)
+  {
+    return hn::Set(d, *weights);
+  }
+  else
+  {
+    return hn::LoadU(d, weights);
+  }
+}
+
+template <bool Same, class D>
+HWY_INLINE void sumOne(D d, const float* weight, std::size_t step, const float* self,
+  const float* const* before, const float* const* after, std::size_t taps, std::size_t place,
+  float* out)
+{
+  auto sum = hn::Mul(weightsAt<Same>(d, weight), hn::LoadU(d, self + place));
+  for (std::size_t tap = 1; tap < taps; ++tap)
+  {
+    const auto both = hn::Add(hn::LoadU(d, before[tap] + place), hn::LoadU(d, after[tap] + place));
+    sum = hn::Add(sum, hn::Mul(weightsAt<Same>(d, weight + tap * step), both));
+  }
+  hn::StoreU(sum, d, out + place);
+}
+
+template <bool Same>
+HWY_INLINE void sumRun(const float* weights, std::size_t period, const float* self,
+  const float* const* before, const float* const* after, std::size_t taps, float* out,
+  std::size_t first, std::size_t end)
+{
+  const hn::ScalableTag<float> d;
+  const hn::CappedTag<float, 1> one;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = first;
+  for (; i + lanes <= end; i += lanes)
+  {
+    sumOne<Same>(
+      d, weights + (Same ? 0 : i - first), period, self, before, after, taps, i, out);
+  }
+  for (; i < end; ++i)
+  {
+    sumOne<Same>(
+      one, weights + (Same ? 0 : i - first), period, self, before, after, taps, i, out);
+  }
+}
+
 void sumTaps(const float* weights, std::size_t period, const float* self,
   const float* const* before, const float* const* after, std::size_t taps, float* out,
   std::size_t count)
 {
-  const hn::ScalableTag<float> d;
-  const std::size_t lanes = hn::Lanes(d);
+  if (period == 1)
+  {
+    sumRun<true>(weights, period, self, before, after, taps, out, 0, count);
+    return;
+  }
   for (std::size_t first = 0; first < count; first += period)
   {
-    const std::size_t end = std::min(period, count - first);
-    std::size_t i = 0;
-    for (; i + lanes <= end; i += lanes)
-    {
-      const std::size_t place = first + i;
-      auto sum = hn::Mul(hn::LoadU(d, weights + i), hn::LoadU(d, self + place));
-      for (std::size_t tap = 1; tap < taps; ++tap)
-      {
-        const auto both =
-          hn::Add(hn::LoadU(d, before[tap] + place), hn::LoadU(d, after[tap] + place));
-        sum = hn::Add(sum, hn::Mul(hn::LoadU(d, weights + tap * period + i), both));
-      }
-      hn::StoreU(sum, d, out + place);
-    }
-    for (; i < end; ++i)
-    {
-      const std::size_t place = first + i;
-      float sum = weights[i] * self[place];
-      for (std::size_t tap = 1; tap < taps; ++tap)
-      {
-        sum += weights[tap * period + i] * (before[tap][place] + after[tap][place]);
-      }
-      out[place] = sum;
-    }
+    sumRun<false>(weights, period, self, before, after, taps, out, first,
+      std::min(first + period, count));
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include "Kernels/Camera/CameraDesign.h"
 #include "Kernels/Camera/CounterRandom.h"
-#include "Measuring.h"
+#include "Kernels/Scenes/Measuring.h"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 #include "DemoCapture.h"
 
 #include "DemoCamera.h"
-#include "Measuring.h"
-#include "Samples.h"
+#include "Kernels/Scenes/Measuring.h"
+#include "Kernels/Scenes/Samples.h"
 
 #include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Camera/CounterRandom.h"

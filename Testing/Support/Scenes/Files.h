@@ -1,6 +1,7 @@
 // Plain writers for the generated data: CSV, one-channel TIFF, grey PNG.
 #pragma once
 
+#include "Kernels/Scenes/PatchLayout.h"
 #include "Kernels/Spectra/WavelengthGrid.h"
 
 #include <Eigen/Core>
@@ -32,7 +33,6 @@ void writeTable(const std::filesystem::path& file, const std::vector<TextColumn>
 std::vector<std::string> wavelengthNames(const std::string& prefix, const WavelengthGrid& grid);
 
 using CountImage = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using LabelImage = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 void writeTiff(const std::filesystem::path& file, const CountImage& image);
 void writePng(const std::filesystem::path& file, const LabelImage& image);
 

@@ -4,9 +4,9 @@
 #include "DemoCamera.h"
 #include "DemoCapture.h"
 #include "Files.h"
-#include "Measuring.h"
-#include "SampleBook.h"
-#include "Samples.h"
+#include "Kernels/Scenes/Measuring.h"
+#include "Kernels/Scenes/SampleBook.h"
+#include "Kernels/Scenes/Samples.h"
 
 #include "Kernels/Camera/CameraNoise.h"
 #include "Kernels/Camera/CameraResponse.h"
@@ -29,6 +29,7 @@ constexpr int FabricSamples = 120;
 constexpr std::uint64_t ChartSeed = 1401;
 constexpr std::uint64_t FabricSeed = 1207;
 constexpr std::uint64_t BookSeed = 2404;
+constexpr scenes::PatchLayout BookLayout{ 6, 4, 6, 13, 42, 34, 38, 256, 192 };
 
 // 12-bit camera: dark level and the counts of a perfect white in the middle of the field.
 constexpr double DarkCounts = 96.0;
@@ -55,7 +56,7 @@ void writeSamples(const std::filesystem::path& file, const scenes::Swatches& swa
 
 scenes::CountImage counts(const Eigen::MatrixXd& signal, Eigen::Index channel)
 {
-  scenes::CountImage image(scenes::SampleBook::Layout.height, scenes::SampleBook::Layout.width);
+  scenes::CountImage image(BookLayout.height, BookLayout.width);
   for (Eigen::Index y = 0; y < image.rows(); ++y)
   {
     for (Eigen::Index x = 0; x < image.cols(); ++x)
@@ -79,35 +80,34 @@ void writeChannels(const std::filesystem::path& folder, const msi::CameraModel& 
   }
 }
 
-Eigen::MatrixXd tartanYarns(const msi::WavelengthGrid& grid)
+// Light on the sample book relative to the middle of the field: lamp to the left, vignetting lens.
+double light(int x, int y) noexcept
 {
-  Eigen::MatrixXd yarns(grid.size(), 4);
-  yarns << scenes::dyedCotton(grid, "olive", 4.0), scenes::dyedCotton(grid, "scarlet", 6.0),
-    scenes::dyedCotton(grid, "navy", 12.0), scenes::dyedCotton(grid, "lemon", 0.03);
-  return yarns;
+  const double u = (x - 0.5 * BookLayout.width) / (0.5 * BookLayout.width);
+  const double v = (y - 0.5 * BookLayout.height) / (0.5 * BookLayout.width);
+  return (1.0 - 0.07 * u + 0.02 * v) * (1.0 - 0.06 * (u * u + v * v));
 }
 
 void writeSampleBook(const std::filesystem::path& folder)
 {
-  using Book = scenes::SampleBook;
   const msi::WavelengthGrid grid = scenes::sceneGrid();
-  scenes::Swatches swatches = scenes::dyedFabric(grid, Book::Layout.count(), BookSeed);
-  const Book book(swatches.body, tartanYarns(grid), BookSeed);
+  scenes::Swatches swatches = scenes::dyedFabric(grid, BookLayout.count(), BookSeed);
+  const scenes::SampleBook book(BookLayout, swatches.body, scenes::tartanYarns(grid), BookSeed);
 
   const msi::CameraModel camera = scenes::demoCamera();
   const msi::AffineTransform respond = msi::cameraResponse(camera);
-  constexpr Eigen::Index Pixels = Eigen::Index{ Book::Layout.width } * Book::Layout.height;
+  constexpr Eigen::Index Pixels = Eigen::Index{ BookLayout.width } * BookLayout.height;
   Eigen::MatrixXd picture(camera.channelCount(), Pixels);
   Eigen::MatrixXd white(camera.channelCount(), Pixels);
-  for (int y = 0; y < Book::Layout.height; ++y)
+  for (int y = 0; y < BookLayout.height; ++y)
   {
-    for (int x = 0; x < Book::Layout.width; ++x)
+    for (int x = 0; x < BookLayout.width; ++x)
     {
-      const Eigen::Index pixel = Eigen::Index{ y } * Book::Layout.width + x;
+      const Eigen::Index pixel = Eigen::Index{ y } * BookLayout.width + x;
       const Eigen::ArrayXd seen = book.seen(x, y);
       respond.apply(seen.data(), picture.col(pixel).data(), 1);
-      picture.col(pixel) *= Book::light(x, y);
-      white.col(pixel).setConstant(Book::light(x, y));
+      picture.col(pixel) *= light(x, y);
+      white.col(pixel).setConstant(light(x, y));
     }
   }
   Eigen::MatrixXd dark = Eigen::MatrixXd::Zero(camera.channelCount(), Pixels);
@@ -123,10 +123,10 @@ void writeSampleBook(const std::filesystem::path& folder)
   writeChannels(folder / "white", camera, white);
   writeChannels(folder / "dark", camera, dark);
 
-  scenes::writePng(folder / "labels.png", Book::labels());
+  scenes::writePng(folder / "labels.png", BookLayout.labels(2));
   std::vector<std::string> names;
   std::vector<std::string> labels;
-  for (int i = 1; i <= Book::Layout.count(); ++i)
+  for (int i = 1; i <= BookLayout.count(); ++i)
   {
     labels.push_back(std::to_string(i));
     names.push_back((i < 10 ? "swatch-0" : "swatch-") + labels.back());

@@ -30,4 +30,7 @@ Swatches dyedFabric(const WavelengthGrid& wavelengths, int sampleCount, std::uin
 Eigen::VectorXd dyedCotton(
   const WavelengthGrid& wavelengths, const std::string& dye, double concentration);
 
+// The yarns of a tartan: olive, scarlet, navy, pale yellow.
+Eigen::MatrixXd tartanYarns(const WavelengthGrid& wavelengths);
+
 } // namespace msi::scenes

@@ -1,8 +1,8 @@
-#include "Samples.h"
+#include "Kernels/Scenes/Samples.h"
 
-#include "Colorants.h"
+#include "Kernels/Scenes/Colorants.h"
 #include "Kernels/Camera/CounterRandom.h"
-#include "KubelkaMunk.h"
+#include "Kernels/Scenes/KubelkaMunk.h"
 
 #include <array>
 #include <cmath>
@@ -147,6 +147,14 @@ Eigen::VectorXd dyedCotton(
     }
   }
   throw std::invalid_argument("there is no fabric dye named '" + dye + "'");
+}
+
+Eigen::MatrixXd tartanYarns(const WavelengthGrid& wavelengths)
+{
+  Eigen::MatrixXd yarns(wavelengths.size(), 4);
+  yarns << dyedCotton(wavelengths, "olive", 4.0), dyedCotton(wavelengths, "scarlet", 6.0),
+    dyedCotton(wavelengths, "navy", 12.0), dyedCotton(wavelengths, "lemon", 0.03);
+  return yarns;
 }
 
 } // namespace msi::scenes

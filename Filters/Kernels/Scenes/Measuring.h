@@ -1,8 +1,8 @@
 // The two instruments of the demo: a d/8 spectrophotometer and a 45/0 camera.
 #pragma once
 
-#include "Samples.h"
-#include "WovenFabric.h"
+#include "Kernels/Scenes/Samples.h"
+#include "Kernels/Scenes/WovenFabric.h"
 
 #include "Kernels/Spectra/WavelengthGrid.h"
 
@@ -26,6 +26,9 @@ Eigen::MatrixXd measuredFabric(const Eigen::MatrixXd& body, std::uint64_t seed);
 // of its surface reflection; fabric shades itself. The camera averages another spot than the spectrophotometer.
 Eigen::MatrixXd seenPaper(const Eigen::MatrixXd& measuredBody, std::uint64_t seed);
 Eigen::MatrixXd seenFabric(const Eigen::MatrixXd& measuredBody, std::uint64_t seed);
+
+// The same for one body of paper, on the spot itself.
+Eigen::ArrayXd paperTowardsCamera(const Eigen::ArrayXd& body);
 
 // The weave of one swatch: mounting and yarn differ from swatch to swatch.
 Weave weaveOf(int swatch, std::uint64_t seed);

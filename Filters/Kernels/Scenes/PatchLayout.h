@@ -1,7 +1,7 @@
 // Rectangular patches in rows and columns of a picture.
 #pragma once
 
-#include "Files.h"
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +10,8 @@
 
 namespace msi::scenes
 {
+
+using LabelImage = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct PatchLayout
 {

@@ -1,11 +1,9 @@
-#include "Colorants.h"
-#include "DemoCamera.h"
-#include "KubelkaMunk.h"
-#include "Measuring.h"
-#include "PatchLayout.h"
-#include "SampleBook.h"
-#include "Samples.h"
-#include "WovenFabric.h"
+#include "Kernels/Scenes/Colorants.h"
+#include "Kernels/Scenes/KubelkaMunk.h"
+#include "Kernels/Scenes/Measuring.h"
+#include "Kernels/Scenes/PatchLayout.h"
+#include "Kernels/Scenes/Samples.h"
+#include "Kernels/Scenes/WovenFabric.h"
 
 #include <gtest/gtest.h>
 
@@ -139,25 +137,15 @@ TEST(PatchLayout, PutsEveryPatchIntoThePicture)
   EXPECT_THROW(scenes::chartLayout(25), std::invalid_argument);
 }
 
-TEST(SampleBook, ShowsEverySwatch)
+TEST(PatchLayout, LabelsStayInsideThePatches)
 {
-  const scenes::LabelImage labels = scenes::SampleBook::labels();
+  constexpr scenes::PatchLayout Layout{ 6, 4, 6, 13, 42, 34, 38, 256, 192 };
+  const scenes::LabelImage labels = Layout.labels(2);
   EXPECT_EQ(labels.rows(), 192);
   EXPECT_EQ(labels.cols(), 256);
   for (int patch = 1; patch <= 24; ++patch)
   {
     EXPECT_EQ((labels == static_cast<std::uint8_t>(patch)).count(), 30 * 34) << patch;
-  }
-}
-
-TEST(DemoCamera, AnswersAWhiteWithOne)
-{
-  const msi::CameraModel camera = scenes::demoCamera();
-  EXPECT_EQ(camera.channelCount(), 16);
-  EXPECT_LT((camera.whiteResponse().array() - 1.0).abs().maxCoeff(), 1e-14);
-  for (Eigen::Index k = 0; k < 16; ++k)
-  {
-    EXPECT_NEAR(camera.centroids()[k], 400.0 + 20.0 * double(k), 3.0);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "Colorants.h"
+#include "Kernels/Scenes/Colorants.h"
 
 #include <cmath>
 

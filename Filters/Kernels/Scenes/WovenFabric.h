@@ -17,6 +17,7 @@ struct Weave
   double meanShade = 0.90;      // of the light that a flat sample would get
   double shadeDepth = 0.30;     // from the back of a yarn to the gap
   double meanCavity = 0.16;     // probability that reflected light strikes again
+  double cavityDepth = 1.2;     // relative, from the back of a yarn to the gap
   double yarnVariation = 0.025; // standard deviation of the shade from yarn to yarn
   double fibreVariation = 0.02; // from pixel to pixel
 };
@@ -37,5 +38,9 @@ inline Eigen::ArrayXd seenThrough(const WeavePoint& point, const Eigen::ArrayXd&
 {
   return point.shade * (1.0 - point.cavity) * body / (1.0 - point.cavity * body);
 }
+
+// Its mean over the weave, without the scatter from yarn to yarn and pixel to pixel: the midpoint rule over the back of a
+// yarn and its arch.
+Eigen::ArrayXd meanSeenThrough(const Weave& weave, const Eigen::ArrayXd& body);
 
 } // namespace msi::scenes

@@ -1,7 +1,7 @@
-#include "Measuring.h"
+#include "Kernels/Scenes/Measuring.h"
 
 #include "Kernels/Camera/CounterRandom.h"
-#include "KubelkaMunk.h"
+#include "Kernels/Scenes/KubelkaMunk.h"
 
 namespace msi::scenes
 {
@@ -94,9 +94,14 @@ Eigen::MatrixXd seenPaper(const Eigen::MatrixXd& measuredBody, std::uint64_t see
   Eigen::MatrixXd seen(body.rows(), body.cols());
   for (Eigen::Index s = 0; s < body.cols(); ++s)
   {
-    seen.col(s) = throughSurface(body.col(s).array(), PaperOutside, PaperInside, PaperSpecularSeen);
+    seen.col(s) = paperTowardsCamera(body.col(s).array());
   }
   return seen;
+}
+
+Eigen::ArrayXd paperTowardsCamera(const Eigen::ArrayXd& body)
+{
+  return throughSurface(body, PaperOutside, PaperInside, PaperSpecularSeen);
 }
 
 Eigen::MatrixXd seenFabric(const Eigen::MatrixXd& measuredBody, std::uint64_t seed)

@@ -43,6 +43,7 @@ int vtkCameraReader::RequestData(
         camera.effects = msi::effectListText(description.effects, description.camera.channels());
       }
       camera.whiteAfterEffects = description.whiteAfterEffects;
+      camera.whiteLevel = description.whiteLevel;
       msi::write(camera, vtkTable::GetData(outputs, 0));
       for (const auto& note : description.notes)
       {

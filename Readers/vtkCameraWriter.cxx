@@ -30,6 +30,7 @@ void vtkCameraWriter::WriteData()
     {
       const auto camera = msi::readCamera(table, "the camera");
       msi::CameraDescription description{ camera.camera };
+      description.whiteLevel = camera.whiteLevel;
       description.noise = camera.noise;
       description.whiteAfterEffects = camera.whiteAfterEffects;
       if (!camera.effects.empty())

@@ -3,6 +3,7 @@
 #include "SampleColumns.h"
 
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"
@@ -30,7 +31,7 @@ constexpr const char* EffectsArray = "Effects";
 constexpr const char* WhiteAfterEffectsArray = "WhiteAfterEffects";
 constexpr double FirstWavelength = 100.0;
 
-void addField(vtkTable* table, const char* name, const std::vector<double>& values)
+void addField(vtkDataObject* table, const char* name, const std::vector<double>& values)
 {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
@@ -180,6 +181,16 @@ void write(const CameraTable& description, vtkTable* table)
     flag->InsertNextValue(1);
     table->GetFieldData()->AddArray(flag);
   }
+  setWhiteLevel(table, description.whiteLevel);
+}
+
+void setWhiteLevel(vtkDataObject* data, double whiteLevel)
+{
+  data->GetFieldData()->RemoveArray(WhiteLevelArray);
+  if (whiteLevel != 1.0)
+  {
+    addField(data, WhiteLevelArray, { whiteLevel });
+  }
 }
 
 CameraTable readCamera(vtkTable* table, const std::string& nameOfTable)
@@ -240,6 +251,15 @@ CameraTable readCamera(vtkTable* table, const std::string& nameOfTable)
   }
   const std::vector<double> flag = field(table, WhiteAfterEffectsArray, nameOfTable);
   camera.whiteAfterEffects = !flag.empty() && flag[0] != 0.0;
+  if (const std::vector<double> level = field(table, WhiteLevelArray, nameOfTable); !level.empty())
+  {
+    if (level.size() != 1 || !(level[0] > 0.0))
+    {
+      throw std::invalid_argument(
+        nameOfTable + ": the field data '" + WhiteLevelArray + "' are not one number above 0");
+    }
+    camera.whiteLevel = level[0];
+  }
   return camera;
 }
 

@@ -143,8 +143,10 @@ void simulateImage(vtkAlgorithm* algorithm, const ImageSimulator& simulator,
   const ImageWindow window = windowOf(input.extent, input.whole);
   const int bands = simulator.wavelengthCount();
   const int channels = simulator.channelCount();
-  // Wider strips where each drags a wide surround along.
-  const int stripRows = std::max(LeastStripRows, 2 * simulator.halo());
+  // Wider strips where each drags a wide surround along, as far as the threads have one each.
+  const int threads = std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
+  const int stripRows = std::max(
+    LeastStripRows, std::min(8 * simulator.halo(), (window.height + threads - 1) / threads));
 
   vtkSMPThreadLocal<ImageWorkspace> workspace;
   SceneMean mean(channels);

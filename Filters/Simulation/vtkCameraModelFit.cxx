@@ -80,9 +80,11 @@ int vtkCameraModelFit::RequestData(
       options.folds = this->Folds;
       options.draws = this->Draws;
       options.seed = static_cast<std::uint64_t>(this->Seed);
+      double whiteLevel = 1.0;
       if (auto* table = vtkTable::GetData(inputs[1]))
       {
         const auto nominal = msi::readCamera(table, "the nominal camera");
+        whiteLevel = nominal.whiteLevel;
         options.nominal = msi::resampled(nominal.camera, *reflectance.axis.wavelengths);
       }
       if (this->KeepDark)
@@ -97,7 +99,9 @@ int vtkCameraModelFit::RequestData(
       }
       const auto fit = msi::fitCameraModel(
         *reflectance.axis.wavelengths, reflectance.values, response.values, options);
-      msi::write(msi::CameraTable{ fit.camera }, vtkTable::GetData(outputs, 0));
+      msi::CameraTable camera{ fit.camera };
+      camera.whiteLevel = whiteLevel;
+      msi::write(camera, vtkTable::GetData(outputs, 0));
       msi::writeUncertainty(fit, vtkTable::GetData(outputs, 1));
       msi::writeSummary(fit, vtkTable::GetData(outputs, 2));
       msi::writeChannels(fit, vtkTable::GetData(outputs, 3));

@@ -36,6 +36,7 @@ struct vtkCameraSimulator::Work
   std::vector<msi::CameraEffect> effects;
   bool whiteAfterEffects;
   msi::CameraNoise noise;
+  double whiteLevel;
 };
 
 namespace
@@ -147,7 +148,7 @@ vtkCameraSimulator::Work vtkCameraSimulator::Prepare(vtkTable* table)
   }
   const msi::CameraModel& model = camera.camera;
   Work work{ model.with(this->Exposure * model.responsivity(), model.dark()), {},
-    this->WhiteAfterEffects, {} };
+    this->WhiteAfterEffects, {}, camera.whiteLevel };
   if (this->Effects == OF_CAMERA && !camera.effects.empty())
   {
     work.effects = msi::parseEffectList("Effects", camera.effects, model.channels());
@@ -203,6 +204,7 @@ void vtkCameraSimulator::SimulateTable(const Work& work, vtkTable* input, vtkTab
     output->AddColumn(repeat);
   }
   msi::setSpectra(output, msi::SampleQuantity::Response, msi::channelsOf(work.camera), response);
+  msi::setWhiteLevel(output, work.whiteLevel);
 }
 
 bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* information,
@@ -248,6 +250,7 @@ bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* informa
     return false;
   }
   msi::simulateImage(this, simulator, input, work.camera, output);
+  msi::setWhiteLevel(output, work.whiteLevel);
   if (outputInformation->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0)
   {
     auto own = msi::requestedExtentWithoutGhosts(outputInformation);

@@ -53,6 +53,69 @@ void writePatches(const msi::scenes::SyntheticScene& scene, vtkTable* table)
   msi::setSpectra(table, msi::SampleQuantity::Reflectance, msi::axisOf(scene.wavelengths()),
     scene.patchReflectance());
 }
+
+msi::scenes::SyntheticScene sceneOf(vtkSyntheticScene* source)
+{
+  msi::scenes::SceneOptions options;
+  options.subject = source->GetSubject() == vtkSyntheticScene::FABRIC ? msi::scenes::SceneSubject::Fabric
+    : source->GetSubject() == vtkSyntheticScene::CHART_140            ? msi::scenes::SceneSubject::Chart140
+                                            : msi::scenes::SceneSubject::Chart24;
+  options.width = source->GetSize()[0];
+  options.height = source->GetSize()[1];
+  options.seed = static_cast<std::uint64_t>(source->GetSeed());
+  options.texture = source->GetTexture();
+  options.interreflection = source->GetInterreflection();
+  options.yarnWidth = source->GetYarnWidth();
+  return { msi::WavelengthGrid::uniform(
+             source->GetWavelengths()[0], source->GetWavelengths()[1], source->GetWavelengths()[2]),
+    options };
+}
+
+void draw(vtkAlgorithm* algorithm, const msi::scenes::SyntheticScene& scene, const int* extent,
+  vtkImageData* output)
+{
+  int region[6];
+  std::copy_n(extent, 6, region);
+  output->SetExtent(region);
+  output->SetSpacing(1.0, 1.0, 1.0);
+  output->SetOrigin(0.0, 0.0, 0.0);
+  const vtkIdType bands = scene.wavelengths().size();
+  const int width = extent[1] - extent[0] + 1;
+  const int height = extent[3] - extent[2] + 1;
+  vtkNew<vtkFloatArray> reflectance;
+  reflectance->SetName(msi::ReflectanceArray);
+  reflectance->SetNumberOfComponents(static_cast<int>(bands));
+  reflectance->SetNumberOfTuples(output->GetNumberOfPoints());
+  vtkNew<vtkIntArray> labels;
+  labels->SetName(msi::LabelArray);
+  labels->SetNumberOfTuples(output->GetNumberOfPoints());
+  float* values = reflectance->GetPointer(0);
+  int* label = labels->GetPointer(0);
+  constexpr vtkIdType Run = 64;
+  const vtkIdType runs = (width + Run - 1) / Run;
+  msi::forBlocks(algorithm, runs * height,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType run = begin; run < end; ++run)
+      {
+        const vtkIdType row = run / runs;
+        const vtkIdType first = run % runs * Run;
+        const auto count = static_cast<int>(std::min(Run, width - first));
+        const int x = extent[0] + static_cast<int>(first);
+        // VTK counts rows from the bottom, the scene from the top.
+        const int y = scene.layout().height - 1 - (extent[2] + static_cast<int>(row));
+        const vtkIdType pixel = row * width + first;
+        scene.reflectance(x, y, count, values + pixel * bands);
+        for (int i = 0; i < count; ++i)
+        {
+          label[pixel + i] = scene.label(x + i, y);
+        }
+      }
+    });
+  output->GetPointData()->AddArray(labels);
+  msi::setAxis(output, reflectance, msi::axisOf(scene.wavelengths()));
+  msi::replaceArray(output, nullptr, reflectance);
+}
 }
 
 vtkSyntheticScene::vtkSyntheticScene()
@@ -84,30 +147,13 @@ int vtkSyntheticScene::FillOutputPortInformation(int port, vtkInformation* info)
   return this->Superclass::FillOutputPortInformation(port, info);
 }
 
-msi::scenes::SyntheticScene vtkSyntheticScene::Scene() const
-{
-  msi::scenes::SceneOptions options;
-  options.subject = this->Subject == FABRIC ? msi::scenes::SceneSubject::Fabric
-    : this->Subject == CHART_140            ? msi::scenes::SceneSubject::Chart140
-                                            : msi::scenes::SceneSubject::Chart24;
-  options.width = this->Size[0];
-  options.height = this->Size[1];
-  options.seed = static_cast<std::uint64_t>(this->Seed);
-  options.texture = this->Texture;
-  options.interreflection = this->Interreflection;
-  options.yarnWidth = this->YarnWidth;
-  return { msi::WavelengthGrid::uniform(
-             this->Wavelengths[0], this->Wavelengths[1], this->Wavelengths[2]),
-    options };
-}
-
 int vtkSyntheticScene::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      const msi::scenes::SyntheticScene scene = this->Scene();
+      const msi::scenes::SyntheticScene scene = sceneOf(this);
       auto* out = outputs->GetInformationObject(0);
       const int extent[] = { 0, this->Size[0] - 1, 0, this->Size[1] - 1, 0, 0 };
       const double spacing[] = { 1.0, 1.0, 1.0 };
@@ -121,66 +167,20 @@ int vtkSyntheticScene::RequestInformation(
     });
 }
 
-void vtkSyntheticScene::Draw(
-  const msi::scenes::SyntheticScene& scene, const int* extent, vtkImageData* output)
-{
-  int region[6];
-  std::copy_n(extent, 6, region);
-  output->SetExtent(region);
-  output->SetSpacing(1.0, 1.0, 1.0);
-  output->SetOrigin(0.0, 0.0, 0.0);
-  const vtkIdType bands = scene.wavelengths().size();
-  const int width = extent[1] - extent[0] + 1;
-  const int height = extent[3] - extent[2] + 1;
-  vtkNew<vtkFloatArray> reflectance;
-  reflectance->SetName(msi::ReflectanceArray);
-  reflectance->SetNumberOfComponents(static_cast<int>(bands));
-  reflectance->SetNumberOfTuples(output->GetNumberOfPoints());
-  vtkNew<vtkIntArray> labels;
-  labels->SetName(msi::LabelArray);
-  labels->SetNumberOfTuples(output->GetNumberOfPoints());
-  float* values = reflectance->GetPointer(0);
-  int* label = labels->GetPointer(0);
-  constexpr vtkIdType Run = 64;
-  const vtkIdType runs = (width + Run - 1) / Run;
-  msi::forBlocks(this, runs * height,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType run = begin; run < end; ++run)
-      {
-        const vtkIdType row = run / runs;
-        const vtkIdType first = run % runs * Run;
-        const auto count = static_cast<int>(std::min(Run, width - first));
-        const int x = extent[0] + static_cast<int>(first);
-        // VTK counts rows from the bottom, the scene from the top.
-        const int y = this->Size[1] - 1 - (extent[2] + static_cast<int>(row));
-        const vtkIdType pixel = row * width + first;
-        scene.reflectance(x, y, count, values + pixel * bands);
-        for (int i = 0; i < count; ++i)
-        {
-          label[pixel + i] = scene.label(x + i, y);
-        }
-      }
-    });
-  output->GetPointData()->AddArray(labels);
-  msi::setAxis(output, reflectance, msi::axisOf(scene.wavelengths()));
-  msi::replaceArray(output, nullptr, reflectance);
-}
-
 int vtkSyntheticScene::RequestData(
   vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      const msi::scenes::SyntheticScene scene = this->Scene();
+      const msi::scenes::SyntheticScene scene = sceneOf(this);
       writePatches(scene, vtkTable::GetData(outputs, 1));
       // Who asks for the patches alone need not wait for the image.
       if (request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()) != 1)
       {
         const int* extent =
           outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT());
-        this->Draw(scene, extent, vtkImageData::GetData(outputs, 0));
+        draw(this, scene, extent, vtkImageData::GetData(outputs, 0));
       }
     });
 }

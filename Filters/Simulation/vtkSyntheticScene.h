@@ -13,13 +13,6 @@
 #include "MultispectralFiltersSimulationModule.h"
 #include "vtkImageAlgorithm.h"
 
-class vtkTable;
-
-namespace msi::scenes
-{
-class SyntheticScene;
-}
-
 class MULTISPECTRALFILTERSSIMULATION_EXPORT vtkSyntheticScene : public vtkImageAlgorithm
 {
 public:
@@ -103,9 +96,6 @@ protected:
 private:
   vtkSyntheticScene(const vtkSyntheticScene&) = delete;
   void operator=(const vtkSyntheticScene&) = delete;
-
-  msi::scenes::SyntheticScene Scene() const;
-  void Draw(const msi::scenes::SyntheticScene& scene, const int* extent, vtkImageData* output);
 
   int Subject = CHART_24;
   int Size[2] = { 768, 512 };

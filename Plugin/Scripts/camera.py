@@ -13,6 +13,13 @@ def arguments():
                         help="sample table: reflectance, and the real camera's responses where known")
     parser.add_argument("--image", metavar="FILE", nargs="+",
                         help="image of the real camera: one file, or one a channel")
+    parser.add_argument("--scene", metavar="FILE",
+                        help="reflectance image that the camera looks at, as `scene` writes it; instead of "
+                             "--samples and --image")
+    parser.add_argument("--medium", metavar="NAME", default="paper",
+                        help="the scene's medium, for effects on one medium (default: %(default)s)")
+    parser.add_argument("--seed", metavar="N", type=command.whole_number(0), default=1,
+                        help="of the scene's noise (default: %(default)s)")
     parser.add_argument("--labels", metavar="FILE", help="label image of the patches in the image")
     parser.add_argument("--patches", metavar="FILE",
                         help="measured reflectance of the patches, with the column 'label'")
@@ -25,8 +32,10 @@ def arguments():
     parser.add_argument("--effects", metavar="FILE",
                         help="list of effects (JSON) that the simulated camera has")
     options = parser.parse_args()
-    if (options.samples is None) == (options.image is None):
-        parser.error("give either --samples, or --image with --labels and --patches")
+    if [options.samples, options.image, options.scene].count(None) != 2:
+        parser.error("give one of --samples, --scene, and --image with --labels and --patches")
+    if options.scene and (options.fit or not options.camera):
+        parser.error("--scene needs --camera and cannot be fitted to")
     if options.image and not (options.labels and options.patches):
         parser.error("--image needs --labels and --patches")
     if not (options.fit or options.camera):
@@ -34,12 +43,42 @@ def arguments():
     return options
 
 
+def look_at_scene(options, effects, folder):
+    """Responses to a reflectance image, of the ideal camera and of the one with effects and noise, and their difference."""
+    camera = cameras.read(options.camera)
+    cameras.save(camera, os.path.join(folder, "camera.json"))
+    scene = pipeline.create("SpectralImageReader", FileNames=[options.scene], ArrayKind="Reflectance", Preview=0)
+    ideal = pipeline.create("CameraSimulator", Input=scene, Camera=camera, Effects="None (ideal camera)", Noise="None")
+    seen = pipeline.create("CameraSimulator", Input=scene, Camera=camera, Media=options.medium, Seed=options.seed,
+                           **effects)
+    written = {name: os.path.join(folder, f"{name}.img") for name in ("ideal", "responses")}
+    pipeline.save_image(ideal, written["ideal"], SpectralArray="Responses")
+    pipeline.save_image(seen, written["responses"], SpectralArray="Responses")
+    stride = estimation.stride_of_pictures(scene)
+    if stride > 1:
+        command.say(f"the pictures show every {stride}th pixel of the image")
+    shown = {name: estimation.read_image([path], stride=stride) for name, path in written.items()}
+    difference = pipeline.create("ResponseDifference", Input=shown["responses"], Simulated=shown["ideal"])
+    pipeline.update(difference, *shown.values())
+    cameras.draw_responsivities(camera, os.path.join(folder, "responsivities.png"))
+    report.write(folder, "The camera looks at a scene", [
+        report.pictures("The camera", folder, {"responsivities.png": "Responsivity of each channel"}),
+        report.pictures("The scene, channel by channel", folder, cameras.draw_channels(
+            shown["ideal"], shown["responses"], difference, folder,
+            titles=("ideal", "with effects and noise", "difference")))])
+    command.say(f"responses.img, ideal.img, pictures and report.html: {folder}")
+
+
 def main():
     options = arguments()
-    command.require_files(*(options.image or []), options.samples, options.labels, options.patches,
+    command.require_files(*(options.image or []), options.samples, options.scene, options.labels, options.patches,
                           options.camera, options.effects)
     folder = command.make_folder(options.output)
     pipeline.load_plugin()
+    effects = {"Effects": "Effect File", "EffectFile": options.effects} if options.effects else {}
+    if options.scene:
+        look_at_scene(options, effects, folder)
+        return
 
     image = labels = patches = None
     if options.image:
@@ -61,7 +100,6 @@ def main():
         pages.append(report.table("Channels", *pipeline.table(pipeline.port(fit, 3))))
     else:
         cameras.save(camera, os.path.join(folder, "camera.json"))
-    effects = {"Effects": "Effect File", "EffectFile": options.effects} if options.effects else {}
     simulated = cameras.simulate(samples, camera, **effects)
     cameras.draw_responsivities(camera, os.path.join(folder, "responsivities.png"), uncertainty)
     shown = {"responsivities.png": "Responsivity of each channel"}

@@ -47,7 +47,7 @@ void addField(vtkTable* table, const char* name, const std::vector<double>& valu
 TEST(CameraTable, KeepsEverything)
 {
   const CameraTable written{ twoChannels({ "blue", "red" }),
-    CameraNoise{ 0.001, 0.002, 0.0, 0.003, 0.25 }, "[{\"effect\": \"lag\"}]", true };
+    CameraNoise{ 0.001, 0.002, 0.0, 0.003, 0.25 }, "[{\"effect\": \"lag\"}]", true, 4095.0 };
   vtkNew<vtkTable> table;
   write(written, table);
   EXPECT_EQ(columnNames(table), (std::vector<std::string>{ "wavelength", "blue", "red" }));
@@ -62,6 +62,7 @@ TEST(CameraTable, KeepsEverything)
   EXPECT_EQ(read.noise->quantisationStep, 0.25);
   EXPECT_EQ(read.effects, written.effects);
   EXPECT_TRUE(read.whiteAfterEffects);
+  EXPECT_EQ(read.whiteLevel, 4095.0);
 }
 
 TEST(CameraTable, NoiseOfTwoNumbersIsReadAndShot)
@@ -79,6 +80,7 @@ TEST(CameraTable, CurvesAloneAreACamera)
   EXPECT_FALSE(camera.noise);
   EXPECT_TRUE(camera.effects.empty());
   EXPECT_FALSE(camera.whiteAfterEffects);
+  EXPECT_EQ(camera.whiteLevel, 1.0);
 }
 
 TEST(CameraTable, SortsRowsByWavelength)
@@ -113,6 +115,9 @@ TEST(CameraTable, Errors)
   EXPECT_EQ(errorOf(noise),
     "the camera: the field data 'Noise' are 2 numbers; expected read and shot, or those with fixed "
     "pattern gain, fixed pattern offset and quantisation step, each from 0 up");
+  const auto level = curves();
+  addField(level, "WhiteLevel", { 0.0 });
+  EXPECT_EQ(errorOf(level), "the camera: the field data 'WhiteLevel' are not one number above 0");
   const auto words = curves();
   vtkNew<vtkStringArray> array;
   array->SetName("Dark");

@@ -26,6 +26,15 @@ inline vtkSmartPointer<vtkTable> cameraTable(
   return table;
 }
 
+inline vtkSmartPointer<vtkTable> cameraTableOfCounts(double whiteLevel)
+{
+  auto table = vtkSmartPointer<vtkTable>::New();
+  CameraTable camera{ test::sevenChannels() };
+  camera.whiteLevel = whiteLevel;
+  write(camera, table);
+  return table;
+}
+
 // The kernels' raster with its metadata.
 inline vtkSmartPointer<vtkTable> rasterTable()
 {

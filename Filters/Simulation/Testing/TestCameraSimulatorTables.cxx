@@ -245,4 +245,23 @@ TEST_F(CameraSimulatorTables, NegativeNoiseIsRefused)
   EXPECT_NE(errorOf(Simulator), "");
   EXPECT_NE(printed(Simulator).find("ReadNoise: -1"), std::string::npos);
 }
+
+TEST(CameraSimulatorWhiteLevel, GoesFromTheCameraToTheResponses)
+{
+  vtkNew<vtkCameraSimulator> simulator;
+  simulator->SetInputData(0, rasterTable());
+  simulator->SetInputData(1, cameraTableOfCounts(4095.0));
+  ASSERT_EQ(errorOf(simulator), "");
+  auto* level = simulator->GetOutputDataObject(0)->GetFieldData()->GetArray("WhiteLevel");
+  ASSERT_NE(level, nullptr);
+  EXPECT_EQ(level->GetTuple1(0), 4095.0);
+  // Responses stay relative to white.
+  const Eigen::MatrixXd counted =
+    responsesOf(vtkTable::SafeDownCast(simulator->GetOutputDataObject(0)));
+  simulator->SetInputData(1, cameraTable());
+  ASSERT_EQ(errorOf(simulator), "");
+  EXPECT_EQ(simulator->GetOutputDataObject(0)->GetFieldData()->GetArray("WhiteLevel"), nullptr);
+  EXPECT_EQ(responsesOf(vtkTable::SafeDownCast(simulator->GetOutputDataObject(0))), counted);
+}
+
 }

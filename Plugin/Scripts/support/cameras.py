@@ -118,7 +118,7 @@ def draw_figures(difference, title, path):
     chart.save(path)
 
 
-def draw_channels(simulated, real, difference, folder):
+def draw_channels(simulated, real, difference, folder, titles=("simulated", "real", "difference")):
     """Per channel three images in a row: simulated, real, difference. Returns the pictures' names."""
     array = simulated.PointData.GetArray("Responses")
     count = min(array.GetNumberOfComponents(), MOST_CHANNEL_PICTURES)
@@ -129,11 +129,11 @@ def draw_channels(simulated, real, difference, folder):
         top = high + reach
         label = array.GetComponentName(k)
         name = f"channel-{k + 1}.png"
-        pictures.channel_row(((simulated, "Responses", "simulated", (0.0, top)),
-                              (real, None, "real", (0.0, top)),
-                              (difference, "Difference", "difference", (-reach, reach))),
+        pictures.channel_row(((simulated, "Responses", titles[0], (0.0, top)),
+                              (real, None, titles[1], (0.0, top)),
+                              (difference, "Difference", titles[2], (-reach, reach))),
                              k, os.path.join(folder, name))
-        saved[name] = f"{label}: simulated, real, real - simulated"
+        saved[name] = f"{label}: {titles[0]}, {titles[1]}, {titles[1]} - {titles[0]}"
     return saved
 
 

@@ -74,6 +74,7 @@ msi::scenes::SyntheticScene sceneOf(vtkSyntheticScene* source)
 void draw(vtkAlgorithm* algorithm, const msi::scenes::SyntheticScene& scene, const int* extent,
   vtkImageData* output)
 {
+  output->Initialize();
   int region[6];
   std::copy_n(extent, 6, region);
   output->SetExtent(region);

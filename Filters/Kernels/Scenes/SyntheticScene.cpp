@@ -119,8 +119,9 @@ SyntheticScene::SyntheticScene(const WavelengthGrid& wavelengths, const SceneOpt
   {
     PatchMeans.col(patch) = paperTowardsCamera(chart.body.col(patch).array());
   }
-  // The last grey is the black of the frame.
-  Frame = PatchMeans.col(Layout.count() == 24 ? 5 : 13);
+  // Between the two darkest greys.
+  const Eigen::Index black = Layout.count() == 24 ? 5 : 13;
+  Frame = 0.5 * (PatchMeans.col(black - 1) + PatchMeans.col(black));
 }
 
 int SyntheticScene::label(int x, int y) const noexcept

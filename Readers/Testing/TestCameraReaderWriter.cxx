@@ -138,7 +138,8 @@ TEST_F(CameraFiles, MalformedFilesAreOneLineEach)
   EXPECT_EQ(jsonError("{\"white_level\": 0}"),
     "bench.json:1:2: 'white_level' has a value that cannot be used; expected a number above 0; "
     "correct the value");
-  EXPECT_EQ(jsonError("{\"effects\": [{\"effect\": \"ghosts\"}]}").substr(0, 65), "");
+  EXPECT_EQ(jsonError("{\"effects\": [{\"effect\": \"ghosts\"}]}").substr(0, 67),
+    "bench.json:1:15: effect 1 (ghosts): there is no effect of this name");
   EXPECT_EQ(readingError(put("uneven.csv", "wavelength,C1\n400,1\n410,1\n430,1\n")),
     "uneven.csv: the wavelengths step by 10 nm at first and by 20 nm before 430 nm; expected a "
     "uniform grid; interpolate the curves");

@@ -28,10 +28,12 @@ struct CameraTable
   std::optional<CameraNoise> noise = std::nullopt;
   std::string effects = {}; // JSON text; empty: none
   bool whiteAfterEffects = false;
-  double whiteLevel = 1.0; // counts of the perfect white; the curves are relative to white whatever it is
+  double whiteLevel =
+    1.0; // counts of the perfect white; the curves are relative to white whatever it is
 };
 
-inline constexpr const char* WhiteLevelArray = "WhiteLevel"; // field data, also of simulated responses
+inline constexpr const char* WhiteLevelArray =
+  "WhiteLevel"; // field data, also of simulated responses
 
 // Replaces all columns and field data of the table.
 void write(const CameraTable& camera, vtkTable* table);

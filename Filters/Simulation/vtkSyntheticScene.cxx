@@ -57,9 +57,10 @@ void writePatches(const msi::scenes::SyntheticScene& scene, vtkTable* table)
 msi::scenes::SyntheticScene sceneOf(vtkSyntheticScene* source)
 {
   msi::scenes::SceneOptions options;
-  options.subject = source->GetSubject() == vtkSyntheticScene::FABRIC ? msi::scenes::SceneSubject::Fabric
-    : source->GetSubject() == vtkSyntheticScene::CHART_140            ? msi::scenes::SceneSubject::Chart140
-                                            : msi::scenes::SceneSubject::Chart24;
+  options.subject = source->GetSubject() == vtkSyntheticScene::FABRIC
+    ? msi::scenes::SceneSubject::Fabric
+    : source->GetSubject() == vtkSyntheticScene::CHART_140 ? msi::scenes::SceneSubject::Chart140
+                                                           : msi::scenes::SceneSubject::Chart24;
   options.width = source->GetSize()[0];
   options.height = source->GetSize()[1];
   options.seed = static_cast<std::uint64_t>(source->GetSeed());
@@ -179,8 +180,7 @@ int vtkSyntheticScene::RequestData(
       // Who asks for the patches alone need not wait for the image.
       if (request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()) != 1)
       {
-        const int* extent =
-          outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT());
+        const int* extent = outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT());
         draw(this, scene, extent, vtkImageData::GetData(outputs, 0));
       }
     });

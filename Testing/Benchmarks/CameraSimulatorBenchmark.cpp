@@ -184,21 +184,18 @@ void write(const std::string& file, const void* values, std::size_t bytes)
 void writeResults(const std::string& folder, int side)
 {
   Extent = { side, side };
-  const std::vector<std::pair<const char*, std::vector<msi::CameraEffect>>> jobs = { { "ideal",
-                                                                                       {} },
-    { "pixel_effects", pixelEffects() }, { "all_effects", everyEffect() } };
+  const std::vector<std::pair<const char*, std::vector<msi::CameraEffect>>> jobs = {
+    { "ideal", {} }, { "pixel_effects", pixelEffects() }, { "all_effects", everyEffect() }
+  };
   for (const auto& [name, effects] : jobs)
   {
     msi::ImageWorkspace workspace;
-    run(
-      msi::ImageSimulator(sixteenChannels(), effects, Extent, withNoise(false)), workspace);
+    run(msi::ImageSimulator(sixteenChannels(), effects, Extent, withNoise(false)), workspace);
     const msi::CameraSimulator camera(sixteenChannels(), effects);
-    const Eigen::MatrixXf responsivity =
-      camera.effectiveResponsivity().transpose().cast<float>();
+    const Eigen::MatrixXf responsivity = camera.effectiveResponsivity().transpose().cast<float>();
     write(folder + "/" + name + ".responsivity", responsivity.data(),
       static_cast<std::size_t>(responsivity.size()) * sizeof(float));
-    write(folder + "/" + name + ".response", response().data(),
-      response().size() * sizeof(float));
+    write(folder + "/" + name + ".response", response().data(), response().size() * sizeof(float));
   }
 }
 }

@@ -29,8 +29,8 @@ HWY_INLINE void addNoiseTo(D d, const NoiseTerms& terms, std::size_t i, float* v
   if (terms.temporal != nullptr)
   {
     const auto light = hn::IfThenElseZero(hn::Gt(u, hn::Zero(d)), u);
-    auto deviation = hn::Sqrt(hn::Add(
-      hn::Set(d, terms.readVariance), hn::Mul(hn::Set(d, terms.shotVariance), light)));
+    auto deviation = hn::Sqrt(
+      hn::Add(hn::Set(d, terms.readVariance), hn::Mul(hn::Set(d, terms.shotVariance), light)));
     if (terms.factor != nullptr)
     {
       deviation = hn::Mul(hn::LoadU(d, terms.factor + i), deviation);

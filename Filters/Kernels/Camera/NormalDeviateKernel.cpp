@@ -33,8 +33,8 @@ HWY_INLINE V multiplyHigh(D d, V a, V b)
 
 #if HWY_HAVE_SCALABLE
 template <class D, class V>
-HWY_INLINE void loadParabolas(D df, const float* table, V cell, hn::Vec<D>& constant,
-  hn::Vec<D>& slope, hn::Vec<D>& bend)
+HWY_INLINE void loadParabolas(
+  D df, const float* table, V cell, hn::Vec<D>& constant, hn::Vec<D>& slope, hn::Vec<D>& bend)
 {
   const hn::RebindToSigned<D> di;
   const auto index = hn::BitCast(di, hn::ShiftLeft<2>(cell));
@@ -61,8 +61,8 @@ HWY_INLINE hn::Vec<D> loadEveryFourth(D d, const float* table, const std::uint32
 
 // Loads of four values and a transposition: less work than three gathers.
 template <class D, class V>
-HWY_INLINE void loadParabolas(D df, const float* table, V cell, hn::Vec<D>& constant,
-  hn::Vec<D>& slope, hn::Vec<D>& bend)
+HWY_INLINE void loadParabolas(
+  D df, const float* table, V cell, hn::Vec<D>& constant, hn::Vec<D>& slope, hn::Vec<D>& bend)
 {
   const hn::RebindToUnsigned<D> du;
   HWY_ALIGN std::uint32_t place[hn::MaxLanes(D())];
@@ -75,8 +75,7 @@ HWY_INLINE void loadParabolas(D df, const float* table, V cell, hn::Vec<D>& cons
   const auto second = hn::InterleaveLower(df, b, e);
   constant = hn::InterleaveLower(df, first, second);
   slope = hn::InterleaveUpper(df, first, second);
-  bend =
-    hn::InterleaveLower(df, hn::InterleaveUpper(df, a, c), hn::InterleaveUpper(df, b, e));
+  bend = hn::InterleaveLower(df, hn::InterleaveUpper(df, a, c), hn::InterleaveUpper(df, b, e));
 }
 #endif
 

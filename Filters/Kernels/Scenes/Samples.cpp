@@ -1,7 +1,7 @@
 #include "Kernels/Scenes/Samples.h"
 
-#include "Kernels/Scenes/Colorants.h"
 #include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Scenes/Colorants.h"
 #include "Kernels/Scenes/KubelkaMunk.h"
 
 #include <array>

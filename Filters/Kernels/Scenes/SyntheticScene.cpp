@@ -40,7 +40,8 @@ void requireRange(
 // The largest pitch that puts columns x rows patches and a frame of a quarter patch into the picture.
 int pitchFor(int columns, int rows, int least, const SceneOptions& options)
 {
-  const int pitch = std::min(2 * options.width / (2 * columns + 1), 2 * options.height / (2 * rows + 1));
+  const int pitch =
+    std::min(2 * options.width / (2 * columns + 1), 2 * options.height / (2 * rows + 1));
   if (pitch < least)
   {
     std::ostringstream message;

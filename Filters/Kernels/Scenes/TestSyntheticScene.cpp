@@ -206,7 +206,8 @@ TEST(SyntheticScene, PatchesFillAnyPictureAndNoPieceChangesABit)
     scene.reflectance(0, 50, 300, row.data());
     std::vector<float> piece(7 * bands);
     scene.reflectance(33, 50, 7, piece.data());
-    EXPECT_TRUE(std::equal(piece.begin(), piece.end(), row.begin() + 33 * static_cast<long>(bands)));
+    EXPECT_TRUE(
+      std::equal(piece.begin(), piece.end(), row.begin() + 33 * static_cast<long>(bands)));
   }
 }
 
@@ -216,7 +217,8 @@ TEST(SyntheticScene, TheSeedChangesDyesAndTexture)
   const Eigen::MatrixXd first = SyntheticScene(grid(), options).patchReflectance();
   EXPECT_EQ(SyntheticScene(grid(), options).patchReflectance(), first);
   options.seed = 8;
-  EXPECT_GT((SyntheticScene(grid(), options).patchReflectance() - first).cwiseAbs().maxCoeff(), 0.1);
+  EXPECT_GT(
+    (SyntheticScene(grid(), options).patchReflectance() - first).cwiseAbs().maxCoeff(), 0.1);
 }
 
 TEST(SyntheticScene, RefusesWhatItCannotDrawAndSaysWhy)

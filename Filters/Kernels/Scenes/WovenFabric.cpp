@@ -27,8 +27,7 @@ double heightAt(double across, double along)
 
 double cavityAt(const Weave& weave, double height)
 {
-  return std::clamp(
-    weave.meanCavity * (1.0 + weave.cavityDepth * (MeanHeight - height)), 0.0, 0.9);
+  return std::clamp(weave.meanCavity * (1.0 + weave.cavityDepth * (MeanHeight - height)), 0.0, 0.9);
 }
 
 int positiveModulo(int value, int modulus)

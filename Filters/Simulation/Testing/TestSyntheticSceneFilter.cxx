@@ -137,8 +137,7 @@ TEST_F(SyntheticSceneSource, ACameraLooksAtIt)
 TEST_F(SyntheticSceneSource, SaysWhatItCannotDraw)
 {
   Source->SetSize(20, 20);
-  EXPECT_EQ(errorOf(Source),
-    "the scene has 20 x 20 pixels; 6 x 4 patches need at least 39 x 27");
+  EXPECT_EQ(errorOf(Source), "the scene has 20 x 20 pixels; 6 x 4 patches need at least 39 x 27");
   Source->SetSize(200, 140);
   Source->SetWavelengths(700.0, 400.0, 10.0);
   EXPECT_NE(errorOf(Source), "");

@@ -86,9 +86,9 @@ private:
   std::vector<float> Weights;
   std::size_t Taps = 0;
   std::vector<Run> Runs;
-  std::size_t Margin = 0; // pixels that rows are padded with
+  std::size_t Margin = 0;        // pixels that rows are padded with
   std::vector<float> RowWeights; // as Weights, for a tile of pixels in one row
-  int Taken = 0;         // rows
+  int Taken = 0;                 // rows
   int Given = 0;
   RowRing Ring; // rows moved along x
   std::vector<float> Padded, Out;

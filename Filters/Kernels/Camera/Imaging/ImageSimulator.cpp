@@ -393,8 +393,8 @@ void ImageSimulator::addToMean(const float* reflectance, const int* medium,
   const ImageWindow& window, SceneMean& mean, ImageWorkspace& workspace) const
 {
   Self->requireWindow(window, medium);
-  workspace.row.resize(static_cast<std::size_t>(BlockPixels) *
-    static_cast<std::size_t>(channelCount()));
+  workspace.row.resize(
+    static_cast<std::size_t>(BlockPixels) * static_cast<std::size_t>(channelCount()));
   float* signal = workspace.row.data();
   for (int y = window.y; y < window.y + window.height; ++y)
   {

@@ -43,7 +43,8 @@ void convolve(const SymmetricKernel& kernel, PixelBuffer& buffer)
   const ImageWindow& window = buffer.window;
   RowConvolution filter;
   filter.begin(kernel, window.width, window.height);
-  const auto count = static_cast<std::size_t>(window.width) * static_cast<std::size_t>(buffer.channels);
+  const auto count =
+    static_cast<std::size_t>(window.width) * static_cast<std::size_t>(buffer.channels);
   int y = window.y;
   for (int row = window.y; row < window.y + window.height; ++row)
   {

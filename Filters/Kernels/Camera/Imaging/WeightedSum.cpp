@@ -54,13 +54,11 @@ HWY_INLINE void sumRun(const float* weights, std::size_t period, const float* se
   std::size_t i = first;
   for (; i + lanes <= end; i += lanes)
   {
-    sumOne<Same>(
-      d, weights + (Same ? 0 : i - first), period, self, before, after, taps, i, out);
+    sumOne<Same>(d, weights + (Same ? 0 : i - first), period, self, before, after, taps, i, out);
   }
   for (; i < end; ++i)
   {
-    sumOne<Same>(
-      one, weights + (Same ? 0 : i - first), period, self, before, after, taps, i, out);
+    sumOne<Same>(one, weights + (Same ? 0 : i - first), period, self, before, after, taps, i, out);
   }
 }
 
@@ -75,8 +73,8 @@ void sumTaps(const float* weights, std::size_t period, const float* self,
   }
   for (std::size_t first = 0; first < count; first += period)
   {
-    sumRun<false>(weights, period, self, before, after, taps, out, first,
-      std::min(first + period, count));
+    sumRun<false>(
+      weights, period, self, before, after, taps, out, first, std::min(first + period, count));
   }
 }
 
@@ -87,8 +85,8 @@ HWY_INLINE void weighOne(D d, const float* weight, std::size_t step, const float
   auto sum = hn::Mul(hn::LoadU(d, weight), hn::LoadU(d, sources[0] + place));
   for (std::size_t tap = 1; tap < taps; ++tap)
   {
-    sum = hn::Add(
-      sum, hn::Mul(hn::LoadU(d, weight + tap * step), hn::LoadU(d, sources[tap] + place)));
+    sum =
+      hn::Add(sum, hn::Mul(hn::LoadU(d, weight + tap * step), hn::LoadU(d, sources[tap] + place)));
   }
   hn::StoreU(sum, d, out + place);
 }

@@ -71,6 +71,52 @@ TEST(CameraNoise, ExposuresAreIndependent)
   EXPECT_NEAR(correlation, 0.0, 5.0 / std::sqrt(double(Count)));
 }
 
+// Between neighbouring channels, between neighbouring pixels of a row and of a column, and between fixed pattern and
+// temporal noise.
+TEST(CameraNoise, NeighboursAreNotCorrelated)
+{
+  constexpr Eigen::Index Channels = 7;
+  constexpr Eigen::Index Width = 200;
+  constexpr Eigen::Index Height = 150;
+  msi::CameraNoise temporal;
+  temporal.read = 1.0;
+  msi::CameraNoise pattern;
+  pattern.fixedPatternOffset = 1.0;
+  Eigen::MatrixXf noise = Eigen::MatrixXf::Zero(Channels, Width * Height);
+  Eigen::MatrixXf fixed = noise;
+  msi::NoiseGenerator{ temporal, 5 }(noise, 0);
+  msi::NoiseGenerator{ pattern, 5 }(fixed, 0);
+  const auto correlation = [](const auto& a, const auto& b)
+  {
+    return a.template cast<double>().cwiseProduct(b.template cast<double>()).mean() *
+      std::sqrt(double(a.size()));
+  };
+  const Eigen::Index pixels = Width * Height;
+  EXPECT_LT(
+    std::abs(correlation(noise.topRows(Channels - 1), noise.bottomRows(Channels - 1))), 5.0);
+  EXPECT_LT(std::abs(correlation(noise.leftCols(pixels - 1), noise.rightCols(pixels - 1))), 5.0);
+  EXPECT_LT(
+    std::abs(correlation(noise.leftCols(pixels - Width), noise.rightCols(pixels - Width))), 5.0);
+  EXPECT_LT(std::abs(correlation(noise, fixed)), 5.0);
+}
+
+// The vectorised path in single precision against the formula in double precision, with all terms at once.
+TEST(CameraNoise, SinglePrecisionAgreesWithDouble)
+{
+  msi::CameraNoise noise;
+  noise.read = 0.01;
+  noise.shot = 0.02;
+  noise.fixedPatternGain = 0.01;
+  noise.fixedPatternOffset = 0.002;
+  Eigen::ArrayXd factor = Eigen::ArrayXd::LinSpaced(5, 0.5, 2.0);
+  const msi::NoiseGenerator add(noise, 9, factor);
+  Eigen::MatrixXd exact = Eigen::MatrixXd::Random(5, 777);
+  Eigen::MatrixXf single = exact.cast<float>();
+  add(exact, 3, 1);
+  add(single, 3, 1);
+  EXPECT_LT((single.cast<double>() - exact).cwiseAbs().maxCoeff(), 2e-7);
+}
+
 TEST(CameraNoise, QuantisationRoundsToSteps)
 {
   msi::CameraNoise noise;

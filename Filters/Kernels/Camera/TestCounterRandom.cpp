@@ -136,6 +136,42 @@ TEST(CounterRandom, NormalsHaveTheMomentsOfANormal)
   EXPECT_NEAR(neighbours / Count, 0.0, 5.0 * root);
 }
 
+// Kolmogorov's distance between the sample and the normal distribution; above 1.95 / sqrt(n) with a probability of
+// 0.001.
+TEST(CounterRandom, NormalsHaveTheDistributionOfANormal)
+{
+  constexpr std::size_t Count = 200000;
+  std::vector<float> values(Count);
+  msi::CounterRandom(21, 4).normals(0, values.data(), Count);
+  std::sort(values.begin(), values.end());
+  double distance = 0.0;
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    const double cumulated = 0.5 * std::erfc(-static_cast<double>(values[i]) / std::sqrt(2.0));
+    const auto rank = static_cast<double>(i);
+    distance = std::max({ distance, cumulated - rank / Count, (rank + 1.0) / Count - cumulated });
+  }
+  EXPECT_LT(distance, 1.95 / std::sqrt(double(Count)));
+}
+
+// As many beyond 2, 3 and 4 deviations as a normal distribution has there, on either side.
+TEST(CounterRandom, NormalsHaveTheTailsOfANormal)
+{
+  constexpr std::size_t Count = 4000000;
+  std::vector<float> values(Count);
+  msi::CounterRandom(22, 4).normals(0, values.data(), Count);
+  for (const double limit : { 2.0, 3.0, 4.0 })
+  {
+    const double expected = 0.5 * std::erfc(limit / std::sqrt(2.0)) * Count;
+    for (const double sign : { -1.0, 1.0 })
+    {
+      const auto beyond = std::count_if(values.begin(), values.end(),
+        [limit, sign](float value) { return sign * static_cast<double>(value) > limit; });
+      EXPECT_NEAR(static_cast<double>(beyond), expected, 5.0 * std::sqrt(expected)) << sign * limit;
+    }
+  }
+}
+
 TEST(CounterRandom, SeedsStreamsAndIndicesDrawDifferentNumbers)
 {
   std::set<double> seen;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -80,6 +81,42 @@ TEST(SeparableFilter, SpreadsAnImpulseIntoAGaussian)
     const double peak = static_cast<double>(picture.pixel(CenterX, CenterY)[channel]);
     const double beside = static_cast<double>(picture.pixel(CenterX + 2, CenterY + 1)[channel]);
     EXPECT_NEAR(beside / peak, std::exp(-0.5 * 5.0 / (deviation * deviation)), 1e-6);
+  }
+}
+
+// Sum of sums in double precision, the edge repeated; weights of their own for every channel, holes in between.
+TEST(SeparableFilter, IsTheSumOfItsDefinition)
+{
+  msi::SymmetricKernel kernel;
+  kernel.weights =
+    (Eigen::ArrayXXf(3, 3) << 0.5F, 0.2F, 0.05F, 0.4F, 0.25F, 0.05F, 1.0F, 0.0F, 0.0F).finished();
+  const auto picture = [](int x, int y, int k)
+  { return 0.5 + 0.3 * std::sin(0.7 * x + k) + 0.2 * std::cos(0.9 * y * x); };
+  for (const int stride : { 1, 16, 70 })
+  {
+    kernel.stride = stride;
+    PixelBuffer filtered = pictureOf(3, picture);
+    msi::convolve(kernel, filtered);
+    for (const auto& [x, y] : { std::pair{ 0, 0 }, std::pair{ 160, 3 }, std::pair{ 77, 140 },
+           std::pair{ 33, 60 }, std::pair{ 159, 139 } })
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        double expected = 0.0;
+        for (int i = -2; i <= 2; ++i)
+        {
+          for (int j = -2; j <= 2; ++j)
+          {
+            expected +=
+              static_cast<double>(kernel.weights(k, std::abs(i)) * kernel.weights(k, std::abs(j))) *
+              picture(std::clamp(x + i * stride, 0, Extent.width - 1),
+                std::clamp(y + j * stride, 0, Extent.height - 1), k);
+          }
+        }
+        ASSERT_NEAR(static_cast<double>(filtered.pixel(x, y)[k]), expected, 5e-7)
+          << x << " " << y << " stride " << stride;
+      }
+    }
   }
 }
 

@@ -229,6 +229,53 @@ TEST(ImageSimulator, AgreesWithTheSimulatorOfTables)
   EXPECT_LT((seen.cast<double>() - table).cwiseAbs().maxCoeff(), 3e-6);
 }
 
+// An even scene has neither edges nor a surround of its own: what spreads or moves light changes nothing, and the image
+// answers as a sample of that reflectance on a table does.
+TEST(ImageSimulator, AnEvenSceneAnswersAsItsSampleOnATable)
+{
+  const ImageWindow all = msi::wholeImage(Extent);
+  Eigen::VectorXf reflectance(Wavelengths);
+  for (int j = 0; j < Wavelengths; ++j)
+  {
+    reflectance[j] = static_cast<float>(0.4 + 0.3 * std::sin(0.2 * j));
+  }
+  const Eigen::MatrixXf pixels = reflectance.replicate(1, static_cast<Eigen::Index>(all.pixels()));
+  const std::vector<int> media(all.pixels(), 1);
+  std::vector<CameraEffect> effects;
+  std::vector<CameraEffect> onTable;
+  for (const CameraEffect& effect : everything())
+  {
+    const msi::EffectDefinition& definition = *msi::findEffect(effect.name);
+    const bool overField = effect.name == "vignetting" || effect.name == "illumination_gradient";
+    if (overField || effect.name == "lag" || effect.name == "banding")
+    {
+      continue;
+    }
+    effects.push_back(effect);
+    if (definition.stage != msi::EffectStage::Image && effect.name != "local_stray_light")
+    {
+      onTable.push_back(effect);
+    }
+  }
+  msi::ImageSimulatorOptions options;
+  options.media = { "paper", "fabric" };
+  const ImageSimulator simulator(sevenChannels(), effects, Extent, options);
+  EXPECT_GT(simulator.halo(), 8);
+  msi::SceneMean mean(Channels);
+  msi::ImageWorkspace workspace;
+  simulator.addToMean(pixels.data(), media.data(), all, mean, workspace);
+  std::vector<float> response(all.pixels() * Channels);
+  simulator.simulate(pixels.data(), media.data(), all, all, &mean, response.data(), workspace);
+
+  msi::SceneSamples sample;
+  sample.reflectance = reflectance.cast<double>();
+  sample.medium = { "fabric" };
+  const Eigen::MatrixXd table =
+    msi::CameraSimulator(sevenChannels(), onTable).respond({ visibleGrid(), sample });
+  const Eigen::Map<const Eigen::MatrixXf> seen(response.data(), Channels, pixels.cols());
+  EXPECT_LT((seen.cast<double>().colwise() - table.col(0)).cwiseAbs().maxCoeff(), 3e-6);
+}
+
 TEST(ImageSimulator, LagKeepsAPartOfTheChannelBefore)
 {
   const msi::CameraModel camera = sevenChannels();

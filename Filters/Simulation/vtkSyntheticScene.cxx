@@ -42,8 +42,10 @@ void writePatches(const msi::scenes::SyntheticScene& scene, vtkTable* table)
     sample->InsertNextValue(scene.samples()[static_cast<std::size_t>(patch)]);
     medium->InsertNextValue(scene.medium());
     label->InsertNextValue(patch + 1);
-    x[patch] = layout.left + patch % layout.columns * layout.pitch + 0.5 * (layout.patchWidth - 1);
-    y[patch] = layout.top + patch / layout.columns * layout.pitch + 0.5 * (layout.patchHeight - 1);
+    const int column = patch % layout.columns;
+    const int row = patch / layout.columns;
+    x[patch] = layout.left + column * layout.pitch + 0.5 * (layout.patchWidth - 1);
+    y[patch] = layout.top + row * layout.pitch + 0.5 * (layout.patchHeight - 1);
   }
   table->AddColumn(sample);
   table->AddColumn(medium);

@@ -153,7 +153,8 @@ void RegistrationRows::begin(const ChannelRegistration& registration, const Imag
     }
   }
   Taps = static_cast<std::size_t>(most);
-  Margin = static_cast<std::size_t>(Reach + most);
+  const int margin = Reach + most;
+  Margin = static_cast<std::size_t>(margin);
   Weights.assign(Taps * Count, 0.0F);
   for (std::size_t x = 0; x < static_cast<std::size_t>(window.width); ++x)
   {
@@ -193,12 +194,13 @@ const float* RegistrationRows::next()
       sourceOf(Window.y + Given, Extent.height, Down[k], Magnification[k]);
   }
   const Span span = spanOf(cubics.data(), Channels);
-  const auto taps = static_cast<std::size_t>(span.last - span.first + 1);
+  const int pixels = span.last - span.first + 1;
+  const auto taps = static_cast<std::size_t>(pixels);
   const std::size_t period = TilePixels * Channels;
   RowWeights.assign(taps * period, 0.0F);
-  for (std::size_t pixel = 0; pixel < TilePixels; ++pixel)
+  for (std::size_t i = 0; i < TilePixels; ++i)
   {
-    spread(cubics.data(), Channels, period, RowWeights.data() + pixel * Channels);
+    spread(cubics.data(), Channels, period, RowWeights.data() + i * Channels);
   }
   Sources.resize(taps);
   for (std::size_t tap = 0; tap < taps; ++tap)

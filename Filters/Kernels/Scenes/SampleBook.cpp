@@ -46,7 +46,6 @@ SampleBook::SampleBook(const PatchLayout& layout, Eigen::MatrixXd bodies, Eigen:
   , Bodies(std::move(bodies))
   , Yarns(std::move(yarns))
   , Seed(seed)
-  , Change(change)
   , Tartan(changed(tartanWeave(), change))
 {
   for (int patch = 0; patch < layout.count(); ++patch)

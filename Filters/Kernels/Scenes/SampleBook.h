@@ -40,7 +40,6 @@ private:
   Eigen::MatrixXd Bodies;
   Eigen::MatrixXd Yarns;
   std::uint64_t Seed;
-  WeaveChange Change;
   std::vector<Weave> Weaves; // of the swatches
   Weave Tartan;
 };

@@ -17,6 +17,7 @@ namespace msi
 //
 // Interpolation: cubic convolution, R. G. Keys, IEEE Trans. ASSP 29 (1981) 1153,
 //   doi:10.1109/TASSP.1981.1163711 (a = -1/2): exact for quadratics, the identity for whole pixels.
+// NaN:    spreads over the pixels that all channels together read.
 // Edges: the image's edge repeats; near a cut edge of a buffer the result is provisional (see reach()).
 // Errors: std::invalid_argument for arrays of different length.
 class ChannelRegistration

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -49,7 +50,30 @@ std::string withoutExtension(const std::string& path)
   return fs::path(path).replace_extension().string();
 }
 
-// NAME.img for NAME.hdr or NAME.img.hdr; the first of the known names that exists.
+// STEM with any other extension, but that of a header, a picture, a text or a table: makers have their own (.hyspex).
+std::vector<std::string> filesNamed(const std::string& stem)
+{
+  static constexpr std::array<std::string_view, 14> Others = { ".hdr", ".png", ".jpg", ".jpeg",
+    ".tif", ".tiff", ".bmp", ".txt", ".log", ".xml", ".json", ".csv", ".pdf", ".enp" };
+  std::vector<std::string> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(fs::path(stem).parent_path().empty() ? fs::path(".")
+                                                                        : fs::path(stem).parent_path(),
+         error);
+       !error && entry != fs::directory_iterator(); entry.increment(error))
+  {
+    const std::string path = (fs::path(stem).parent_path() / entry->path().filename()).string();
+    const std::string extension = lowerCase(entry->path().extension().string());
+    if (withoutExtension(path) == stem && isFile(path) &&
+      std::find(Others.begin(), Others.end(), extension) == Others.end())
+    {
+      found.push_back(path);
+    }
+  }
+  return found;
+}
+
+// NAME.img for NAME.hdr or NAME.img.hdr; the first of the known names that exists, else the only file of that name.
 std::string dataFileOf(const std::string& header)
 {
   std::string stem = withoutExtension(header);
@@ -72,10 +96,16 @@ std::string dataFileOf(const std::string& header)
       }
     }
   }
+  const auto others = filesNamed(stem);
+  if (others.size() == 1)
+  {
+    return others.front();
+  }
   const std::string name = fs::path(stem).filename().string();
-  throw FormatError(header, "has no data file beside it",
+  throw FormatError(header,
+    others.empty() ? "has no data file beside it" : "has several files beside it that may be its data",
     name + " or " + name + " with .img, .dat, .raw, .bil, .bsq, .bip, .bin or .cube",
-    "put the data file beside the header");
+    others.empty() ? "put the data file beside the header" : "open the data file instead");
 }
 }
 

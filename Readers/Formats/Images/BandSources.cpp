@@ -179,6 +179,20 @@ private:
         addPage(static_cast<int>(page));
       }
     }
+    takeListOfAllPages();
+  }
+
+  // The first page may list the wavelengths of all.
+  void takeListOfAllPages()
+  {
+    const std::vector<double> list = metadataWavelengths(current().pages()[0]);
+    if (list.size() == Found.bands.size() && !allHaveWavelengths())
+    {
+      for (std::size_t b = 0; b < list.size(); ++b)
+      {
+        Found.bands[b].wavelength = list[b];
+      }
+    }
   }
 
   void addPage(int page)

@@ -68,7 +68,7 @@ TEST(EnviHeader, BracesMayOpenOnTheNextLine)
   EXPECT_EQ(header.info.metadata.at("description"), "two lines");
   EXPECT_EQ(header.info.metadata.at("sensor"), "");
   EXPECT_EQ(header.info.wavelengths, (Numbers{ 400, 500 }));
-  EXPECT_EQ(header.info.notes.back(), "line 17 was not understood: 'stray'");
+  EXPECT_EQ(header.info.notes.back(), "line 18 was not understood: 'stray'");
 }
 
 TEST(EnviHeader, KeysThatNobodyReadsMayStandTwice)
@@ -90,8 +90,8 @@ TEST(EnviHeader, NamesOfBandsTellWavelengths)
     parseEnviHeader("a.hdr", Minimal + "band names = {Band 1 (450.5 nm), Band 2 (550 nm)}\n");
   EXPECT_EQ(header.info.wavelengths, (Numbers{ 450.5, 550 }));
   EXPECT_EQ(header.info.notes, (Names{ "wavelengths are those in the names of the bands" }));
-  EXPECT_TRUE(
-    parseEnviHeader("a.hdr", Minimal + "band names = {450 nm, panchromatic}\n").info.wavelengths.empty());
+  EXPECT_TRUE(parseEnviHeader("a.hdr", Minimal + "band names = {450 nm, panchromatic}\n")
+                .info.wavelengths.empty());
 }
 
 TEST(EnviHeader, WavelengthsGivenElsewhereStandInForTheHeaders)

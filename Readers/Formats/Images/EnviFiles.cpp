@@ -4,6 +4,7 @@
 #include "Formats/Images/EnviHeader.h"
 #include "Formats/Storage/WholeFile.h"
 #include "Formats/Text/NumberText.h"
+#include "Formats/Text/TextEncoding.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::size_t BeginningSize = 8;
+constexpr std::size_t BeginningSize = 16; // of UTF-16 too
 constexpr std::array<const char*, 8> DataExtensions = { ".img", ".dat", ".raw", ".bil", ".bsq",
   ".bip", ".bin", ".cube" };
 
@@ -31,7 +32,7 @@ bool isFile(const std::string& path)
 
 bool isHeader(const std::string& path)
 {
-  return looksLikeEnviHeader(readFileBeginning(path, BeginningSize));
+  return looksLikeEnviHeader(asUtf8(readFileBeginning(path, BeginningSize)).value_or(""));
 }
 
 bool hasHeaderExtension(const std::string& path)
@@ -57,8 +58,8 @@ std::vector<std::string> filesNamed(const std::string& stem)
     ".tif", ".tiff", ".bmp", ".txt", ".log", ".xml", ".json", ".csv", ".pdf", ".enp" };
   std::vector<std::string> found;
   std::error_code error;
-  for (fs::directory_iterator entry(fs::path(stem).parent_path().empty() ? fs::path(".")
-                                                                        : fs::path(stem).parent_path(),
+  for (fs::directory_iterator entry(
+         fs::path(stem).parent_path().empty() ? fs::path(".") : fs::path(stem).parent_path(),
          error);
        !error && entry != fs::directory_iterator(); entry.increment(error))
   {
@@ -103,7 +104,8 @@ std::string dataFileOf(const std::string& header)
   }
   const std::string name = fs::path(stem).filename().string();
   throw FormatError(header,
-    others.empty() ? "has no data file beside it" : "has several files beside it that may be its data",
+    others.empty() ? "has no data file beside it"
+                   : "has several files beside it that may be its data",
     name + " or " + name + " with .img, .dat, .raw, .bil, .bsq, .bip, .bin or .cube",
     others.empty() ? "put the data file beside the header" : "open the data file instead");
 }

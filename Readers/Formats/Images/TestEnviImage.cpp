@@ -229,6 +229,18 @@ TEST_F(EnviImages, TheDataFileMayHaveAnExtensionOfItsMaker)
   EXPECT_EQ(errorIn(path("a.hyspex")), "");
 }
 
+TEST_F(EnviImages, AHeaderMayBeUtf16)
+{
+  const std::string text = read(std::filesystem::path(image()).filename().string());
+  std::string wide = "\xFF\xFE";
+  for (const char c : text)
+  {
+    wide += { c, '\0' };
+  }
+  EXPECT_EQ(allOf(*openSpectralImage(write("a.hdr", wide))), expected());
+  EXPECT_EQ(allOf(*openSpectralImage(path("a.img"))), expected());
+}
+
 TEST_F(EnviImages, GivenWavelengthsMendAHeader)
 {
   const std::string file = image("wavelength = {0}\n");

@@ -40,8 +40,8 @@ msi::SpectralAxis subset(const msi::SpectralAxis& axis, const std::vector<std::s
 }
 
 // The chosen values of a field that has one a channel.
-void addChosen(
-  vtkImageData* output, vtkDataArray* field, std::size_t channels, const std::vector<std::size_t>& chosen)
+void addChosen(vtkImageData* output, vtkDataArray* field, std::size_t channels,
+  const std::vector<std::size_t>& chosen)
 {
   if (!field || field->GetNumberOfTuples() != static_cast<vtkIdType>(channels))
   {

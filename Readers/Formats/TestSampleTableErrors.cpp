@@ -103,7 +103,8 @@ const Case Cases[] = {
     "t.csv: is a binary file; expected a sample table (CSV, CGATS, CxF3 or MAT); name another "
     "file" },
   { "DamagedUtf16", std::string("\xFF\xFEs\0\x00\xD8", 6),
-    "t.csv: is damaged UTF-16 text; expected a sample table (CSV, CGATS, CxF3 or MAT) in UTF-8; save it as "
+    "t.csv: is damaged UTF-16 text; expected a sample table (CSV, CGATS, CxF3 or MAT) in UTF-8; "
+    "save it as "
     "UTF-8" },
   { "QuoteInsideField", "sample,R400\na\"b,0.1\n",
     "t.csv:2:2: a quote stands inside a field; expected quotes around whole fields, inner quotes "

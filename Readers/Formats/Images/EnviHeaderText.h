@@ -15,8 +15,8 @@ namespace msi
 
 struct EnviValue
 {
-  std::string text; // without braces; line ends became blanks
-  FilePlace place;  // of the key
+  std::string text;                    // without braces; line ends became blanks
+  FilePlace place;                     // of the key
   std::optional<FilePlace> otherPlace; // of the key again, with another value
   bool used = false;
 };

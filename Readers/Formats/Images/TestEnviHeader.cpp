@@ -160,7 +160,8 @@ TEST(EnviHeader, WhatIsWrittenReadsBack)
     Minimal +
       "wavelength = {400.1, 500.25}\nwavelength units = nm\nfwhm = {1.5, 2.5}\nbbl = {0, 1}\n"
       "band names = {a, b}\ndefault bands = {2, 1, 1}\ndata ignore value = -9999\n"
-      "reflectance scale factor = 10000\ndescription = {x}\nsensor type = SPECIM IQ\nx start = 7\n");
+      "reflectance scale factor = 10000\ndescription = {x}\nsensor type = SPECIM IQ\nx start = "
+      "7\n");
   const auto back = parseEnviHeader("b.hdr", enviHeaderText(header));
   EXPECT_EQ(back.info.wavelengths, header.info.wavelengths);
   EXPECT_EQ(back.info.fwhm, header.info.fwhm);
@@ -171,7 +172,8 @@ TEST(EnviHeader, WhatIsWrittenReadsBack)
   EXPECT_EQ(back.info.reflectanceScale, header.info.reflectanceScale);
   EXPECT_EQ(back.info.metadata.at("description"), "x");
   EXPECT_EQ(back.info.metadata.at("sensor type"), "SPECIM IQ");
-  EXPECT_EQ(back.info.metadata.count("x start"), 0u); // what is written may be another part of the image
+  EXPECT_EQ(
+    back.info.metadata.count("x start"), 0u); // what is written may be another part of the image
   header.info.bandNames = { "brace } comma , end\n", "b" };
   EXPECT_EQ(parseEnviHeader("b.hdr", enviHeaderText(header)).info.bandNames,
     (Names{ "brace   comma   end", "b" }));

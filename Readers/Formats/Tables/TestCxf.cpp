@@ -65,7 +65,10 @@ TEST_F(Cxf, EncodingsOtherThanUtf8)
   {
     wide += { c, '\0' };
   }
-  wide.replace(wide.find("8"), 2, std::string("1\0" "6\0", 4));
+  wide.replace(wide.find("8"), 2,
+    std::string("1\0"
+                "6\0",
+      4));
   EXPECT_EQ(readSampleTable(write("a.cxf", wide)).sampleNames(), (Names{ "x" }));
 }
 

@@ -280,7 +280,8 @@ private:
       {
         failAt(placeOf(structure), "the fields of structure '" + name + "' are damaged");
       }
-      const char* text = reinterpret_cast<const char*>(head.data()) + names->data + field * length;
+      const char* text =
+        reinterpret_cast<const char*>(head.data()) + names->data + std::size_t{ field } * length;
       if (size > static_cast<std::int64_t>(TagSize)) // else it is empty
       {
         Element element = structure;

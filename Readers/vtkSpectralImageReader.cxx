@@ -64,8 +64,7 @@ void addDescription(vtkImageData* image, const msi::SpectralImageInfo& info)
     metadata.push_back(key);
     metadata.back().append(" = ").append(value);
   }
-  // Not "Metadata": VTK's legacy format, in which servers send tables, takes that for its own keyword.
-  addField<vtkStringArray>(image, "FileMetadata", metadata);
+  addField<vtkStringArray>(image, msi::FileMetadataArray, metadata);
 }
 }
 

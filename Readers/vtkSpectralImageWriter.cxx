@@ -11,10 +11,13 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 
 #include "Formats/SpectralImageWriter.h"
 
 #include <algorithm>
+#include <cstring>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <set>
@@ -98,6 +101,25 @@ std::vector<double> fieldNumbers(vtkImageData* image, const char* name, std::siz
   return numbers;
 }
 
+// The reader's lines "key = value".
+std::map<std::string, std::string> metadataOf(vtkImageData* image)
+{
+  constexpr const char* separator = " = ";
+  std::map<std::string, std::string> metadata;
+  auto* lines =
+    vtkStringArray::SafeDownCast(image->GetFieldData()->GetAbstractArray(msi::FileMetadataArray));
+  for (vtkIdType i = 0; lines && i < lines->GetNumberOfValues(); ++i)
+  {
+    const std::string line = lines->GetValue(i);
+    const std::size_t at = line.find(separator);
+    if (at != std::string::npos)
+    {
+      metadata.emplace(line.substr(0, at), line.substr(at + std::strlen(separator)));
+    }
+  }
+  return metadata;
+}
+
 msi::SpectralImageInfo infoOf(
   vtkImageData* image, const std::vector<vtkDataArray*>& arrays, const int whole[6])
 {
@@ -131,6 +153,7 @@ msi::SpectralImageInfo infoOf(
       info.goodBands.push_back(good != 0.0);
     }
   }
+  info.metadata = metadataOf(image);
   const std::string name = array->GetName() ? array->GetName() : "";
   info.quantity = name == msi::ReflectanceArray ? "reflectance"
     : name == msi::ResponsesArray               ? "responses"

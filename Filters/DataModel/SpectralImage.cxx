@@ -126,13 +126,18 @@ void replaceArray(vtkImageData* image, vtkDataArray* old, vtkDataArray* array)
   points->SetActiveAttribute(points->AddArray(array), vtkDataSetAttributes::SCALARS);
 }
 
-void setAxis(vtkDataObject* data, vtkDataArray* array, const SpectralAxis& axis)
+void nameComponents(vtkDataArray* array, const SpectralAxis& axis)
 {
   for (std::size_t i = 0; i < axis.size(); ++i)
   {
     const std::string name = axis.wavelengths ? axis.names[i] + " nm" : axis.names[i];
     array->SetComponentName(static_cast<vtkIdType>(i), name.c_str());
   }
+}
+
+void setAxis(vtkDataObject* data, vtkDataArray* array, const SpectralAxis& axis)
+{
+  nameComponents(array, axis);
   for (const char* name : { WavelengthArray, FwhmArray, GoodBandsArray })
   {
     data->GetFieldData()->RemoveArray(name);

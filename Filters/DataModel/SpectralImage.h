@@ -27,6 +27,9 @@ inline constexpr const char* WavelengthArray = "Wavelength";
 inline constexpr const char* FwhmArray = "FWHM"; // field data: nm, one value per component
 inline constexpr const char* GoodBandsArray =
   "GoodBands"; // field data: 0 where a file marks a band as bad
+// Field data: "key = value". Not "Metadata": VTK's legacy format, in which servers send tables, takes that for its own
+// keyword.
+inline constexpr const char* FileMetadataArray = "FileMetadata";
 
 // The spectral array of an image: the named one, else the active scalars (where they are a picture: "Reflectance" or
 // "Responses" beside it), else the only point array.
@@ -47,6 +50,9 @@ vtkSmartPointer<vtkFloatArray> asFloats(vtkDataArray* array);
 // Puts an array in the place of another one (null: of none) and makes it the active scalars. All other arrays
 // stay; vtkPointData::SetScalars would drop the ones that were active before.
 void replaceArray(vtkImageData* image, vtkDataArray* old, vtkDataArray* array);
+
+// Names the array's components.
+void nameComponents(vtkDataArray* array, const SpectralAxis& axis);
 
 // Names the array's components and stores the wavelengths as field data; what else the field data said of the
 // bands that were there before is dropped.

@@ -5,6 +5,7 @@
 #include "SpectralImage.h"
 
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -36,6 +37,23 @@ msi::SpectralAxis subset(const msi::SpectralAxis& axis, const std::vector<std::s
     result.wavelengths = msi::WavelengthGrid(std::move(wavelengths));
   }
   return result;
+}
+
+// The chosen values of a field that has one a channel.
+void addChosen(vtkImageData* output, vtkDataArray* field, std::size_t channels,
+  const std::vector<std::size_t>& chosen)
+{
+  if (!field || field->GetNumberOfTuples() != static_cast<vtkIdType>(channels))
+  {
+    return;
+  }
+  auto cut = vtkSmartPointer<vtkDataArray>::Take(field->NewInstance());
+  cut->SetName(field->GetName());
+  for (const auto i : chosen)
+  {
+    cut->InsertNextTuple(static_cast<vtkIdType>(i), field);
+  }
+  output->GetFieldData()->AddArray(cut);
 }
 }
 
@@ -136,6 +154,10 @@ int vtkChannelSelection::RequestData(
       auto* output = vtkImageData::GetData(outputs, 0);
       output->ShallowCopy(image);
       msi::setAxis(output, cut, subset(axis, chosen));
+      for (const char* name : { msi::FwhmArray, msi::GoodBandsArray })
+      {
+        addChosen(output, image->GetFieldData()->GetArray(name), axis.size(), chosen);
+      }
       msi::replaceArray(output, array, cut);
     });
 }

@@ -311,11 +311,11 @@ int vtkFlatFieldCorrection::RequestData(
       this->DeadCount = dead;
       this->SaturatedCount = saturated;
       const auto axis = msi::axisOf(rawImage, rawArray);
-      msi::setAxis(output, responses, axis);
+      msi::nameComponents(responses, axis);
       msi::replaceArray(output, rawArray, responses);
       if (flags)
       {
-        msi::setAxis(output, mask, axis);
+        msi::nameComponents(mask, axis);
         output->GetPointData()->AddArray(mask);
       }
     });

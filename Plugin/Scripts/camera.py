@@ -4,11 +4,15 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import cameras, command, estimation, pipeline, report  # noqa: E402
+from support import command  # noqa: E402
 
 
 def arguments():
-    parser = command.parser("camera", __doc__)
+    parser = command.parser(
+        "camera", __doc__,
+        "--samples chart.csv --fit",
+        "--samples chart.csv --camera camera.json --effects effects.json",
+        "--image channel_*.tif --labels labels.png --patches patches.csv --camera camera.csv --fit")
     parser.add_argument("--samples", metavar="FILE",
                         help="sample table: reflectance, and the real camera's responses where known")
     parser.add_argument("--image", metavar="FILE", nargs="+",
@@ -43,6 +47,11 @@ def arguments():
     return options
 
 
+OPTIONS = arguments()  # before ParaView is loaded
+
+from support import cameras, estimation, pipeline, report  # noqa: E402
+
+
 def look_at_scene(options, effects, folder):
     """Responses to a reflectance image, of the ideal camera and of the one with effects and noise, and their difference."""
     camera = cameras.read(options.camera)
@@ -70,7 +79,7 @@ def look_at_scene(options, effects, folder):
 
 
 def main():
-    options = arguments()
+    options = OPTIONS
     command.require_files(*(options.image or []), options.samples, options.scene, options.labels, options.patches,
                           options.camera, options.effects)
     folder = command.make_folder(options.output)

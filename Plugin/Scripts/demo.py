@@ -5,7 +5,12 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command, comparison, diagnosis, estimation, pipeline, report  # noqa: E402
+from support import command  # noqa: E402
+
+OPTIONS = command.parser("demo", __doc__, "", "--output demo --ranks 2").parse_args()  # before ParaView is loaded
+
+from support import comparison, diagnosis, estimation, pipeline, report  # noqa: E402
+from support.methods import NAMES  # noqa: E402
 
 TUNING = 16
 DRAWS = 10
@@ -24,7 +29,7 @@ def sample_table(name):
 
 def compare_methods(chart, fabric, folder):
     command.say(f"Methods compared: {TUNING} tuning swatches, {DRAWS} draws, the rest held out")
-    return comparison.compare(chart, fabric, folder=folder, methods=",".join(comparison.METHODS),
+    return comparison.compare(chart, fabric, folder=folder, methods=",".join(NAMES),
                               tuning=TUNING, draws=DRAWS, seed=SEED)
 
 
@@ -69,8 +74,7 @@ def diagnose_capture(folder):
 
 
 def main():
-    options = command.parser("demo", __doc__).parse_args()
-    folder = command.make_folder(options.output)
+    folder = command.make_folder(OPTIONS.output)
     pipeline.load_plugin()
     chart, fabric = sample_table("demo-chart.csv"), sample_table("demo-fabric.csv")
     pipeline.update(chart, fabric)

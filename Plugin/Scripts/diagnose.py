@@ -4,11 +4,14 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command, diagnosis, image_gap, pipeline, report  # noqa: E402
+from support import command  # noqa: E402
 
 
 def arguments():
-    parser = command.parser("diagnose", __doc__)
+    parser = command.parser(
+        "diagnose", __doc__,
+        "capture/",
+        "capture/ --without filter_shift --causes 3 --output gap")
     parser.add_argument("capture", metavar="CAPTURE_DIR",
                         help="folder with capture.json, camera.csv, samples.csv and responses.csv; or with "
                              "images/ (real* and simulated*), or with both")
@@ -27,8 +30,13 @@ def arguments():
     return options
 
 
+OPTIONS = arguments()  # before ParaView is loaded
+
+from support import diagnosis, image_gap, pipeline, report  # noqa: E402
+
+
 def main():
-    options = arguments()
+    options = OPTIONS
     pipeline.load_plugin()
     place = diagnosis.folder_of(options.capture)
     images = image_gap.pair(place)

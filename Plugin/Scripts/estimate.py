@@ -4,14 +4,14 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command, estimation, pipeline, report  # noqa: E402
-
-METHODS = {"direct": "Direct", "pinv": "PINV", "pooled": "Pooled", "r-model": "R-model",
-           "banded": "Banded", "transfer": "Transfer"}
-
+from support import command, methods  # noqa: E402
 
 def arguments():
-    parser = command.parser("estimate", __doc__)
+    parser = command.parser(
+        "estimate", __doc__,
+        "--image channel_*.tif --calibration chart.csv --tuning swatches.csv",
+        "--image cube.hdr --labels labels.png --patches patches.csv --ranks 4",
+        "--image raw.hdr --white white.hdr --dark dark.hdr --calibration chart.csv")
     parser.add_argument("--image", metavar="FILE", nargs="+", required=True,
                         help="the image: one file, or one file per channel")
     parser.add_argument("--calibration", metavar="FILE",
@@ -23,7 +23,7 @@ def arguments():
     parser.add_argument("--labels", metavar="FILE", help="label image of the patches in the image")
     parser.add_argument("--patches", metavar="FILE",
                         help="measured reflectance of the patches, with the column 'label'")
-    parser.add_argument("--method", choices=METHODS, default="transfer",
+    parser.add_argument("--method", choices=methods.NAMES, default="transfer",
                         help="how tuning samples are used (default: %(default)s)")
     parser.add_argument("--wavelengths", metavar="NM", nargs="+", type=float,
                         help="wavelengths of the image's channels, over what the files say")
@@ -35,6 +35,11 @@ def arguments():
     if options.tuning is not None and options.calibration is None:
         parser.error("--tuning goes with --calibration")
     return options
+
+
+OPTIONS = arguments()  # before ParaView is loaded
+
+from support import estimation, pipeline, report  # noqa: E402
 
 
 def require_inputs(options):
@@ -59,7 +64,7 @@ def responses(options, stride=1):
 
 
 def main():
-    options = arguments()
+    options = OPTIONS
     require_inputs(options)
     folder = command.make_folder(options.output)
     pipeline.load_plugin()
@@ -85,7 +90,7 @@ def main():
             else:
                 tuning = pipeline.port(split, 0)
 
-    transforms, summary = estimation.correction(calibration, tuning, METHODS[options.method])
+    transforms, summary = estimation.correction(calibration, tuning, methods.NAMES[options.method])
     reflectance = estimation.estimate(image, transforms, folder)
     estimation.save_reflectance(reflectance, folder)
     view = reflectance, labels

@@ -4,11 +4,14 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command, comparison, pipeline  # noqa: E402
+from support import command, methods  # noqa: E402
 
 
 def arguments():
-    parser = command.parser("evaluate", __doc__)
+    parser = command.parser(
+        "evaluate", __doc__,
+        "--calibration chart.csv --target fabric.csv --tuning 16 --draws 20",
+        "--calibration chart.csv --target fabric.csv --channels 9 --methods direct,transfer")
     parser.add_argument("--calibration", metavar="FILE", required=True,
                         help="sample table of the chart: reflectance and camera responses")
     parser.add_argument("--target", metavar="FILE", required=True,
@@ -21,13 +24,18 @@ def arguments():
                         help="random choices of tuning samples (default: %(default)s)")
     parser.add_argument("--seed", metavar="N", type=command.whole_number(0), default=1,
                         help="seed of the choices (default: %(default)s)")
-    parser.add_argument("--methods", metavar="LIST", default=",".join(comparison.METHODS),
+    parser.add_argument("--methods", metavar="LIST", default=",".join(methods.NAMES),
                         help="methods, separated by commas (default: %(default)s)")
     return parser.parse_args()
 
 
+OPTIONS = arguments()  # before ParaView is loaded
+
+from support import comparison, pipeline  # noqa: E402
+
+
 def main():
-    options = arguments()
+    options = OPTIONS
     command.require_files(options.calibration, options.target)
     folder = command.make_folder(options.output)
     pipeline.load_plugin()

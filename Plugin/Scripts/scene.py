@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command, estimation, pictures, pipeline, report  # noqa: E402
+from support import command  # noqa: E402
 
 SUBJECTS = {"chart24": "Chart of 24 Patches", "chart140": "Chart of 140 Patches", "fabric": "Fabric"}
 
@@ -42,8 +42,13 @@ def arguments():
     return parser.parse_args()
 
 
+OPTIONS = arguments()  # before ParaView is loaded
+
+from support import estimation, pictures, pipeline, report  # noqa: E402
+
+
 def main():
-    options = arguments()
+    options = OPTIONS
     folder = command.make_folder(options.output)
     pipeline.load_plugin()
     scene = pipeline.create("SyntheticScene", Subject=SUBJECTS[options.subject], Size=options.size,

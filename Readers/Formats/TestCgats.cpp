@@ -38,6 +38,12 @@ TEST_F(Cgats, ReadsFieldsAndSets)
   EXPECT_EQ(t.reflectance, (Eigen::Matrix2d() << 0.1, 0.3, 0.2, 0.4).finished());
 }
 
+TEST_F(Cgats, DecimalCommasCount)
+{
+  const SampleTable t = table(Small + "1 a 0,2 0,1\n2 b 0,4 0.3\nEND_DATA\n");
+  EXPECT_EQ(t.reflectance, (Eigen::Matrix2d() << 0.1, 0.3, 0.2, 0.4).finished());
+}
+
 TEST_F(Cgats, TakesTheTableWithSpectra)
 {
   const SampleTable t =

@@ -52,6 +52,24 @@ TEST_F(SampleTables, KnowsEverySpellingOfAWavelengthInAnyOrder)
     (Eigen::RowVectorXd(9) << 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9).finished());
 }
 
+TEST_F(SampleTables, TextOfSpreadsheetPrograms)
+{
+  const std::string latin1 = "sample;400;410\nGr\xFCn;0,1;0,2\n";
+  EXPECT_EQ(table(latin1).sampleNames(), (std::vector<std::string>{ "Gr\xC3\xBCn" }));
+  std::string little = "\xFF\xFE";
+  std::string big = "\xFE\xFF";
+  for (const char c : latin1)
+  {
+    little += { c, '\0' };
+    big += { '\0', c };
+  }
+  EXPECT_EQ(table(little).sampleNames(), (std::vector<std::string>{ "Gr\xC3\xBCn" }));
+  EXPECT_EQ(table(big).sampleNames(), (std::vector<std::string>{ "Gr\xC3\xBCn" }));
+  const SampleTable stated = table("sep=|\r\nsample|400|410\r\na;b|0,1|0,2\r\n");
+  EXPECT_EQ(stated.sampleNames(), (std::vector<std::string>{ "a;b" }));
+  EXPECT_EQ(stated.reflectance.col(0), Eigen::Vector2d(0.1, 0.2));
+}
+
 TEST_F(SampleTables, NumbersOfChannelsAreIndicesBelow200)
 {
   const SampleTable t = table("sample,C2,C10,C1\na,2,10,1\n");

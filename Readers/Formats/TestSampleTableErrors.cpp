@@ -102,8 +102,9 @@ const Case Cases[] = {
   { "Binary", std::string("sample,R400\n\0\x01\x02", 15),
     "t.csv: is a binary file; expected a sample table (CSV, CGATS, CxF3 or MAT); name another "
     "file" },
-  { "Utf16", std::string("\xFF\xFEs\0a\0", 6),
-    "t.csv: is UTF-16 text; expected a sample table (CSV, CGATS, CxF3 or MAT) in UTF-8; save it as "
+  { "DamagedUtf16", std::string("\xFF\xFEs\0\x00\xD8", 6),
+    "t.csv: is damaged UTF-16 text; expected a sample table (CSV, CGATS, CxF3 or MAT) in UTF-8; "
+    "save it as "
     "UTF-8" },
   { "QuoteInsideField", "sample,R400\na\"b,0.1\n",
     "t.csv:2:2: a quote stands inside a field; expected quotes around whole fields, inner quotes "

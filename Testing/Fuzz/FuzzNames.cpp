@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(back && (*back == *number || *number != *number));
   }
   msi::responseColumnNumber(name);
-  msi::fileNameWavelength(name);
+  msi::fileNameWavelengths(name);
   msi::wavelengthInText(name);
   require(!msi::naturalLess(name, name));
   return 0;

@@ -14,11 +14,15 @@ class Parser(argparse.ArgumentParser):
     """Wrong arguments are one line on stderr and exit status 2."""
 
     def error(self, message):
-        leave(f"{message} (see ./multispectral {self.prog} --help)", 2)
+        leave(f"{message} (see {self.prog} --help)", 2)
 
 
-def parser(name, description):
-    arguments = Parser(prog=name, description=description, allow_abbrev=False)
+def parser(name, description, *examples):
+    """examples: arguments of the command, one line each."""
+    program = f"./multispectral {name}"
+    arguments = Parser(prog=program, description=description, allow_abbrev=False,
+                       formatter_class=argparse.RawDescriptionHelpFormatter,
+                       epilog="\n".join(["examples:"] + [f"  {program} {example}".rstrip() for example in examples]))
     arguments.add_argument("--output", metavar="DIR", default=os.path.join("output", name),
                            help="folder for the results (default: %(default)s)")
     arguments.add_argument("--ranks", metavar="N", type=int, default=1,

@@ -4,8 +4,8 @@ import os
 
 from . import command, pictures, pipeline
 from .command import Failure
+from .methods import NAMES
 
-METHODS = ("direct", "pinv", "pooled", "r-model", "banded", "transfer")
 # Numbers of tuning samples of the picture rms against tuning.
 TUNING_STEPS = (4, 6, 10, 16, 24, 36, 48)
 MOST_DRAWS_OF_PICTURE = 10
@@ -48,7 +48,7 @@ def compare(calibration, target, folder, methods, tuning, draws, seed):
                              Draws=min(draws, MOST_DRAWS_OF_PICTURE), Seed=seed)
     pipeline.update(curves)
     pipeline.save_table(pipeline.port(curves, 0), os.path.join(folder, "rms-against-tuning.csv"))
-    chosen = [name for name in METHODS if name in methods.replace(" ", ",").split(",")]
+    chosen = [name for name in NAMES if name in methods.replace(" ", ",").split(",")]
     _draw_spectra(comparison, chosen, os.path.join(folder, "spectra.png"))
     _draw_curves(curves, chosen, os.path.join(folder, "rms-against-tuning.png"))
     _draw_colors(calibration, target, tuning, seed, os.path.join(folder, "ab-distribution.png"))

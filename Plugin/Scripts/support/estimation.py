@@ -20,8 +20,9 @@ Judged = collections.namedtuple("Judged", "errors summary patches")
 def read_image(files, wavelengths=None, stride=1):
     """Camera responses, whatever the file calls them."""
     options = {"Wavelengths": wavelengths} if wavelengths else {}
-    return pipeline.create("SpectralImageReader", FileNames=files, ArrayKind="Responses", Preview=0,
-                           Stride=[stride, stride], **options)
+    # ParaView opens a file as soon as its name is set: what it depends on comes first.
+    return pipeline.create("SpectralImageReader", **options, FileNames=files, ArrayKind="Responses",
+                           Preview=0, Stride=[stride, stride])
 
 
 def read_labels(path, stride=1):

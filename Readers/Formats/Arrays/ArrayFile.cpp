@@ -5,6 +5,7 @@
 #include "Formats/Storage/WholeFile.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace msi
@@ -70,14 +71,22 @@ std::string ArrayFile::shapeText(const NamedArray& array) const
   return text;
 }
 
-std::string ArrayFile::listing() const
+std::string ArrayFile::listing(const std::vector<std::size_t>& which) const
 {
   std::string text;
-  for (std::size_t i = 0; i < std::min(Arrays.size(), MostListed); ++i)
+  for (std::size_t i = 0; i < std::min(which.size(), MostListed); ++i)
   {
-    text += (i > 0 ? ", " : "") + Arrays[i].name + " (" + shapeText(Arrays[i]) + ")";
+    const NamedArray& array = Arrays[which[i]];
+    text += (i > 0 ? ", " : "") + array.name + " (" + shapeText(array) + ")";
   }
-  return text + (Arrays.size() > MostListed ? ", ..." : "");
+  return text + (which.size() > MostListed ? ", ..." : "");
+}
+
+std::string ArrayFile::listing() const
+{
+  std::vector<std::size_t> all(Arrays.size());
+  std::iota(all.begin(), all.end(), 0);
+  return listing(all);
 }
 
 bool looksLikeMat5(std::string_view beginning) noexcept

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace msi
@@ -41,9 +42,14 @@ public:
 
   const std::string& path() const noexcept { return Path; }
   const std::vector<NamedArray>& arrays() const noexcept { return Arrays; }
+  // Short vectors of numbers that are attributes of arrays and groups (HDF5), "cube.wavelengths".
+  const std::vector<std::pair<std::string, std::vector<double>>>& attributes() const noexcept
+  {
+    return Attributes;
+  }
   // MATLAB wrote it: the fastest axis counts rows.
   bool isMatlab() const noexcept { return Matlab; }
-  // What the file holds besides: "structures are not looked into".
+  // What the file holds besides: "2 variables were left out".
   const std::vector<std::string>& notes() const noexcept { return Notes; }
 
   // The samples in the byte order of the machine. Errors: FormatError naming file and array.
@@ -54,7 +60,8 @@ public:
   std::vector<double> readAll(std::size_t array) const;
   // The array of that name. Errors: FormatError listing the names there are.
   std::size_t require(const std::string& name) const;
-  // "munsell (31 x 32), C (16 x 32)", axes in the order of the program that wrote the file.
+  // "munsell (31 x 32), C (16 x 32)", axes in the order of the program that wrote the file; of these arrays, or all.
+  std::string listing(const std::vector<std::size_t>& which) const;
   std::string listing() const;
   std::string shapeText(const NamedArray& array) const;
 
@@ -63,6 +70,7 @@ protected:
 
   std::string Path;
   std::vector<NamedArray> Arrays;
+  std::vector<std::pair<std::string, std::vector<double>>> Attributes;
   std::vector<std::string> Notes;
   bool Matlab = false;
 };

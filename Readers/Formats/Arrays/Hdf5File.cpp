@@ -4,6 +4,7 @@
 #include "Formats/Storage/WholeFile.h"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -169,8 +170,11 @@ public:
       if (dataset.ok())
       {
         add(dataset, name);
+        addAttributes(dataset, name + ".");
       }
     }
+    const Handle root(H5Gopen2(File, "/", H5P_DEFAULT), H5Gclose);
+    addAttributes(root, "");
     if (Arrays.empty())
     {
       throw FormatError(path, "holds no array of real numbers",
@@ -208,12 +212,63 @@ public:
         0;
     if (!done)
     {
+      requireFilters(dataset, array.name);
       throw FormatError(Path, "dataset '" + array.name + "' cannot be read",
         "a complete HDF5 or MAT 7.3 file", "the file seems to be cut off or damaged");
     }
   }
 
 private:
+  // Compression comes as plugins, which this library may lack.
+  void requireFilters(hid_t dataset, const std::string& name) const
+  {
+    const Handle properties(H5Dget_create_plist(dataset), H5Pclose);
+    const int count = H5Pget_nfilters(properties);
+    for (int i = 0; i < count; ++i)
+    {
+      std::array<char, 64> text{};
+      unsigned flags = 0;
+      unsigned configuration = 0;
+      std::size_t values = 0;
+      const H5Z_filter_t filter = H5Pget_filter2(properties, static_cast<unsigned>(i), &flags,
+        &values, nullptr, text.size() - 1, text.data(), &configuration);
+      if (H5Zfilter_avail(filter) <= 0)
+      {
+        throw FormatError(Path,
+          "dataset '" + name + "' is compressed by the filter " + std::to_string(filter) + " (" +
+            text.data() + "), which this HDF5 library does not have",
+          "none, or gzip", "write the file anew: h5repack -f GZIP=4");
+      }
+    }
+  }
+
+  // Attributes that are vectors of numbers; others are passed over.
+  void addAttributes(hid_t object, const std::string& prefix)
+  {
+    constexpr hssize_t most = 1 << 16;
+    const int count = H5Aget_num_attrs(object);
+    for (int i = 0; i < count; ++i)
+    {
+      const Handle attribute(H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC,
+                               static_cast<hsize_t>(i), H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
+      const Handle type(H5Aget_type(attribute), H5Tclose);
+      const Handle space(H5Aget_space(attribute), H5Sclose);
+      const hssize_t length = H5Sget_simple_extent_npoints(space);
+      std::array<char, 256> name{};
+      if (!type.ok() || !sampleTypeOf(type) || H5Sget_simple_extent_ndims(space) != 1 ||
+        length < 2 || length > most || H5Aget_name(attribute, name.size(), name.data()) < 0)
+      {
+        continue;
+      }
+      std::vector<double> values(static_cast<std::size_t>(length));
+      if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()) >= 0)
+      {
+        Attributes.emplace_back(prefix + name.data(), std::move(values));
+      }
+    }
+  }
+
   // Only collects names: no exception may pass through the library.
   static herr_t onObject(hid_t, const char* name, const H5O_info_t* info, void* names) noexcept
   {

@@ -1,3 +1,4 @@
+#include "Formats/Arrays/Mat5Elements.h"
 #include "Formats/Arrays/MatFile.h"
 
 #include <algorithm>
@@ -12,17 +13,20 @@ namespace msi
 namespace
 {
 constexpr std::int64_t FileHeaderSize = 128;
-constexpr std::size_t TagSize = 8;
 constexpr std::size_t HeadSize =
   4096; // flags, shape and name of a variable and the tag of its data
 constexpr std::uint32_t Matrix = 14;
 constexpr std::uint32_t Compressed = 15;
 constexpr std::uint32_t LongestName = 1024;
 constexpr std::uint32_t MostAxes = 32;
+constexpr std::uint32_t ClassMask = 0xFF;
 constexpr std::uint32_t ComplexFlag = 0x800;
+
+constexpr int DeepestStructure = 8;
 
 enum ArrayClass : std::uint32_t
 {
+  StructureClass = 2,
   CharClass = 4,
   DoubleClass = 6,
   UInt64Class = 15
@@ -58,60 +62,6 @@ std::optional<SampleType> sampleTypeOf(std::uint32_t code)
       return std::nullopt;
   }
 }
-
-struct Tag
-{
-  std::uint32_t type;
-  std::uint32_t size;
-  std::size_t data; // where the data begin
-  std::size_t next; // where the next tag begins
-};
-
-// The elements at the beginning of a variable, as far as 'bytes' reach.
-class ElementReader
-{
-public:
-  ElementReader(const std::vector<unsigned char>& bytes, bool swap)
-    : Bytes(bytes)
-    , Swap(swap)
-  {
-  }
-
-  std::uint32_t word(std::size_t at) const
-  {
-    std::uint32_t value = 0;
-    std::memcpy(&value, Bytes.data() + at, sizeof(value));
-    return Swap ? __builtin_bswap32(value) : value;
-  }
-
-  // Nothing where the tag does not lie within the bytes.
-  std::optional<Tag> tagAt(std::size_t at) const
-  {
-    if (at + TagSize > Bytes.size())
-    {
-      return std::nullopt;
-    }
-    const std::uint32_t first = word(at);
-    if (first >> 16 != 0) // up to four bytes stand within the tag itself
-    {
-      return Tag{ first & 0xFFFF, std::min<std::uint32_t>(first >> 16, 4), at + 4, at + TagSize };
-    }
-    const std::uint32_t size = word(at + 4);
-    const std::size_t padded = (std::size_t{ size } + 7) / 8 * 8;
-    return Tag{ first, size, at + TagSize, at + TagSize + padded };
-  }
-
-  // The tag, if all of its data lie within the bytes too.
-  std::optional<Tag> wholeAt(std::size_t at) const
-  {
-    const auto tag = tagAt(at);
-    return tag && tag->data + tag->size <= Bytes.size() ? tag : std::nullopt;
-  }
-
-private:
-  const std::vector<unsigned char>& Bytes;
-  bool Swap;
-};
 
 // Source: The MathWorks, "MAT-File Format", section "Level 5 MAT-File Format".
 class Mat5File final : public MatFile
@@ -158,8 +108,8 @@ private:
     requireInside(data, size);
     if (type == Matrix)
     {
-      const auto head = bytesAt(at, std::min<std::int64_t>(size + 8, HeadSize));
-      describe(head, at, { at, false, 0, 0 }, size + 8);
+      Element element{ {}, { at, false, 0, 0 }, size + 8, nullptr };
+      describe(element);
     }
     else if (type == Compressed)
     {
@@ -187,40 +137,161 @@ private:
       ++LeftOut;
       return;
     }
-    describe(head, data, { 0, true, data, size },
-      std::int64_t{ reader.word(4) } + static_cast<std::int64_t>(TagSize));
+    const std::int64_t length = std::int64_t{ reader.word(4) } + static_cast<std::int64_t>(TagSize);
+    Element element{ {}, { 0, true, data, size }, length, &head };
+    if ((flagsOf(element) & ClassMask) == StructureClass)
+    {
+      const auto all = bytesAt(data, size);
+      if (!inflateBytes(all, static_cast<std::size_t>(length), head))
+      {
+        failAt(data, "a compressed structure cannot be inflated");
+      }
+    }
+    describe(element);
   }
 
-  // 'head' begins with the tag of the variable, which 'length' bytes belong to. 'where' says from where
-  // the offsets of 'data' count.
-  void describe(
-    const std::vector<unsigned char>& head, std::int64_t where, MatData data, std::int64_t length)
+  // A variable or a field of a structure, from its tag on.
+  struct Element
   {
+    std::string
+      name;       // of a field, with those of the structures around it; empty: as the element says
+    MatData data; // 'offset' is where it begins, in the file or in the inflated bytes
+    std::int64_t length;
+    const std::vector<unsigned char>* inflated; // all of the compressed variable, or its beginning
+  };
+
+  std::int64_t placeOf(const Element& element) const
+  {
+    return element.data.compressed ? element.data.elementOffset : element.data.offset;
+  }
+
+  // The beginning of an element, or a part of it 'from' there; fewer bytes at its end.
+  std::vector<unsigned char> beginningOf(const Element& element, std::int64_t from = 0) const
+  {
+    const std::int64_t count =
+      std::min<std::int64_t>(element.length - from, static_cast<std::int64_t>(HeadSize));
+    if (count <= 0)
+    {
+      return {};
+    }
+    const std::int64_t begin = element.data.offset + from;
+    if (element.inflated == nullptr)
+    {
+      return bytesAt(begin, count);
+    }
+    const auto end = static_cast<std::int64_t>(element.inflated->size());
+    return { element.inflated->begin() + std::min(begin, end),
+      element.inflated->begin() + std::min(begin + count, end) };
+  }
+
+  std::uint32_t flagsOf(const Element& element) const
+  {
+    const auto head = beginningOf(element);
     const ElementReader reader(head, SwapBytes);
+    const auto flags = reader.wholeAt(TagSize);
+    if (!flags || flags->size < 8)
+    {
+      failAt(placeOf(element), "the flags of a variable are missing");
+    }
+    return reader.word(flags->data);
+  }
+
+  struct Description
+  {
+    Tag shape;
+    Tag name;
+    Tag values; // or the length of the names of a structure's fields
+  };
+
+  static std::optional<Description> descriptionOf(const ElementReader& reader)
+  {
     const auto flags = reader.wholeAt(TagSize);
     const auto shape = flags ? reader.wholeAt(flags->next) : std::nullopt;
     const auto name = shape ? reader.wholeAt(shape->next) : std::nullopt;
     const auto values = name ? reader.tagAt(name->next) : std::nullopt;
-    if (!flags || flags->size < 8)
+    if (!values || shape->size % 4 != 0 || shape->size / 4 < 2 || shape->size / 4 > MostAxes ||
+      name->size > LongestName)
     {
-      failAt(where, "the flags of a variable are missing");
+      return std::nullopt;
     }
-    const std::uint32_t kind = reader.word(flags->data) & 0xFF;
+    return Description{ *shape, *name, *values };
+  }
+
+  void describe(const Element& element, int depth = 0)
+  {
+    const std::uint32_t flags = flagsOf(element);
+    const std::uint32_t kind = flags & ClassMask;
     const bool isNumeric = kind >= DoubleClass && kind <= UInt64Class;
-    if ((!isNumeric && kind != CharClass) || (reader.word(flags->data) & ComplexFlag) != 0)
+    if ((!isNumeric && kind != CharClass && kind != StructureClass) || (flags & ComplexFlag) != 0 ||
+      depth > DeepestStructure)
     {
       ++LeftOut;
       return;
     }
-    if (!shape || !name || !values || shape->size % 4 != 0 || shape->size / 4 < 2 ||
-      shape->size / 4 > MostAxes || name->size > LongestName)
+    const auto head = beginningOf(element);
+    const ElementReader reader(head, SwapBytes);
+    const auto description = descriptionOf(reader);
+    if (!description)
     {
-      failAt(where, "the description of a variable is damaged");
+      failAt(placeOf(element), "the description of a variable is damaged");
     }
-    NamedArray array{ std::string(
-                        reinterpret_cast<const char*>(head.data()) + name->data, name->size),
-      shapeAt(reader, *shape), SampleType::UInt8, kind == CharClass };
-    addValues(std::move(array), *values, where, data, length);
+    const Tag name = description->name;
+    const std::string known = element.name.empty()
+      ? std::string(reinterpret_cast<const char*>(head.data()) + name.data, name.size)
+      : element.name;
+    const auto axes = shapeAt(reader, description->shape);
+    if (kind != StructureClass)
+    {
+      addValues(
+        { known, axes, SampleType::UInt8, kind == CharClass }, description->values, element);
+    }
+    else if (std::all_of(axes.begin(), axes.end(), [](std::int64_t axis) { return axis == 1; }))
+    {
+      describeFields(element, known, static_cast<std::int64_t>(name.next), depth);
+    }
+    else
+    {
+      ++LeftOut;
+    }
+  }
+
+  // The length of the names, all names padded to it, and one element a field.
+  void describeFields(const Element& structure, const std::string& name, std::int64_t at, int depth)
+  {
+    const auto head = beginningOf(structure, at);
+    const ElementReader reader(head, SwapBytes);
+    const auto lengthTag = reader.wholeAt(0);
+    const auto names = lengthTag ? reader.wholeAt(lengthTag->next) : std::nullopt;
+    const std::uint32_t length =
+      lengthTag && lengthTag->size == 4 ? reader.word(lengthTag->data) : 0;
+    if (!names || length == 0 || names->size % length != 0)
+    {
+      failAt(placeOf(structure), "the fields of structure '" + name + "' are damaged, or too many");
+    }
+    at += static_cast<std::int64_t>(names->next);
+    for (std::uint32_t field = 0; field < names->size / length; ++field)
+    {
+      const auto bytes = beginningOf(structure, at);
+      const ElementReader tag(bytes, SwapBytes);
+      const std::int64_t size = bytes.size() < TagSize
+        ? structure.length
+        : std::int64_t{ tag.word(4) } + static_cast<std::int64_t>(TagSize);
+      if (size > structure.length - at || tag.word(0) != Matrix)
+      {
+        failAt(placeOf(structure), "the fields of structure '" + name + "' are damaged");
+      }
+      const char* text =
+        reinterpret_cast<const char*>(head.data()) + names->data + std::size_t{ field } * length;
+      if (size > static_cast<std::int64_t>(TagSize)) // else it is empty
+      {
+        Element element = structure;
+        element.name = name + "." + std::string(text, ::strnlen(text, length));
+        element.data.offset += at;
+        element.length = size;
+        describe(element, depth + 1);
+      }
+      at += size;
+    }
   }
 
   static std::vector<std::int64_t> shapeAt(const ElementReader& reader, const Tag& tag)
@@ -233,9 +304,9 @@ private:
     return shape;
   }
 
-  void addValues(
-    NamedArray array, const Tag& values, std::int64_t where, MatData data, std::int64_t length)
+  void addValues(NamedArray array, const Tag& values, const Element& element)
   {
+    const std::int64_t where = placeOf(element);
     std::int64_t count = 1;
     for (const std::int64_t axis : array.shape)
     {
@@ -244,7 +315,7 @@ private:
         ++LeftOut;
         return;
       }
-      if (count > length / axis)
+      if (count > element.length / axis)
       {
         failAt(where, "variable '" + array.name + "' is larger than its element, which stands");
       }
@@ -253,8 +324,10 @@ private:
     const auto type = sampleTypeOf(values.type);
     array.type = type.value_or(SampleType::UInt8);
     const std::int64_t bytes = count * static_cast<std::int64_t>(sampleSize(array.type));
+    MatData data = element.data;
     data.offset += static_cast<std::int64_t>(values.data);
-    if (!type || bytes > values.size || static_cast<std::int64_t>(values.data) + bytes > length)
+    if (!type || bytes > values.size ||
+      static_cast<std::int64_t>(values.data) + bytes > element.length)
     {
       failAt(where,
         "variable '" + array.name + "' has fewer values than its shape asks for, which stands");

@@ -108,7 +108,6 @@ void MatFile::add(NamedArray array, const MatData& data)
 {
   Arrays.push_back(std::move(array));
   Data.push_back(data);
-  Inflated.emplace_back();
 }
 
 void MatFile::noteLeftOut()
@@ -116,26 +115,34 @@ void MatFile::noteLeftOut()
   if (LeftOut > 0)
   {
     Notes.push_back(std::to_string(LeftOut) +
-      " variables were left out: structures, cells, sparse, complex or empty arrays");
+      " variables were left out: cells, arrays of structures, sparse, complex or empty arrays");
   }
   if (Arrays.empty())
   {
     throw FormatError(Path, "holds no array of real numbers",
-      "a MAT file with matrices at its top level", "save the matrices outside of structures");
+      "a MAT file with matrices, or structures of them", "save the matrices by themselves");
   }
 }
 
 const std::vector<unsigned char>& MatFile::inflated(std::size_t array) const
 {
   const std::lock_guard<std::mutex> lock(Mutex);
-  std::vector<unsigned char>& bytes = Inflated[array];
+  const MatData& data = Data[array];
+  std::vector<unsigned char>& bytes = Inflated[data.elementOffset];
   if (bytes.empty())
   {
-    const MatData& data = Data[array];
     std::vector<unsigned char> stream(static_cast<std::size_t>(data.elementSize));
     File.read(data.elementOffset, stream.data(), stream.size());
-    const std::size_t needed = static_cast<std::size_t>(data.offset) +
-      static_cast<std::size_t>(Arrays[array].count()) * sampleSize(Arrays[array].type);
+    std::size_t needed = 0;
+    for (std::size_t i = 0; i < Data.size(); ++i)
+    {
+      if (Data[i].compressed && Data[i].elementOffset == data.elementOffset)
+      {
+        needed = std::max(needed,
+          static_cast<std::size_t>(Data[i].offset) +
+            static_cast<std::size_t>(Arrays[i].count()) * sampleSize(Arrays[i].type));
+      }
+    }
     std::vector<unsigned char> whole;
     // One more byte than needed makes zlib compare its checksum at the end of the stream.
     if (!inflateBytes(stream, needed + 8, whole) || whole.size() < needed)

@@ -4,6 +4,7 @@
 #include "Formats/Arrays/ArrayFile.h"
 #include "Formats/Storage/RandomAccessFile.h"
 
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ class MatFile : public ArrayFile
 {
 public:
   // Arrays that are not compressed are read from the file part by part; compressed ones are inflated as
-  // a whole and kept.
+  // a whole and kept, the fields of a structure together.
   void read(
     std::size_t array, const ArrayPart& part, std::vector<unsigned char>& bytes) const override;
 
@@ -39,14 +40,14 @@ protected:
 
   RandomAccessFile File;
   bool SwapBytes = false;
-  int LeftOut = 0; // variables that are no arrays of real numbers
+  int LeftOut = 0; // variables, and fields of structures, that are no arrays of real numbers
 
 private:
   const std::vector<unsigned char>& inflated(std::size_t array) const;
 
   std::vector<MatData> Data;
   mutable std::mutex Mutex;
-  mutable std::vector<std::vector<unsigned char>> Inflated;
+  mutable std::map<std::int64_t, std::vector<unsigned char>> Inflated; // by place of the element
 };
 
 // At most 'most' bytes of a zlib stream; fewer where it ends before. Nothing where it is damaged.

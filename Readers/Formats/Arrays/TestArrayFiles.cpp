@@ -75,6 +75,37 @@ TEST_P(ArrayFiles, ACubeIsAnImage)
   EXPECT_EQ(part, (Numbers{ 111, 113, 121, 123 }));
 }
 
+TEST_P(ArrayFiles, StructuresAreLookedInto)
+{
+  writer().addStructure("data", "rad", { 2, 3, 4 }, cube(), "bands", { 400, 500, 600, 700 });
+  const auto file = openSpectralImage(path("a.mat"));
+  EXPECT_EQ(file->info().wavelengths, (Numbers{ 400, 500, 600, 700 }));
+  EXPECT_EQ(allOf(*file),
+    (Numbers{ 0, 1, 2, 3, 10, 11, 12, 13, 20, 21, 22, 23, 100, 101, 102, 103, 110, 111, 112, 113,
+      120, 121, 122, 123 }));
+  const std::string separator = GetParam() == MAT_FT_MAT5 ? "." : "/";
+  EXPECT_EQ(file->info().notes, (Names{ "wavelengths are those of 'data" + separator + "bands'" }));
+  msi::SpectralImageOptions options;
+  options.variable = "data" + separator + "rad";
+  EXPECT_EQ(openSpectralImage(path("a.mat"), options)->info().bands(), 4);
+}
+
+TEST_P(ArrayFiles, OfSeveralCubesThatOfTheWavelengthsIsMeant)
+{
+  writer()
+    .add("rgb", { 4, 2, 3 }, cube())
+    .add("rad", { 2, 3, 4 }, cube())
+    .add("bands", { 1, 4 }, Numbers{ 1, 2, 3, 4 });
+  EXPECT_NE(imageError(), ""); // both have an axis of four, and the bands are only counted
+  writer()
+    .add("rgb", { 8, 1, 3 }, cube())
+    .add("rad", { 2, 3, 4 }, cube())
+    .add("bands", { 1, 4 }, Numbers{ 400, 500, 600, 700 });
+  const auto file = openSpectralImage(path("a.mat"));
+  EXPECT_EQ(file->info().metadata.at("variable"), "rad");
+  EXPECT_EQ(file->info().wavelengths, (Numbers{ 400, 500, 600, 700 }));
+}
+
 TEST_P(ArrayFiles, WavelengthsTellTheSpectralAxis)
 {
   // Bands, rows, columns: 2 x 3 x 4.
@@ -113,7 +144,7 @@ TEST_P(ArrayFiles, ImageErrorsListTheArrays)
     .add("b", { 4, 3, 2 }, cube())
     .add("v", { 1, 2 }, Numbers{ 1, 2 });
   EXPECT_EQ(imageError(),
-    "a.mat: holds several arrays of three axes: a (2 x 3 x 4), b (4 x 3 x 2), v (1 x 2); expected "
+    "a.mat: holds several arrays of three axes: a (2 x 3 x 4), b (4 x 3 x 2); expected "
     "one "
     "array of rows, columns and bands; name the one to read");
   msi::SpectralImageOptions options;

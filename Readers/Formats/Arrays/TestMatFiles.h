@@ -61,6 +61,27 @@ public:
     write(name, shape, &both, MAT_C_DOUBLE, MAT_T_DOUBLE, MAT_F_COMPLEX);
     return *this;
   }
+  // A structure with a cube of these columns and a vector of numbers.
+  MatWriter& addStructure(const std::string& name, const std::string& cubeName,
+    std::vector<std::size_t> shape, std::vector<unsigned short> cube, const std::string& vectorName,
+    std::vector<double> vector)
+  {
+    const char* fields[] = { cubeName.c_str(), vectorName.c_str() };
+    std::vector<std::size_t> one{ 1, 1 };
+    std::vector<std::size_t> row{ 1, vector.size() };
+    const std::unique_ptr<matvar_t, void (*)(matvar_t*)> structure(
+      Mat_VarCreateStruct(name.c_str(), 2, one.data(), fields, 2), Mat_VarFree);
+    Mat_VarSetStructFieldByName(structure.get(), fields[0], 0,
+      Mat_VarCreate(nullptr, MAT_C_UINT16, MAT_T_UINT16, static_cast<int>(shape.size()),
+        shape.data(), cube.data(), 0));
+    Mat_VarSetStructFieldByName(structure.get(), fields[1], 0,
+      Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, row.data(), vector.data(), 0));
+    if (Mat_VarWrite(File.get(), structure.get(), MAT_COMPRESSION_ZLIB) != 0)
+    {
+      throw std::runtime_error("cannot write structure " + name);
+    }
+    return *this;
+  }
 
 private:
   void write(const std::string& name, std::vector<std::size_t>& shape, void* data,

@@ -38,7 +38,8 @@ std::vector<std::size_t> longAxes(const NamedArray& array)
   return axes;
 }
 
-std::size_t chooseArray(const ArrayFile& file, const std::string& variable)
+// Where several arrays have three axes, that with one as long as the wavelengths.
+std::size_t chooseArray(const ArrayFile& file, const std::string& variable, std::size_t wavelengths)
 {
   if (!variable.empty())
   {
@@ -60,11 +61,24 @@ std::size_t chooseArray(const ArrayFile& file, const std::string& variable)
       cubes.push_back(i);
     }
   }
+  std::vector<std::size_t> fitting;
+  for (const std::size_t i : cubes)
+  {
+    const auto& shape = file.arrays()[i].shape;
+    if (std::count(shape.begin(), shape.end(), static_cast<std::int64_t>(wavelengths)) > 0)
+    {
+      fitting.push_back(i);
+    }
+  }
+  if (cubes.size() > 1 && wavelengths > 1 && fitting.size() == 1)
+  {
+    return fitting[0];
+  }
   if (cubes.size() != 1)
   {
     throw FormatError(file.path(),
       cubes.empty() ? "holds no array of three axes, only " + file.listing()
-                    : "holds several arrays of three axes: " + file.listing(),
+                    : "holds several arrays of three axes: " + file.listing(cubes),
       "one array of rows, columns and bands",
       cubes.empty() ? "read it as a sample table, or name a matrix" : "name the one to read");
   }
@@ -149,7 +163,9 @@ public:
   ArrayImageOpener(std::unique_ptr<ArrayFile> file, const SpectralImageOptions& options)
     : File(std::move(file))
     , Options(options)
-    , Index(chooseArray(*File, options.variable))
+    , Wavelengths(
+        options.wavelengths.empty() ? findWavelengths(*File, Source) : options.wavelengths)
+    , Index(chooseArray(*File, options.variable, Wavelengths.size()))
     , Array(File->arrays()[Index])
   {
   }
@@ -157,9 +173,6 @@ public:
   std::unique_ptr<SpectralImageFile> open()
   {
     Info.notes = File->notes();
-    std::string source;
-    Wavelengths =
-      Options.wavelengths.empty() ? findWavelengths(*File, source) : Options.wavelengths;
     chooseAxes();
     Info.width = length(Axes.column);
     Info.height = length(Axes.row);
@@ -170,7 +183,7 @@ public:
     {
       Info.bandNames.push_back("Band " + std::to_string(b));
     }
-    takeWavelengths(source);
+    takeWavelengths();
     std::vector<int> order = sortByWavelength(Info);
     return std::make_unique<ArrayImage>(
       std::move(File), Index, Axes, std::move(Info), std::move(order));
@@ -222,7 +235,7 @@ private:
     return chosen;
   }
 
-  void takeWavelengths(const std::string& source)
+  void takeWavelengths()
   {
     if (!Options.wavelengths.empty())
     {
@@ -231,11 +244,11 @@ private:
     else if (static_cast<int>(Wavelengths.size()) == Info.bands())
     {
       Info.wavelengths = Wavelengths;
-      Info.notes.push_back("wavelengths are those of '" + source + "'");
+      Info.notes.push_back("wavelengths are those of '" + Source + "'");
     }
     else if (!Wavelengths.empty())
     {
-      Info.notes.push_back("the wavelengths are unknown: '" + source + "' has " +
+      Info.notes.push_back("the wavelengths are unknown: '" + Source + "' has " +
         std::to_string(Wavelengths.size()) + " values, the image " + std::to_string(Info.bands()) +
         " bands");
     }
@@ -243,10 +256,11 @@ private:
 
   std::unique_ptr<ArrayFile> File;
   const SpectralImageOptions& Options;
+  std::string Source; // of the wavelengths
+  std::vector<double> Wavelengths;
   std::size_t Index;
   const NamedArray& Array;
   CubeAxes Axes;
-  std::vector<double> Wavelengths;
   SpectralImageInfo Info;
 };
 }

@@ -30,6 +30,49 @@ bool isSpectralExr(const OIIO::ImageSpec& spec)
     [](const std::string& name) { return parseSpectralExrName(name).has_value(); });
 }
 
+bool areApart(std::vector<FileNameWavelength> named)
+{
+  std::sort(named.begin(), named.end(),
+    [](const auto& a, const auto& b) { return a.nanometres < b.nanometres; });
+  return std::adjacent_find(named.begin(), named.end(),
+           [](const auto& a, const auto& b)
+           { return b.nanometres - a.nanometres < SmallestFileNameStep; }) == named.end();
+}
+
+bool allHaveUnits(const std::vector<FileNameWavelength>& named)
+{
+  return std::all_of(named.begin(), named.end(), [](const auto& name) { return name.hasUnit; });
+}
+
+// One number of each name, of which there is at least one: the last one that tells all names apart (scene_450_gain200),
+// else the last.
+std::vector<FileNameWavelength> chosenNumbers(
+  const std::vector<std::vector<FileNameWavelength>>& numbers)
+{
+  const std::size_t count = numbers.front().size();
+  const bool alike = std::all_of(
+    numbers.begin(), numbers.end(), [count](const auto& name) { return name.size() == count; });
+  std::vector<FileNameWavelength> chosen;
+  for (std::size_t fromLast = 1; fromLast <= (alike ? count : 1); ++fromLast)
+  {
+    std::vector<FileNameWavelength> column;
+    column.reserve(numbers.size());
+    for (const auto& name : numbers)
+    {
+      column.push_back(name[name.size() - fromLast]);
+    }
+    if (areApart(column))
+    {
+      return column;
+    }
+    if (chosen.empty())
+    {
+      chosen = std::move(column);
+    }
+  }
+  return chosen;
+}
+
 class BandFinder
 {
 public:
@@ -134,6 +177,20 @@ private:
       else
       {
         addPage(static_cast<int>(page));
+      }
+    }
+    takeListOfAllPages();
+  }
+
+  // The first page may list the wavelengths of all.
+  void takeListOfAllPages()
+  {
+    const std::vector<double> list = metadataWavelengths(current().pages()[0]);
+    if (list.size() == Found.bands.size() && !allHaveWavelengths())
+    {
+      for (std::size_t b = 0; b < list.size(); ++b)
+      {
+        Found.bands[b].wavelength = list[b];
       }
     }
   }
@@ -245,24 +302,18 @@ private:
       Found.notes.emplace_back("wavelengths are those in the metadata of the files");
       return;
     }
-    std::vector<FileNameWavelength> named;
+    std::vector<std::vector<FileNameWavelength>> numbers; // in each name
     for (const BandSource& band : Found.bands)
     {
-      const auto name = fileNameWavelength(Found.files[band.file]->path());
-      if (!name)
+      numbers.push_back(fileNameWavelengths(Found.files[band.file]->path()));
+      if (numbers.back().empty())
       {
         forgetWavelengths(Found.files[band.file]->path() + " has none in its name");
         return;
       }
-      named.push_back(*name);
     }
-    auto sorted = named;
-    std::sort(sorted.begin(), sorted.end(),
-      [](const auto& a, const auto& b) { return a.nanometres < b.nanometres; });
-    const auto close = std::adjacent_find(sorted.begin(), sorted.end(),
-      [](const auto& a, const auto& b)
-      { return !(a.hasUnit && b.hasUnit) && b.nanometres - a.nanometres < SmallestFileNameStep; });
-    if (close != sorted.end())
+    const auto named = chosenNumbers(numbers);
+    if (!areApart(named) && !allHaveUnits(named))
     {
       forgetWavelengths("the numbers in the file names seem to count images");
       return;

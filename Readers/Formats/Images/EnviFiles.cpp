@@ -4,10 +4,12 @@
 #include "Formats/Images/EnviHeader.h"
 #include "Formats/Storage/WholeFile.h"
 #include "Formats/Text/NumberText.h"
+#include "Formats/Text/TextEncoding.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -18,7 +20,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::size_t BeginningSize = 8;
+constexpr std::size_t BeginningSize = 16; // of UTF-16 too
 constexpr std::array<const char*, 8> DataExtensions = { ".img", ".dat", ".raw", ".bil", ".bsq",
   ".bip", ".bin", ".cube" };
 
@@ -30,7 +32,7 @@ bool isFile(const std::string& path)
 
 bool isHeader(const std::string& path)
 {
-  return looksLikeEnviHeader(readFileBeginning(path, BeginningSize));
+  return looksLikeEnviHeader(asUtf8(readFileBeginning(path, BeginningSize)).value_or(""));
 }
 
 bool hasHeaderExtension(const std::string& path)
@@ -49,7 +51,30 @@ std::string withoutExtension(const std::string& path)
   return fs::path(path).replace_extension().string();
 }
 
-// NAME.img for NAME.hdr or NAME.img.hdr; the first of the known names that exists.
+// STEM with any other extension, but that of a header, a picture, a text or a table: makers have their own (.hyspex).
+std::vector<std::string> filesNamed(const std::string& stem)
+{
+  static constexpr std::array<std::string_view, 14> Others = { ".hdr", ".png", ".jpg", ".jpeg",
+    ".tif", ".tiff", ".bmp", ".txt", ".log", ".xml", ".json", ".csv", ".pdf", ".enp" };
+  std::vector<std::string> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(
+         fs::path(stem).parent_path().empty() ? fs::path(".") : fs::path(stem).parent_path(),
+         error);
+       !error && entry != fs::directory_iterator(); entry.increment(error))
+  {
+    const std::string path = (fs::path(stem).parent_path() / entry->path().filename()).string();
+    const std::string extension = lowerCase(entry->path().extension().string());
+    if (withoutExtension(path) == stem && isFile(path) &&
+      std::find(Others.begin(), Others.end(), extension) == Others.end())
+    {
+      found.push_back(path);
+    }
+  }
+  return found;
+}
+
+// NAME.img for NAME.hdr or NAME.img.hdr; the first of the known names that exists, else the only file of that name.
 std::string dataFileOf(const std::string& header)
 {
   std::string stem = withoutExtension(header);
@@ -72,10 +97,17 @@ std::string dataFileOf(const std::string& header)
       }
     }
   }
+  const auto others = filesNamed(stem);
+  if (others.size() == 1)
+  {
+    return others.front();
+  }
   const std::string name = fs::path(stem).filename().string();
-  throw FormatError(header, "has no data file beside it",
+  throw FormatError(header,
+    others.empty() ? "has no data file beside it"
+                   : "has several files beside it that may be its data",
     name + " or " + name + " with .img, .dat, .raw, .bil, .bsq, .bip, .bin or .cube",
-    "put the data file beside the header");
+    others.empty() ? "put the data file beside the header" : "open the data file instead");
 }
 }
 

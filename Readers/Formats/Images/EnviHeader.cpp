@@ -46,8 +46,9 @@ constexpr std::array<std::pair<Interleave, const char*>, 3> Interleaves = { {
 class EnviHeaderReader
 {
 public:
-  EnviHeaderReader(const std::string& file, const std::string& text)
+  EnviHeaderReader(const std::string& file, const std::string& text, bool ownWavelengths)
     : Text(file, text)
+    , OwnWavelengths(ownWavelengths)
   {
   }
 
@@ -56,10 +57,13 @@ public:
     refuseOtherFiles();
     readLayout();
     readBandNames();
-    readEnviWavelengths(Text, Header.info);
+    if (OwnWavelengths)
+    {
+      readEnviWavelengths(Text, Header.info);
+    }
     readBandFlags();
     readValueMeaning();
-    Header.info.metadata = Text.unusedKeys();
+    Header.info.metadata.merge(Text.unusedKeys());
     for (const char* key : { "data gain values", "data offset values" })
     {
       if (Header.info.metadata.count(key) > 0)
@@ -175,10 +179,11 @@ private:
     }
     if (const auto names = Text.findList("band names"))
     {
-      if (names->size() != bands)
+      if (names->size() != bands) // names may hold commas
       {
-        Text.refuse("band names", "has " + std::to_string(names->size()) + " names",
-          std::to_string(bands) + ", one for each band", "complete the list or remove the key");
+        note("band names were left unread: " + std::to_string(names->size()) + " for " +
+          std::to_string(bands) + " bands");
+        return;
       }
       for (std::size_t b = 0; b < bands; ++b)
       {
@@ -235,6 +240,7 @@ private:
   }
 
   EnviHeaderText Text;
+  bool OwnWavelengths;
   EnviHeader Header;
 };
 }
@@ -251,14 +257,17 @@ bool looksLikeEnviHeader(std::string_view beginning) noexcept
   {
     beginning.remove_prefix(3);
   }
-  return beginning.substr(0, 4) == "ENVI" &&
+  constexpr std::string_view upper = "ENVI";
+  constexpr std::string_view lower = "envi";
+  return beginning.size() >= upper.size() &&
+    (beginning.substr(0, upper.size()) == upper || beginning.substr(0, lower.size()) == lower) &&
     (beginning.size() == 4 ||
       std::string_view(" \t\r\n").find(beginning[4]) != std::string_view::npos);
 }
 
-EnviHeader parseEnviHeader(const std::string& file, const std::string& text)
+EnviHeader parseEnviHeader(const std::string& file, const std::string& text, bool ownWavelengths)
 {
-  return EnviHeaderReader(file, text).read();
+  return EnviHeaderReader(file, text, ownWavelengths).read();
 }
 
 } // namespace msi

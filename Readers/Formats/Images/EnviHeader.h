@@ -25,15 +25,17 @@ struct EnviHeader
   std::int64_t expectedFileSize() const noexcept;
 };
 
-// True for a text that begins with the word ENVI.
+// True for a text that begins with the word ENVI or envi.
 bool looksLikeEnviHeader(std::string_view beginning) noexcept;
 
 // Keys in upper or lower case with any spacing; values in braces over several lines; comments with ;
-// Wavelengths in nm, um, mm, cm, m, Angstrom or as wavenumber become nm. Without units they are nm from
-// 100 up and um below 100.
+// Wavelengths in nm, um, mm, cm, m, Angstrom, as wavenumber or frequency become nm. Without units they are nm from
+// 100 up, and um below 100 unless all are whole numbers. Without the key 'wavelength' they may stand in the names of
+// all bands. ownWavelengths false: they and the bandwidths are left unread, as others are given.
 // Errors: FormatError naming line and key: a missing key, a value that is none, complex or unknown data
 //         types, lists whose length is not the number of bands, compressed files, frame offsets.
-EnviHeader parseEnviHeader(const std::string& file, const std::string& text);
+EnviHeader parseEnviHeader(
+  const std::string& file, const std::string& text, bool ownWavelengths = true);
 
 // The text for a header. Errors: std::invalid_argument for Int8, which ENVI does not have.
 std::string enviHeaderText(const EnviHeader& header);

@@ -93,9 +93,17 @@ void EnviHeaderText::takeLine(const std::string& text, std::size_t& at)
     return;
   }
   const auto column = static_cast<std::int64_t>(content.data() - line.data()) + 1;
-  EnviValue value{ std::string(trimmed(line.substr(equals + 1))), { File, Line, column } };
+  EnviValue value;
+  value.text = trimmed(line.substr(equals + 1));
+  value.place = { File, Line, column };
   const std::string key = normalizedKey(line.substr(0, equals));
   at = nextLine(text, at);
+  if (value.text.empty() && trimmed(lineAt(text, at)).substr(0, 1) == "{")
+  {
+    value.text = trimmed(lineAt(text, at));
+    at = nextLine(text, at);
+    ++Line;
+  }
   if (!value.text.empty() && value.text.front() == '{')
   {
     while (value.text.find('}') == std::string::npos)
@@ -125,10 +133,7 @@ void EnviHeaderText::add(const std::string& key, EnviValue value)
   const auto [found, added] = Values.emplace(key, value);
   if (!added && found->second.text != value.text)
   {
-    throw FormatError(value.place, "'" + key + "' stands here a second time with another value",
-      "the value of line " + std::to_string(found->second.place.line) + ", " +
-        shortened(found->second.text),
-      "remove one of the lines");
+    found->second.otherPlace = value.place;
   }
 }
 
@@ -139,8 +144,16 @@ std::optional<std::string> EnviHeaderText::find(const std::string& key)
   {
     return std::nullopt;
   }
-  found->second.used = true;
-  return found->second.text;
+  EnviValue& value = found->second;
+  value.used = true;
+  if (value.otherPlace)
+  {
+    throw FormatError(*value.otherPlace,
+      "'" + key + "' stands here a second time with another value",
+      "the value of line " + std::to_string(value.place.line) + ", " + shortened(value.text),
+      "remove one of the lines");
+  }
+  return value.text;
 }
 
 std::string EnviHeaderText::require(const std::string& key)

@@ -15,19 +15,21 @@ namespace msi
 
 struct EnviValue
 {
-  std::string text; // without braces; line ends became blanks
-  FilePlace place;  // of the key
+  std::string text;                    // without braces; line ends became blanks
+  FilePlace place;                     // of the key
+  std::optional<FilePlace> otherPlace; // of the key again, with another value
   bool used = false;
 };
 
 class EnviHeaderText
 {
 public:
-  // Errors: FormatError for a first line other than ENVI, a brace without end, a key that stands twice
-  // with different values. Lines that are no "key = value" are noted.
+  // Errors: FormatError for a first line other than ENVI and a brace without end. Lines that are no
+  // "key = value" are noted.
   EnviHeaderText(const std::string& file, const std::string& text);
 
-  // Each marks the key as used. Errors: FormatError naming line, key and value.
+  // Each marks the key as used. Errors: FormatError naming line, key and value; also where the key stands twice
+  // with different values.
   std::optional<std::string> find(const std::string& key);
   std::int64_t requireInteger(const std::string& key, std::int64_t least);
   std::optional<std::int64_t> findInteger(const std::string& key, std::int64_t least);

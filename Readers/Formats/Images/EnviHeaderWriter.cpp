@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
+#include <string_view>
 
 namespace msi
 {
@@ -71,11 +72,18 @@ std::string enviHeaderText(const EnviHeader& header)
 {
   const SpectralImageInfo& info = header.info;
   std::string text = "ENVI\n";
-  const auto description = info.metadata.find("description");
-  text += "description = {" +
-    (description == info.metadata.end() ? "" : plain(description->second, false)) + "}\n";
   const auto line = [&text](const char* key, const std::string& value)
   { text += std::string(key) + " = " + value + "\n"; };
+  // What stays true whatever became of the samples.
+  for (const char* key : { "description", "sensor type", "acquisition date", "acquisition time" })
+  {
+    const auto found = info.metadata.find(key);
+    if (found != info.metadata.end())
+    {
+      const bool isLong = key == std::string_view("description");
+      line(key, (isLong ? "{" : "") + plain(found->second, false) + (isLong ? "}" : ""));
+    }
+  }
   line("samples", std::to_string(info.width));
   line("lines", std::to_string(info.height));
   line("bands", std::to_string(info.bands()));

@@ -225,7 +225,8 @@ void checkSize(EnviHeader& header, const EnviFiles& files)
 std::unique_ptr<SpectralImageFile> openEnviImage(
   const EnviFiles& files, const SpectralImageOptions& options)
 {
-  EnviHeader header = parseEnviHeader(files.header, readTextFile(files.header, "an ENVI header"));
+  EnviHeader header = parseEnviHeader(
+    files.header, readTextFile(files.header, "an ENVI header"), options.wavelengths.empty());
   checkSize(header, files);
   header.info.format = "ENVI";
   takeGivenWavelengths(header.info, options.wavelengths, files.header);

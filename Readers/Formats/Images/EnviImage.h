@@ -17,7 +17,8 @@ struct EnviFiles
 };
 
 // Opened by its header or its data file. The other one has the same name with .hdr, or with or without
-// .img .dat .raw .bil .bsq .bip .bin (upper or lower case), or .hdr behind the whole name.
+// .img .dat .raw .bil .bsq .bip .bin .cube (upper or lower case), or .hdr behind the whole name; else the data file
+// is the only other file of that name.
 // Nothing where 'path' is neither a header nor has one beside it.
 std::optional<EnviFiles> findEnviFiles(const std::string& path);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,31 +19,45 @@ namespace msi
 
 namespace
 {
-struct LengthUnit
+// nm = value x factor, or factor / value where the unit is one of frequency.
+struct SpectralUnit
 {
   std::string_view name;
-  double nanometres;
+  double factor;
+  bool reciprocal;
 };
-constexpr std::array<LengthUnit, 17> LengthUnits = { {
-  { "nanometers", 1.0 },
-  { "nanometer", 1.0 },
-  { "nanometres", 1.0 },
-  { "nm", 1.0 },
-  { "micrometers", 1e3 },
-  { "micrometer", 1e3 },
-  { "micrometres", 1e3 },
-  { "microns", 1e3 },
-  { "micron", 1e3 },
-  { "um", 1e3 },
-  { "\xC2\xB5m", 1e3 },
-  { "millimeters", 1e6 },
-  { "mm", 1e6 },
-  { "centimeters", 1e7 },
-  { "cm", 1e7 },
-  { "angstroms", 0.1 },
-  { "angstrom", 0.1 },
-} };
 constexpr double NanometresPerCentimetre = 1e7;
+constexpr double SpeedOfLight = 299792458.0; // m/s, that is nm GHz
+constexpr std::array<SpectralUnit, 26> SpectralUnits = { {
+  { "nanometers", 1.0, false },
+  { "nanometer", 1.0, false },
+  { "nanometres", 1.0, false },
+  { "nm", 1.0, false },
+  { "micrometers", 1e3, false },
+  { "micrometer", 1e3, false },
+  { "micrometres", 1e3, false },
+  { "microns", 1e3, false },
+  { "micron", 1e3, false },
+  { "um", 1e3, false },
+  { "\xC2\xB5m", 1e3, false }, // the micro sign
+  { "\xCE\xBCm", 1e3, false }, // the Greek mu
+  { "millimeters", 1e6, false },
+  { "mm", 1e6, false },
+  { "centimeters", NanometresPerCentimetre, false },
+  { "cm", NanometresPerCentimetre, false },
+  { "meters", 1e9, false },
+  { "m", 1e9, false },
+  { "angstroms", 0.1, false },
+  { "angstrom", 0.1, false },
+  { "wavenumber", NanometresPerCentimetre, true },
+  { "wavenumbers", NanometresPerCentimetre, true },
+  { "cm-1", NanometresPerCentimetre, true },
+  { "thz", SpeedOfLight / 1e3, true },
+  { "ghz", SpeedOfLight, true },
+  { "mhz", SpeedOfLight * 1e3, true },
+} };
+constexpr SpectralUnit Nanometres = SpectralUnits.front();
+constexpr SpectralUnit Micrometres = { "micrometers", 1e3, false };
 constexpr double ShortestNanometres = 100.0;
 
 class WavelengthReader
@@ -62,11 +77,11 @@ public:
     const std::string unit = lowerCase(Header.find("wavelength units").value_or(""));
     if (!stored)
     {
+      takeBandNames();
       return;
     }
-    const bool wavenumber = unit == "wavenumber" || unit == "wavenumbers" || unit == "cm-1";
-    const double scale = wavenumber ? 0.0 : nanometresPerUnit(unit, *stored);
-    if (scale == 0.0 && !wavenumber)
+    const auto found = unitOf(unit, *stored);
+    if (!found)
     {
       return;
     }
@@ -74,12 +89,13 @@ public:
     {
       const double value = (*stored)[b];
       requirePositive(b, value);
-      const double nm = wavenumber ? NanometresPerCentimetre / value : value * scale;
-      Info.wavelengths.push_back(scale == 1.0 ? nm : withoutConversionNoise(nm));
+      const double nm = found->reciprocal ? found->factor / value : value * found->factor;
+      Info.wavelengths.push_back(
+        !found->reciprocal && found->factor == 1.0 ? nm : withoutConversionNoise(nm));
       if (widths)
       {
         // d(1/k) = dk / k^2
-        (*widths)[b] *= wavenumber ? nm / value : scale;
+        (*widths)[b] *= found->reciprocal ? nm / value : found->factor;
       }
     }
     if (widths)
@@ -100,14 +116,30 @@ private:
     }
   }
 
-  // 0 where the numbers are no wavelengths.
-  double nanometresPerUnit(const std::string& unit, const std::vector<double>& stored)
+  void takeBandNames()
   {
-    const auto known = std::find_if(LengthUnits.begin(), LengthUnits.end(),
-      [&unit](const LengthUnit& entry) { return entry.name == unit; });
-    if (known != LengthUnits.end())
+    std::vector<double> named;
+    for (const std::string& name : Info.bandNames)
     {
-      return known->nanometres;
+      const auto nm = wavelengthInText(name);
+      if (!nm)
+      {
+        return;
+      }
+      named.push_back(*nm);
+    }
+    Info.wavelengths = std::move(named);
+    note("wavelengths are those in the names of the bands");
+  }
+
+  // Nothing where the numbers are no wavelengths.
+  std::optional<SpectralUnit> unitOf(const std::string& unit, const std::vector<double>& stored)
+  {
+    const auto known = std::find_if(SpectralUnits.begin(), SpectralUnits.end(),
+      [&unit](const SpectralUnit& entry) { return entry.name == unit; });
+    if (known != SpectralUnits.end())
+    {
+      return *known;
     }
     const auto [least, most] = std::minmax_element(stored.begin(), stored.end());
     if (unit.empty() || unit == "unknown")
@@ -115,17 +147,19 @@ private:
       if (*least >= ShortestNanometres)
       {
         note("the header states no wavelength units: nanometres were assumed");
-        return 1.0;
+        return Nanometres;
       }
-      if (*least >= 0.1 && *most < ShortestNanometres && *least != std::floor(*least))
+      const bool counts = std::all_of(
+        stored.begin(), stored.end(), [](double value) { return value == std::floor(value); });
+      if (*least >= 0.1 && *most < ShortestNanometres && !counts)
       {
         note("the header states no wavelength units: micrometres were assumed");
-        return 1e3;
+        return Micrometres;
       }
     }
     note("the wavelengths are unknown: their unit is " +
       (unit.empty() ? "not stated" : "'" + unit + "'"));
-    return 0.0;
+    return std::nullopt;
   }
 
   EnviHeaderText& Header;

@@ -14,10 +14,11 @@ namespace msi
 // nm" in a description or page name.
 std::optional<double> metadataWavelength(const OIIO::ImageSpec& spec);
 
-// "wavelengths" = "400, 410, ..." in any case; empty where there is none.
+// "wavelengths" = "400, 410, ..." in any case; else such a list in the description, as {"wavelengths": [400, 410]}. Empty
+// where there is none.
 std::vector<double> metadataWavelengths(const OIIO::ImageSpec& spec);
 
-// The name of the channel, or "channel3".
+// The name of the channel, or "channel3"; "Band 4" of a gray TIFF with several channels.
 std::string channelName(const OIIO::ImageSpec& spec, int channel);
 
 } // namespace msi

@@ -30,6 +30,21 @@ double unitRange(SampleType type)
     });
 }
 
+// Red, green and blue of a color picture; else none.
+std::vector<int> colorBands(const std::vector<std::string>& names)
+{
+  std::vector<int> bands;
+  for (const char* color : { "R", "G", "B" })
+  {
+    const auto found = std::find(names.begin(), names.end(), color);
+    if (found != names.end())
+    {
+      bands.push_back(static_cast<int>(found - names.begin()));
+    }
+  }
+  return bands.size() == 3 ? bands : std::vector<int>();
+}
+
 class ImageStack final : public SpectralImageFile
 {
 public:
@@ -65,6 +80,7 @@ private:
         info.wavelengths.push_back(*band.wavelength);
       }
     }
+    info.displayBands = colorBands(info.bandNames);
     for (const auto& attribute : spec.extra_attribs)
     {
       info.metadata.emplace(lowerCase(attribute.name().string()), attribute.get_string());

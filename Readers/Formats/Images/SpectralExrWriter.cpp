@@ -44,13 +44,16 @@ OIIO::ImageSpec specFor(const SpectralImageInfo& info)
   return spec;
 }
 
+// OpenEXR compresses blocks of 16 rows, each in a thread.
+constexpr int RowsAtOnce = 32;
+
 class SpectralExrWriter final : public SpectralImageWriter
 {
 public:
   SpectralExrWriter(std::string path, const SpectralImageInfo& info)
     : Path(std::move(path))
     , Temporary(temporaryNameBeside(Path))
-    , RowValues(static_cast<std::size_t>(info.width) * info.bandNames.size())
+    , RowSize(static_cast<std::size_t>(info.width) * info.bandNames.size())
     , Rows(info.height)
     , Out(OIIO::ImageOutput::create("exr"))
   {
@@ -100,18 +103,24 @@ private:
   void write(int rows, const Value* pixels, std::ptrdiff_t rowStride)
   {
     Rows.expect(rows);
-    const std::ptrdiff_t stride =
-      rowStride == 0 ? static_cast<std::ptrdiff_t>(RowValues.size()) : rowStride;
-    for (int row = 0; row < rows; ++row)
+    const std::ptrdiff_t stride = rowStride == 0 ? static_cast<std::ptrdiff_t>(RowSize) : rowStride;
+    for (int row = 0; row < rows; row += RowsAtOnce)
     {
-      const Value* from = pixels + row * stride;
-      std::transform(from, from + RowValues.size(), RowValues.begin(),
-        [](Value value) { return static_cast<float>(value); });
-      if (!Out->write_scanline(Rows.next(), 0, OIIO::TypeDesc::FLOAT, RowValues.data()))
+      const int count = std::min(RowsAtOnce, rows - row);
+      Values.resize(RowSize * static_cast<std::size_t>(count));
+      for (int i = 0; i < count; ++i)
+      {
+        const Value* from = pixels + (row + i) * stride;
+        std::transform(from, from + RowSize,
+          Values.begin() + i * static_cast<std::ptrdiff_t>(RowSize),
+          [](Value value) { return static_cast<float>(value); });
+      }
+      const int y = Rows.next();
+      if (!Out->write_scanlines(y, y + count, 0, OIIO::TypeDesc::FLOAT, Values.data()))
       {
         fail(Out->geterror());
       }
-      Rows.add(1);
+      Rows.add(count);
     }
   }
 
@@ -125,7 +134,8 @@ private:
 
   std::string Path;
   std::string Temporary;
-  std::vector<float> RowValues;
+  std::size_t RowSize;
+  std::vector<float> Values; // of up to RowsAtOnce rows
   RowCounter Rows;
   std::unique_ptr<OIIO::ImageOutput> Out;
 };

@@ -215,6 +215,41 @@ TEST_F(EnviImages, AFileCutOffAfterOpeningIsAnErrorNotACrash)
     "again");
 }
 
+TEST_F(EnviImages, TheDataFileMayHaveAnExtensionOfItsMaker)
+{
+  image();
+  std::filesystem::rename(path("a.img"), path("a.hyspex"));
+  write("a.png", "a picture beside it");
+  EXPECT_EQ(errorIn(path("a.hdr")), "");
+  EXPECT_EQ(errorIn(path("a.hyspex")), "");
+  write("a.spe", "another");
+  EXPECT_EQ(errorIn(path("a.hdr")),
+    "a.hdr: has several files beside it that may be its data; expected a or a with .img, .dat, "
+    ".raw, .bil, .bsq, .bip, .bin or .cube; open the data file instead");
+  EXPECT_EQ(errorIn(path("a.hyspex")), "");
+}
+
+TEST_F(EnviImages, AHeaderMayBeUtf16)
+{
+  const std::string text = read(std::filesystem::path(image()).filename().string());
+  std::string wide = "\xFF\xFE";
+  for (const char c : text)
+  {
+    wide += { c, '\0' };
+  }
+  EXPECT_EQ(allOf(*openSpectralImage(write("a.hdr", wide))), expected());
+  EXPECT_EQ(allOf(*openSpectralImage(path("a.img"))), expected());
+}
+
+TEST_F(EnviImages, GivenWavelengthsMendAHeader)
+{
+  const std::string file = image("wavelength = {0}\n");
+  EXPECT_NE(errorIn(file), "");
+  msi::SpectralImageOptions options;
+  options.wavelengths = { 400, 500, 600, 700 };
+  EXPECT_EQ(openSpectralImage(file, options)->info().wavelengths, options.wavelengths);
+}
+
 TEST_F(EnviImages, LonelyFilesAreTold)
 {
   EXPECT_EQ(errorIn(write("x.hdr", header("bil"))),

@@ -156,6 +156,40 @@ TEST_F(ImageStacks, OneFileWithManyPages)
   EXPECT_EQ(file->info().notes, (Files{ "page 4 is 1 x 1 pixels, the first is 2 x 1: left out" }));
 }
 
+TEST_F(ImageStacks, TheDescriptionOfTheFirstPageMayListAllWavelengths)
+{
+  std::vector<OIIO::ImageSpec> specs(3, OIIO::ImageSpec(1, 1, 1, OIIO::TypeDesc::UINT8));
+  specs[0].attribute(
+    "ImageDescription", R"({"wavelengths": [700, 500.5, 600], "shape": [3, 1, 1]})");
+  writeImage<std::uint8_t>(path("pages.tif"), specs, { { 7 }, { 5 }, { 6 } });
+  SpectralImageOptions options;
+  options.integers = msi::IntegerScaling::Raw;
+  const auto file = openSpectralImage(path("pages.tif"), options);
+  EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 500.5, 600, 700 }));
+  EXPECT_EQ(allOf(*file), (Floats{ 5, 6, 7 }));
+  specs[0].attribute("ImageDescription", "Wavelengths: 700, 500");
+  writeImage<std::uint8_t>(path("pages.tif"), specs, { { 7 }, { 5 }, { 6 } });
+  EXPECT_TRUE(openSpectralImage(path("pages.tif"))->info().wavelengths.empty());
+}
+
+TEST_F(ImageStacks, ColorPicturesAreShownInTheirColors)
+{
+  writeImage(path("rgb.png"), 1, 1, 3, Bytes{ 255, 128, 0 });
+  EXPECT_EQ(openSpectralImage(path("rgb.png"))->info().displayBands, (std::vector<int>{ 0, 1, 2 }));
+  OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeDesc::UINT8);
+  spec.channelnames = { "400nm", "500nm", "600nm" };
+  writeImage<float>(path("spectral.exr"), { spec }, { { 0.1f, 0.2f, 0.3f } });
+  EXPECT_TRUE(openSpectralImage(path("spectral.exr"))->info().displayBands.empty());
+}
+
+TEST_F(ImageStacks, TheNumberThatTellsTheFilesApartIsTheWavelength)
+{
+  const auto file = openSpectralImage(Files{ flat("s_550_gain200.tif", 3, 3),
+    flat("s_450_gain200.tif", 1, 1), flat("s_500_gain200.tif", 2, 2) });
+  EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 450, 500, 550 }));
+  EXPECT_EQ(allOf(*file), (Floats{ 1, 2, 3, 1, 2, 3 }));
+}
+
 TEST_F(ImageStacks, ChannelNamesTellWavelengths)
 {
   OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeDesc::HALF);

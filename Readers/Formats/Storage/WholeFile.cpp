@@ -1,6 +1,7 @@
 #include "Formats/Storage/WholeFile.h"
 
 #include "Formats/FormatError.h"
+#include "Formats/Text/TextEncoding.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -66,24 +67,20 @@ std::string readWholeFile(const std::string& path)
 
 std::string readTextFile(const std::string& path, const std::string& expected)
 {
-  std::string text = readWholeFile(path);
-  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+  const auto text = asUtf8(readWholeFile(path));
+  if (!text)
   {
-    text.erase(0, 3);
+    throw FormatError(path, "is damaged UTF-16 text", expected + " in UTF-8", "save it as UTF-8");
   }
-  if (text.compare(0, 2, "\xFF\xFE") == 0 || text.compare(0, 2, "\xFE\xFF") == 0)
-  {
-    throw FormatError(path, "is UTF-16 text", expected + " in UTF-8", "save it as UTF-8");
-  }
-  if (text.find('\0') != std::string::npos)
+  if (text->find('\0') != std::string::npos)
   {
     throw FormatError(path, "is a binary file", expected, "name another file");
   }
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+  if (text->find_first_not_of(" \t\r\n") == std::string::npos)
   {
     throw FormatError(path, "is empty", expected, "check how it was written");
   }
-  return text;
+  return *text;
 }
 
 } // namespace msi

@@ -251,6 +251,7 @@ TextTable parseCgats(const std::string& file, const std::string& text)
 {
   TextTable table;
   table.file = file;
+  table.decimalComma = true; // against the standard, but nothing else in it is written with a comma
   auto storage = std::make_shared<const std::string>(text);
   auto sections = CgatsParser(file, *storage).parse();
   auto chosen = std::find_if(sections.begin(), sections.end(), hasSpectralOrResponse);

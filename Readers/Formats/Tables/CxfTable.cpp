@@ -71,7 +71,8 @@ public:
 
   SampleTable read()
   {
-    const pugi::xml_parse_result parsed = Document.load_buffer(Text.data(), Text.size());
+    const pugi::xml_parse_result parsed =
+      Document.load_buffer(Text.data(), Text.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!parsed)
     {
       throw FormatError(placeOfOffset(File, Text, static_cast<std::size_t>(parsed.offset)),

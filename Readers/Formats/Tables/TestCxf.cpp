@@ -55,6 +55,23 @@ TEST_F(Cxf, ReadsSpectraOfObjects)
       "1 objects have several spectra: the first was read" }));
 }
 
+TEST_F(Cxf, EncodingsOtherThanUtf8)
+{
+  std::string latin1 = document(object("gr\xFCn", spectrum("0.1 0.2 0.3")));
+  latin1.replace(latin1.find("UTF-8"), 5, "ISO-8859-1");
+  EXPECT_EQ(readSampleTable(write("a.cxf", latin1)).sampleNames(), (Names{ "gr\xC3\xBCn" }));
+  std::string wide = "\xFF\xFE";
+  for (const char c : document(object("x", spectrum("0.1 0.2 0.3"))))
+  {
+    wide += { c, '\0' };
+  }
+  wide.replace(wide.find("8"), 2,
+    std::string("1\0"
+                "6\0",
+      4));
+  EXPECT_EQ(readSampleTable(write("a.cxf", wide)).sampleNames(), (Names{ "x" }));
+}
+
 TEST_F(Cxf, TheStartOfTheSpectrumCounts)
 {
   const auto table = readSampleTable(

@@ -21,8 +21,20 @@ std::size_t lineEnd(const std::string& text, std::size_t begin)
   return std::min(text.find_first_of("\r\n", begin), text.size());
 }
 
+// What spreadsheet programs write in the first line: "sep=;".
+bool statesDelimiter(const std::string& text)
+{
+  constexpr std::string_view key = "sep=";
+  return lowerCase(std::string_view(text).substr(0, key.size())) == key &&
+    lineEnd(text, 0) == key.size() + 1;
+}
+
 bool isComment(const std::string& text, std::size_t lineBegin)
 {
+  if (lineBegin == 0 && statesDelimiter(text))
+  {
+    return true;
+  }
   const std::size_t first = text.find_first_not_of(" \t", lineBegin);
   return first != std::string::npos && text[first] == '#';
 }
@@ -220,7 +232,9 @@ TextTable parseDelimitedText(const std::string& file, const std::string& text)
 {
   TextTable table;
   table.file = file;
-  const char delimiter = delimiterOf(firstLine(text));
+  constexpr std::size_t PlaceOfDelimiter = 4;
+  const char delimiter =
+    statesDelimiter(text) ? text[PlaceOfDelimiter] : delimiterOf(firstLine(text));
   table.decimalComma = delimiter != ',';
   table.endsInsideLine = !text.empty() && text.back() != '\n' && text.back() != '\r';
   auto storage = std::make_shared<std::string>();

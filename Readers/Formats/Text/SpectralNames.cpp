@@ -29,7 +29,7 @@ bool isLetter(char c) noexcept
   return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
 
-// PREFIX[_- ]NUMBER[_- ][nm] for one of the prefixes.
+// PREFIX[_- ]NUMBER[_- ][nm] for one of the prefixes; the number or the unit may stand in brackets.
 template <std::size_t N>
 std::optional<double> numberAfter(
   const std::array<std::string_view, N>& prefixes, std::string_view name, bool decimalComma)
@@ -41,7 +41,7 @@ std::optional<double> numberAfter(
     return std::nullopt;
   }
   const auto split = static_cast<std::size_t>(digit - lower.begin());
-  const std::string_view separators = "_- ";
+  const std::string_view separators = "_- ([";
   std::string_view prefix = std::string_view(lower).substr(0, split);
   while (!prefix.empty() && separators.find(prefix.back()) != std::string_view::npos)
   {
@@ -52,6 +52,10 @@ std::optional<double> numberAfter(
     return std::nullopt;
   }
   std::string_view number = std::string_view(lower).substr(split);
+  if (number.back() == ')' || number.back() == ']')
+  {
+    number.remove_suffix(1);
+  }
   if (number.size() > 2 && number.substr(number.size() - 2) == "nm")
   {
     number.remove_suffix(2);
@@ -74,7 +78,7 @@ struct NumberInText
   bool letterAfter; // another letter follows at once
 };
 
-std::vector<NumberInText> numbersIn(std::string_view text)
+std::vector<NumberInText> numbersIn(std::string_view text, bool decimalComma = false)
 {
   const std::string lower = lowerCase(text);
   std::vector<NumberInText> numbers;
@@ -89,15 +93,17 @@ std::vector<NumberInText> numbersIn(std::string_view text)
     bool fraction = false;
     while (end < lower.size() &&
       (isDigit(lower[end]) ||
-        (!fraction && lower[end] == '.' && end + 1 < lower.size() && isDigit(lower[end + 1]))))
+        (!fraction && (lower[end] == '.' || (decimalComma && lower[end] == ',')) &&
+          end + 1 < lower.size() && isDigit(lower[end + 1]))))
     {
-      fraction = fraction || lower[end] == '.';
+      fraction = fraction || !isDigit(lower[end]);
       ++end;
     }
     const std::size_t unit = std::min(lower.find_first_not_of("_- ", end), lower.size());
     const bool hasUnit =
       lower.compare(unit, 2, "nm") == 0 && (unit + 2 == lower.size() || !isLetter(lower[unit + 2]));
-    if (const auto value = parseNumber(std::string_view(lower).substr(begin, end - begin)))
+    if (const auto value =
+          parseNumber(std::string_view(lower).substr(begin, end - begin), decimalComma))
     {
       numbers.push_back({ *value, hasUnit, end < lower.size() && isLetter(lower[end]) });
     }
@@ -129,23 +135,23 @@ bool areResponseWavelengths(const std::vector<double>& numbers) noexcept
       { return number >= SmallestResponseWavelength && number <= LongestWavelength; });
 }
 
-std::optional<FileNameWavelength> fileNameWavelength(const std::string& path)
+std::vector<FileNameWavelength> fileNameWavelengths(const std::string& path)
 {
-  std::optional<FileNameWavelength> marked;
-  std::optional<FileNameWavelength> alone;
-  for (const NumberInText& found : numbersIn(std::filesystem::path(path).stem().string()))
+  std::vector<FileNameWavelength> marked;
+  std::vector<FileNameWavelength> alone;
+  for (const NumberInText& found : numbersIn(std::filesystem::path(path).stem().string(), true))
   {
     if (found.unit && found.value >= ShortestWavelength && found.value <= LongestWavelength)
     {
-      marked = FileNameWavelength{ found.value, true };
+      marked.push_back({ found.value, true });
     }
     if (!found.letterAfter && found.value >= SmallestResponseWavelength &&
       found.value <= LongestFileNameWavelength)
     {
-      alone = FileNameWavelength{ found.value, false };
+      alone.push_back({ found.value, false });
     }
   }
-  return marked ? marked : alone;
+  return marked.empty() ? alone : marked;
 }
 
 std::optional<double> wavelengthInText(std::string_view text)

@@ -25,9 +25,9 @@ struct FileNameWavelength
   bool hasUnit; // "nm" follows the number; without it the number may be a frame number
 };
 
-// nm in the name of an image file: a number followed by "nm" (channel_450nm.tif, 0450nm.png), else the
-// last number from 200 to 2500 that stands alone (img_450.png, 450.tif); nothing otherwise.
-std::optional<FileNameWavelength> fileNameWavelength(const std::string& path);
+// nm in the name of an image file: the numbers followed by "nm" (channel_450nm.tif, 450,5nm.png); where there are none,
+// the numbers from 200 to 2500 that stand alone (img_450.png, 450.tif).
+std::vector<FileNameWavelength> fileNameWavelengths(const std::string& path);
 
 // nm in a free text ("filter 450 nm"): the only number followed by "nm", else nothing.
 std::optional<double> wavelengthInText(std::string_view text);

@@ -10,7 +10,7 @@
 namespace
 {
 
-using msi::fileNameWavelength;
+using msi::fileNameWavelengths;
 using msi::reflectanceColumnWavelength;
 using msi::responseColumnNumber;
 
@@ -27,27 +27,40 @@ TEST(SpectralNames, OrdinaryWordsAreNoWavelengths)
   }
 }
 
+TEST(SpectralNames, BracketsAroundNumberOrUnit)
+{
+  for (const char* name : { "400[nm]", "400 (nm)", "R(400)", "R[400 nm]", "R (400)" })
+  {
+    EXPECT_EQ(reflectanceColumnWavelength(name), 400.0) << name;
+  }
+}
+
 TEST(SpectralNames, WavelengthsOfFiles)
 {
   for (const char* name : { "/data/2024/channel_450nm.tif", "0450nm.tif", "F450_nm.tif",
          "450 nm.tif", "scan12_450nm_2020.exr", "F450NM.tif" })
   {
-    const auto found = fileNameWavelength(name);
-    ASSERT_TRUE(found.has_value()) << name;
-    EXPECT_EQ(found->nanometres, 450) << name;
-    EXPECT_TRUE(found->hasUnit) << name;
+    const auto found = fileNameWavelengths(name);
+    ASSERT_EQ(found.size(), 1u) << name;
+    EXPECT_EQ(found[0].nanometres, 450) << name;
+    EXPECT_TRUE(found[0].hasUnit) << name;
   }
   for (const char* name : { "img_450.png", "450.tif", "IMG_0450.tif" })
   {
-    const auto found = fileNameWavelength(name);
-    ASSERT_TRUE(found.has_value()) << name;
-    EXPECT_EQ(found->nanometres, 450) << name;
-    EXPECT_FALSE(found->hasUnit) << name;
+    const auto found = fileNameWavelengths(name);
+    ASSERT_EQ(found.size(), 1u) << name;
+    EXPECT_EQ(found[0].nanometres, 450) << name;
+    EXPECT_FALSE(found[0].hasUnit) << name;
   }
-  EXPECT_EQ(fileNameWavelength("f_612.5nm.exr")->nanometres, 612.5);
+  EXPECT_EQ(fileNameWavelengths("f_612.5nm.exr")[0].nanometres, 612.5);
+  EXPECT_EQ(fileNameWavelengths("f_612,5nm.exr")[0].nanometres, 612.5);
+  const auto several = fileNameWavelengths("scene_450_gain200.tif");
+  ASSERT_EQ(several.size(), 2u);
+  EXPECT_EQ(several[0].nanometres, 450);
+  EXPECT_EQ(several[1].nanometres, 200);
   for (const char* name : { "channel_3.tif", "scene450x.tif", "red.tif", "450nmx.tif" })
   {
-    EXPECT_FALSE(fileNameWavelength(name).has_value()) << name;
+    EXPECT_TRUE(fileNameWavelengths(name).empty()) << name;
   }
 }
 

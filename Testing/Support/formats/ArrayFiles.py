@@ -2,8 +2,9 @@
 
 usage: ArrayFiles.py PATH_OF_FormatJobs
 
-MAT level 5 (compressed and not, every data type), HDF5 (every data type, both byte orders, contiguous
-and chunked). Exit status 77 (skipped) without numpy, scipy or h5py.
+MAT level 5 (compressed and not, every data type, in structures too), HDF5 (every data type, both byte orders,
+contiguous and chunked; wavelengths as attributes; a filter that is missing). Exit status 77 (skipped) without numpy,
+scipy or h5py.
 """
 import os
 import subprocess
@@ -35,6 +36,24 @@ def cube(name, rng):
     return rng.integers(low, high, size=shape, dtype=kind, endpoint=True)
 
 
+def described(path):
+    """Files whose wavelengths, or whose error, are known: name -> text."""
+    data, nm = np.ones((ROWS, COLUMNS, BANDS)), 400.0 + 50.0 * np.arange(BANDS)
+    known = " ".join(f"{value:g}" for value in nm) + " "
+    with h5py.File(path("attribute.h5"), "w") as out:
+        out.create_dataset("cube", data=data).attrs["wavelengths"] = nm
+    with h5py.File(path("root-attribute.h5"), "w") as out:
+        out.create_dataset("cube", data=np.moveaxis(data, 2, 0))
+        out.attrs["Wavelength"] = nm / 1000
+        out.attrs["bands"] = np.arange(BANDS)
+    with h5py.File(path("lzf.h5"), "w") as out:
+        out.create_dataset("cube", data=data, compression="lzf")
+    scipy.io.savemat(path("nested.mat"), {"s": {"image": {"rad": data}, "wave": nm}})
+    return {"attribute.h5": known, "root-attribute.h5": known, "nested.mat": known,
+            "lzf.h5": path("lzf.h5") + ": dataset 'cube' is compressed by the filter 32000 (lzf), which this HDF5 "
+                      "library does not have; expected none, or gzip; write the file anew: h5repack -f GZIP=4"}
+
+
 def main(program):
     rng = np.random.default_rng(20230123)
     cases, failures = {}, []
@@ -48,6 +67,10 @@ def main(program):
                 cases[file] = cube(name, rng)
                 scipy.io.savemat(path(file), {"cube": cases[file], "note": "a text", "k": 3.0},
                                  do_compression=compressed)
+                file = f"struct-{name}-{compressed}.mat"
+                cases[file] = cube(name, rng)
+                scipy.io.savemat(path(file), {"k": 1.0, "data": {"empty": [], "rad": cases[file], "note": "a text"}},
+                                 do_compression=compressed)
             for order in "<>":
                 for chunks in (None, (4, 4, 2)):
                     file = f"{name}-{ord(order)}-{chunks is None}.h5"
@@ -57,15 +80,22 @@ def main(program):
                                            compression=None if chunks is None else "gzip",
                                            dtype=np.dtype(name).newbyteorder(order))
         with open(path("jobs"), "w") as out:
-            out.write("\n".join(f"read {path(file)} {path(file)}.raw" for file in cases))
+            texts = described(path)
+            out.write("\n".join([f"read {path(file)} {path(file)}.raw" for file in cases] +
+                                [f"describe {path(file)} {path(file)}.txt" for file in texts]))
         subprocess.run([program, path("jobs")], check=True)
         for file, expected in cases.items():
             read = np.fromfile(path(file) + ".raw", "<f8").reshape(expected.shape)
             if read.astype(expected.dtype).tobytes() != expected.tobytes():
                 failures.append(file)
+        for file, expected in texts.items():
+            with open(path(file) + ".txt", encoding="utf-8") as text:
+                told = text.read()
+                if told != expected:
+                    failures.append(f"{file}: {told}")
     for failure in failures:
         print("differs:", failure)
-    print(f"{len(cases)} files read, {len(failures)} differ")
+    print(f"{len(cases) + len(texts)} files read, {len(failures)} differ")
     return 1 if failures else 0
 
 

@@ -3,6 +3,7 @@
 //   FormatJobs JOBS   where each line of the file JOBS is one of
 //   read IMAGE RAW                                      doubles, band interleaved by pixel
 //   write RAW IMAGE SAMPLES LINES BANDS INTERLEAVE TYPE ORDER
+//   describe IMAGE TEXT                                 the wavelengths, or the error
 #include "Formats/SpectralImageFile.h"
 #include "Formats/SpectralImageWriter.h"
 
@@ -40,6 +41,28 @@ void readImage(std::istringstream& job)
     file->readBlock({ 0, info.width, y, y + 1 }, {}, row.data());
     out.write(reinterpret_cast<const char*>(row.data()),
       static_cast<std::streamsize>(row.size() * sizeof(double)));
+  }
+}
+
+void describeImage(std::istringstream& job)
+{
+  std::string image;
+  std::string text;
+  job >> image >> text;
+  std::ofstream out(text);
+  try
+  {
+    const auto file = msi::openSpectralImage(image);
+    std::vector<double> pixel(static_cast<std::size_t>(file->info().bands()));
+    file->readBlock({ 0, 1, 0, 1 }, {}, pixel.data());
+    for (const double nm : file->info().wavelengths)
+    {
+      out << nm << ' ';
+    }
+  }
+  catch (const std::exception& error)
+  {
+    out << error.what();
   }
 }
 
@@ -84,7 +107,7 @@ int main(int argc, char** argv)
       std::istringstream job(line);
       std::string what;
       job >> what;
-      what == "read" ? readImage(job) : writeImage(job);
+      what == "read" ? readImage(job) : what == "write" ? writeImage(job) : describeImage(job);
     }
   }
   catch (const std::exception& error)

@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 COMMANDS = {"setup": "", "demo": "--ranks", "test": "CTEST", "evaluate": "--calibration", "estimate": "--tuning",
-            "camera": "--effects", "diagnose": "CAPTURE_DIR", "bench": "--output", "paraview": "STATE"}
+            "camera": "--effects", "scene": "--size", "diagnose": "CAPTURE_DIR", "bench": "--output", "paraview": "STATE"}
 FORBIDDEN = ("apt-get", "cmake", "ctest", "mpirun", "ninja", "paraview", "pvbatch", "xvfb-run")
 
 

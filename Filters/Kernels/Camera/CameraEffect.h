@@ -52,6 +52,7 @@ struct EffectForm
   // Further starting points of a fit, one number a parameter (the same for every channel); for forms whose
   // error has more than one valley. May be empty.
   std::vector<std::vector<double>> starts = {};
+  bool keepsWhite = false; // of lamp and filters: the response to white does not change
 };
 
 struct EffectDefinition

@@ -60,6 +60,29 @@ Eigen::MatrixXd neighbourMean(const Eigen::MatrixXd& signal, const SampleScene& 
   }
   return surround;
 }
+
+// The mean of a sample's surround, weighted exp(-distance / reach); itself where it has none. reach: pitches.
+Eigen::MatrixXd tailMean(const Eigen::MatrixXd& signal, const SampleScene& scene, double reach)
+{
+  Eigen::MatrixXd surround(signal.rows(), signal.cols());
+  for (Eigen::Index j = 0; j < signal.cols(); ++j)
+  {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(signal.rows());
+    double weights = 0.0;
+    for (const SampleScene::Other& other : scene.surround()[static_cast<std::size_t>(j)])
+    {
+      if (signal.col(other.sample).allFinite())
+      {
+        const double weight = std::exp(-static_cast<double>(other.pitches) / reach);
+        sum += weight * signal.col(other.sample);
+        weights += weight;
+      }
+    }
+    surround.col(j) =
+      weights > 0.0 ? Eigen::VectorXd(sum / weights) : Eigen::VectorXd(signal.col(j));
+  }
+  return surround;
+}
 }
 
 struct CameraSimulator::Implementation
@@ -159,7 +182,11 @@ Eigen::MatrixXd CameraSimulator::respond(const SampleScene& scene) const
   }
   if (const SurroundOperator* stray = chain.localStrayLight())
   {
-    stray->apply(response, ConstBlock<double>(neighbourMean(response, scene)));
+    const std::optional<BoundEffect> effect = chain.active("local_stray_light");
+    const Eigen::MatrixXd mean = effect->form().name == "tail"
+      ? tailMean(response, scene, effect->value("reach"))
+      : neighbourMean(response, scene);
+    stray->apply(response, ConstBlock<double>(mean));
   }
   chain.detect<double>(response, columns);
   return response;

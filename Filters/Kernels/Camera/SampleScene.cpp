@@ -114,6 +114,7 @@ void SampleScene::findNeighbours()
   const auto count = static_cast<std::size_t>(size());
   Neighbours.resize(count);
   std::vector<double> distance(count);
+  std::vector<double> nearestOf(count);
   for (std::size_t i = 0; i < count; ++i)
   {
     double nearest = std::numeric_limits<double>::infinity();
@@ -131,6 +132,46 @@ void SampleScene::findNeighbours()
       if (distance[j] <= NeighbourReach * nearest && std::isfinite(distance[j]))
       {
         Neighbours[i].push_back(static_cast<int>(j));
+      }
+    }
+    nearestOf[i] = nearest;
+  }
+  findSurround(nearestOf);
+}
+
+void SampleScene::findSurround(const std::vector<double>& nearest)
+{
+  const auto count = static_cast<std::size_t>(size());
+  std::vector<double> pitch(Scenes.size(), 0.0);
+  for (std::size_t scene = 0; scene < Scenes.size(); ++scene)
+  {
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (SceneOf[i] == static_cast<int>(scene) && std::isfinite(nearest[i]) && nearest[i] > 0.0)
+      {
+        distances.push_back(nearest[i]);
+      }
+    }
+    if (!distances.empty())
+    {
+      const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+      std::nth_element(distances.begin(), middle, distances.end());
+      pitch[scene] = *middle;
+    }
+  }
+  Surround.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double own = pitch[static_cast<std::size_t>(SceneOf[i])];
+    for (std::size_t j = 0; j < count && own > 0.0; ++j)
+    {
+      const auto a = static_cast<Eigen::Index>(i);
+      const auto b = static_cast<Eigen::Index>(j);
+      const double pitches = std::hypot(FieldX[a] - FieldX[b], FieldY[a] - FieldY[b]) / own;
+      if (i != j && SceneOf[i] == SceneOf[j] && pitches <= SurroundReach)
+      {
+        Surround[i].push_back({ static_cast<int>(j), static_cast<float>(pitches) });
       }
     }
   }

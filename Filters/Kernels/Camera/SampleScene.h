@@ -30,10 +30,19 @@ struct SceneSamples
 // Capture time: order mapped linearly to [0, 1].
 // Neighbours of a sample: the samples of the same scene within 1.5 times its nearest neighbour's
 //   distance, with equal weight.
+// Surround of a sample: the samples of the same scene within SurroundReach pitches; the pitch is the scene's median
+//   distance to the nearest neighbour.
 // Errors: std::invalid_argument naming the column and both counts.
 class SampleScene
 {
 public:
+  struct Other
+  {
+    int sample;
+    float pitches; // away
+  };
+  static constexpr double SurroundReach = 8.0;
+
   SampleScene(WavelengthGrid wavelengths, SceneSamples samples);
 
   const WavelengthGrid& wavelengths() const noexcept { return Grid; }
@@ -55,10 +64,12 @@ public:
   const Eigen::VectorXd& fieldY() const noexcept { return FieldY; }
   const Eigen::VectorXd& time() const noexcept { return Time; }
   const std::vector<std::vector<int>>& neighbours() const noexcept { return Neighbours; }
+  const std::vector<std::vector<Other>>& surround() const noexcept { return Surround; }
 
 private:
   void placeInField();
   void findNeighbours();
+  void findSurround(const std::vector<double>& nearest);
 
   WavelengthGrid Grid;
   SceneSamples Samples;
@@ -66,6 +77,7 @@ private:
   std::vector<int> MediumOf, SceneOf;
   Eigen::VectorXd FieldX, FieldY, Time;
   std::vector<std::vector<int>> Neighbours;
+  std::vector<std::vector<Other>> Surround;
 };
 
 } // namespace msi

@@ -1,5 +1,7 @@
 #include "Kernels/Gap/EffectFit.h"
 
+#include "Kernels/Gap/NormalMatrix.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -11,7 +13,6 @@ namespace msi
 namespace
 {
 constexpr int InnerFolds = 5;
-constexpr double PriorWidth = 10.0; // typical sizes
 constexpr double HuberCut = 5.0;
 constexpr double Converged = 1e-5;
 
@@ -65,8 +66,20 @@ EffectFitter::EffectFitter(const GapData& data, std::vector<char> training, std:
   const auto samples =
     std::count_if(Training.begin(), Training.end(), [](char c) { return c != 0; });
   Samples = static_cast<double>(samples);
-  Folds = static_cast<int>(std::min<std::ptrdiff_t>(InnerFolds, samples));
-  Fold = foldsOf(data, Training, std::max(Folds, 2), seed);
+  const auto folds = static_cast<int>(std::min<std::ptrdiff_t>(InnerFolds, samples));
+  const std::vector<int> fold = foldsOf(data, Training, std::max(folds, 2), seed);
+  Fold.resize(folds >= 2 ? static_cast<std::size_t>(folds) : 0);
+  for (Eigen::Index j = 0; j < data.samples(); ++j)
+  {
+    if (Training[static_cast<std::size_t>(j)] != 0)
+    {
+      Members.push_back(j);
+      if (!Fold.empty())
+      {
+        Fold[static_cast<std::size_t>(fold[static_cast<std::size_t>(j)])].push_back(j);
+      }
+    }
+  }
   Elements = static_cast<double>((Weight.array() > 0.0).count());
   NoiseEnergy = (Weight.array() * Data.variance.array()).sum();
 }
@@ -91,7 +104,7 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
   for (Eigen::Index p = 0; p < count; ++p)
   {
     const FreeParameter& parameter = fit.free[static_cast<std::size_t>(p)];
-    prior[p] = 1.0 / std::pow(PriorWidth * parameter.scale, 2);
+    prior[p] = 1.0 / (parameter.spread * parameter.spread);
     lower[p] = parameter.lower;
     upper[p] = parameter.upper;
     neutral[p] = parameter.neutral;
@@ -108,10 +121,14 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
     fit.jacobian = jacobian(Data.camera, Data.scene, fit.set, fit.predicted, fit.free);
     fresh = true;
     const Eigen::ArrayXd root = huber(residual, rootWeight);
-    const Eigen::MatrixXd scaled = (rootWeight * root).matrix().asDiagonal() * fit.jacobian;
     const Eigen::VectorXd values = valuesOf(fit.set, fit.free);
-    Eigen::MatrixXd normal = scaled.transpose() * scaled;
-    Eigen::VectorXd gradient = scaled.transpose() * (residual * root).matrix();
+    const Eigen::ArrayXd rootTrust = rootWeight * root;
+    const Eigen::Map<const Eigen::ArrayXXd> trust(
+      rootTrust.data(), Data.channels(), Data.samples());
+    Eigen::MatrixXd normal =
+      normalMatrix(fit.jacobian, trust.square(), fit.free, fit.set.reach(), Members);
+    Eigen::VectorXd gradient =
+      fit.jacobian.transpose() * (rootWeight * residual * root.square()).matrix();
     normal.diagonal().array() += prior;
     gradient.array() -= prior * (values.array() - neutral);
     // A parameter at its bound that wants further out stays.
@@ -165,7 +182,7 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
   {
     fit.jacobian = jacobian(Data.camera, Data.scene, fit.set, fit.predicted, fit.free);
   }
-  fit.information = fit.jacobian.transpose() * flat(Weight).matrix().asDiagonal() * fit.jacobian;
+  fit.information = normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), Members);
   fit.information.diagonal().array() += prior;
   crossValidate(fit);
   return fit;
@@ -177,36 +194,23 @@ void EffectFitter::crossValidate(EffectFit& fit) const
   const Eigen::Index samples = Data.samples();
   fit.heldOut = (Weight.array() > 0.0).select(Data.observed - fit.predicted, 0.0);
   const Eigen::Index count = fit.jacobian.cols();
-  if (count > 0 && Folds >= 2)
+  if (count > 0 && !Fold.empty())
   {
-    std::vector<Eigen::MatrixXd> normal(static_cast<std::size_t>(Folds));
-    std::vector<Eigen::VectorXd> gradient(static_cast<std::size_t>(Folds));
-    std::vector<std::vector<Eigen::Index>> members(static_cast<std::size_t>(Folds));
-    for (Eigen::Index j = 0; j < samples; ++j)
+    std::vector<Eigen::MatrixXd> normal;
+    std::vector<Eigen::VectorXd> gradient;
+    for (const std::vector<Eigen::Index>& members : Fold)
     {
-      const int fold = Fold[static_cast<std::size_t>(j)];
-      if (fold >= 0)
+      normal.push_back(
+        normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), members));
+      Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
+      for (const Eigen::Index j : members)
       {
-        members[static_cast<std::size_t>(fold)].push_back(j);
+        sum += fit.jacobian.middleRows(j * channels, channels).transpose() *
+          (Weight.col(j).array() * fit.heldOut.col(j).array()).matrix();
       }
+      gradient.push_back(std::move(sum));
     }
-    for (std::size_t f = 0; f < members.size(); ++f)
-    {
-      Eigen::MatrixXd rows(channels * static_cast<Eigen::Index>(members[f].size()), count);
-      Eigen::VectorXd residual(rows.rows());
-      for (std::size_t m = 0; m < members[f].size(); ++m)
-      {
-        const Eigen::Index j = members[f][m];
-        const Eigen::ArrayXd root = Weight.col(j).array().sqrt();
-        const auto at = static_cast<Eigen::Index>(m) * channels;
-        rows.middleRows(at, channels) =
-          root.matrix().asDiagonal() * fit.jacobian.middleRows(j * channels, channels);
-        residual.segment(at, channels) = root * fit.heldOut.col(j).array();
-      }
-      normal[f] = rows.transpose() * rows;
-      gradient[f] = rows.transpose() * residual;
-    }
-    for (std::size_t f = 0; f < members.size(); ++f)
+    for (std::size_t f = 0; f < Fold.size(); ++f)
     {
       Eigen::VectorXd step = (fit.information - normal[f]).ldlt().solve(gradient[f]);
       for (Eigen::Index p = 0; p < count; ++p)
@@ -216,7 +220,7 @@ void EffectFitter::crossValidate(EffectFit& fit) const
         const double value = valueOf(fit.set, parameter);
         step[p] = std::fmin(std::fmax(step[p], value - parameter.upper), value - parameter.lower);
       }
-      for (const Eigen::Index j : members[f])
+      for (const Eigen::Index j : Fold[f])
       {
         fit.heldOut.col(j) += fit.jacobian.middleRows(j * channels, channels) * step;
       }

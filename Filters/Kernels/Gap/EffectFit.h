@@ -61,8 +61,8 @@ private:
   const GapData& Data;
   std::vector<char> Training;
   Eigen::MatrixXd Weight;
-  std::vector<int> Fold;
-  int Folds = 0;
+  std::vector<Eigen::Index> Members;           // the training samples
+  std::vector<std::vector<Eigen::Index>> Fold; // the training samples by inner fold
   double Samples = 0.0;
   double Elements = 0.0;
   double NoiseEnergy = 0.0;

@@ -13,8 +13,6 @@ namespace msi
 
 namespace
 {
-constexpr double PriorWidth = 10.0;
-
 // The residual and everything the present effects can do, taken out of the way.
 class Remainder
 {
@@ -47,8 +45,8 @@ public:
     Eigen::MatrixXd normal = columns.transpose() * columns;
     for (Eigen::Index p = 0; p < columns.cols(); ++p)
     {
-      const double scale = free[static_cast<std::size_t>(p)].scale;
-      normal(p, p) += 1.0 / (PriorWidth * PriorWidth * scale * scale);
+      const double spread = free[static_cast<std::size_t>(p)].spread;
+      normal(p, p) += 1.0 / (spread * spread);
     }
     const Eigen::VectorXd gradient = columns.transpose() * residual;
     return residual.squaredNorm() - gradient.dot(normal.ldlt().solve(gradient));

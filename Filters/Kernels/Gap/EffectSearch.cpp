@@ -245,6 +245,65 @@ EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
   }
   return fit.set.size() > 0 ? fitter.fit(fit.set, FinalIterations) : fit;
 }
+
+// An effect in a form that is not quite right leaves a rest that others mend, numbers of single channels above all, and
+// they then hide the form that is right. Where the rest of the causes in their best forms do as well for the price, an
+// effect goes.
+EffectFit withoutMenders(const EffectFitter& fitter, EffectFit fit,
+  const std::vector<EffectChoice>& choices, double gapEnergy)
+{
+  for (std::size_t position = fit.set.size(); fit.set.size() > 1 && position-- > 0;)
+  {
+    EffectSet rest = fit.set;
+    rest.remove(position);
+    EffectFit other =
+      chooseForms(fitter, fitter.fit(std::move(rest), Iterations), choices, gapEnergy);
+    if (cost(fitter, other, gapEnergy, fit.dispersion) <
+      cost(fitter, fit, gapEnergy, fit.dispersion))
+    {
+      fit = std::move(other);
+      position = fit.set.size();
+    }
+  }
+  return fit;
+}
+
+// Beside numbers of single channels all forms of a cause do equally well. The one is right that does most without them.
+EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
+  const std::vector<EffectChoice>& choices, double gapEnergy)
+{
+  EffectSet leading = fit.set;
+  EffectSet set;
+  for (std::size_t e = leading.size(); e-- > 0;)
+  {
+    if (leading.choices[e].smallError())
+    {
+      leading.remove(e);
+    }
+  }
+  if (leading.size() == 0 || leading.size() == fit.set.size())
+  {
+    return fit;
+  }
+  const EffectFit alone = chooseForms(fitter, fitter.fit(leading, Iterations), choices, gapEnergy);
+  std::size_t next = 0;
+  for (const EffectChoice& choice : fit.set.choices)
+  {
+    if (choice.smallError())
+    {
+      set.add(choice, fitter.data().camera);
+      continue;
+    }
+    set.choices.push_back(alone.set.choices[next]);
+    set.effects.push_back(alone.set.effects[next]);
+    set.secondaryFree.push_back(alone.set.secondaryFree[next]);
+    ++next;
+  }
+  set.level = alone.set.level;
+  EffectFit other = fitter.fit(std::move(set), FinalIterations);
+  const double tolerance = std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion);
+  return other.energy <= fit.energy + tolerance ? other : fit;
+}
 }
 
 double parameterPrice(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy)
@@ -267,7 +326,7 @@ std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& cu
     }
     const auto alike = std::count_if(forms.begin(), forms.end(),
       [&screened](const EffectChoice& form) { return form.sameCause(screened.choice); });
-    if (alike >= FormsFitted)
+    if (alike >= FormsFitted + (hasSecondary(screened.choice) ? 1 : 0))
     {
       continue;
     }
@@ -330,6 +389,7 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
     grown.resize(std::min(grown.size(), static_cast<std::size_t>(limits.width)));
     beam = std::move(grown);
   }
+  result.best = withoutMenders(fitter, std::move(result.best), choices, gapEnergy);
   // Backward.
   bool dropped = true;
   while (dropped && result.best.set.size() > 1)
@@ -363,6 +423,7 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
     {
       result.best = addSmallErrors(fitter, result.best, choices, gapEnergy);
     }
+    result.best = leadingForms(fitter, std::move(result.best), choices, gapEnergy);
   }
   return result;
 }

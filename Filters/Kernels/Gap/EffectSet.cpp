@@ -14,6 +14,8 @@ namespace
 {
 constexpr double RelativeStep = 1e-3; // of a parameter's typical size
 constexpr const char* Level = "exposure_gain";
+constexpr double FreeSpread = 10.0;     // typical sizes
+constexpr double SecondarySpread = 2.0; // typical sizes
 
 // The place of a step has no useful derivative.
 bool foundBySearch(const EffectParameter& parameter)
@@ -51,6 +53,13 @@ std::size_t EffectSet::steps() const noexcept
       const auto& parameters = choice.form->parameters;
       return std::any_of(parameters.begin(), parameters.end(), foundBySearch);
     }));
+}
+
+Eigen::Index EffectSet::reach() const noexcept
+{
+  const bool coupled = std::any_of(effects.begin(), effects.end(),
+    [](const CameraEffect& effect) { return effect.name == "channel_crosstalk"; });
+  return coupled ? 1 : 0;
 }
 
 std::vector<CameraEffect> EffectSet::simulated() const
@@ -114,7 +123,9 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
             name += "[" + camera.channels()[static_cast<std::size_t>(k)] + "]";
           }
           free.push_back({ e, index, parameter.perChannel ? k : -1, group, parameter.neutral,
-            parameter.lower, parameter.upper, parameter.typical, name, parameter.unit });
+            parameter.lower, parameter.upper, parameter.typical,
+            (parameter.secondary ? SecondarySpread : FreeSpread) * parameter.typical, name,
+            parameter.unit });
         }
       }
       ++group;
@@ -124,7 +135,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
   {
     const EffectParameter& gain = findEffect(Level)->forms.front().parameters.front();
     free.push_back({ effects.size(), 0, -1, group, gain.neutral, gain.lower, gain.upper,
-      gain.typical, "level", gain.unit });
+      gain.typical, FreeSpread * gain.typical, "level", gain.unit });
   }
   return free;
 }
@@ -178,10 +189,8 @@ Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, con
 Eigen::MatrixXd jacobian(const CameraModel& camera, const SampleScene& scene, const EffectSet& set,
   const Eigen::MatrixXd& base, const std::vector<FreeParameter>& free)
 {
-  const bool coupled = std::any_of(set.effects.begin(), set.effects.end(),
-    [](const CameraEffect& effect) { return effect.name == "channel_crosstalk"; });
-  const Eigen::Index colors = coupled ? 3 : 1;
-  const Eigen::Index reach = coupled ? 1 : 0;
+  const Eigen::Index reach = set.reach();
+  const Eigen::Index colors = 2 * reach + 1;
   const Eigen::Index channels = base.rows();
   Eigen::MatrixXd columns =
     Eigen::MatrixXd::Zero(base.size(), static_cast<Eigen::Index>(free.size()));
@@ -267,7 +276,7 @@ std::vector<EffectChoice> choicesFor(
           continue;
         }
         choices.push_back({ &effect, &form, medium });
-        if (effect.stage == EffectStage::Responsivity)
+        if (effect.stage == EffectStage::Responsivity && !form.keepsWhite)
         {
           choices.push_back({ &effect, &form, medium, true });
         }

@@ -46,6 +46,7 @@ struct FreeParameter
   Eigen::Index channel; // -1: common to all channels
   std::size_t group;    // parameters of one group differ in the channel only
   double neutral, lower, upper, scale;
+  double spread; // standard deviation about neutral before the data speak
   std::string name, unit;
 };
 
@@ -61,6 +62,8 @@ struct EffectSet
   bool whiteAfterEffects() const noexcept;
   bool leveled() const noexcept;      // and exposure_gain is not there to do it
   std::size_t steps() const noexcept; // places of steps in time: found by search, not by derivative
+  // How many channels away the parameters of one channel act.
+  Eigen::Index reach() const noexcept;
   // What the simulator is to run with.
   std::vector<CameraEffect> simulated() const;
   // Added at its neutral values, or at `start` (one number a parameter of the form).

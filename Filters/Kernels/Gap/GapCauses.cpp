@@ -4,6 +4,8 @@
 #include "Kernels/Gap/Shapley.h"
 #include "Kernels/Gap/ShrinkInterval.h"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +21,7 @@ constexpr int AlternativesFitted = 8;
 constexpr std::size_t EquivalentNamed = 2;
 constexpr double EquivalentPart = 0.02;      // of the gap's energy
 constexpr double EquivalentDeviations = 9.0; // dispersions
+constexpr double AlikeDoubt = 0.5;
 
 EffectSet subsetOf(const EffectSet& set, std::size_t subset)
 {
@@ -33,6 +36,19 @@ EffectSet subsetOf(const EffectSet& set, std::size_t subset)
   return part;
 }
 
+EffectSet atStart(const EffectSet& set, const EffectFitter& fitter)
+{
+  EffectSet fresh;
+  for (std::size_t e = 0; e < set.size(); ++e)
+  {
+    const auto& starts = set.choices[e].form->starts;
+    fresh.add(set.choices[e], fitter.data().camera,
+      starts.empty() ? std::vector<double>() : starts.front());
+    fresh.secondaryFree[e] = 1;
+  }
+  return fresh;
+}
+
 // Shrink of every subset of the effects.
 std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& best)
 {
@@ -40,9 +56,22 @@ std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& b
   std::vector<double> shrink{ 0.0 };
   for (std::size_t subset = 1; subset < subsets; ++subset)
   {
-    const double reached = subset + 1 == subsets
-      ? shrinkOf(fitter, best)
-      : shrinkOf(fitter, fitter.fit(subsetOf(best.set, subset), Iterations));
+    double reached = 0.0;
+    if (subset + 1 == subsets)
+    {
+      reached = shrinkOf(fitter, best);
+    }
+    else
+    {
+      const EffectSet part = subsetOf(best.set, subset);
+      reached = shrinkOf(fitter, fitter.fit(part, Iterations));
+      // Without the others an effect may be far from where it is with them, and needs the freedom that they gave it.
+      if (part.steps() == 0)
+      {
+        reached =
+          std::fmax(reached, shrinkOf(fitter, fitter.fit(atStart(part, fitter), Iterations)));
+      }
+    }
     shrink.push_back(std::fmax(reached, 0.0));
   }
   return shrink;
@@ -94,25 +123,76 @@ std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& sh
   return share;
 }
 
-// For each effect the part of what it does that the others undo, 0..1.
-std::vector<double> undoneParts(const EffectFitter& fitter, const EffectFit& fit)
+// What each effect does to the response where the others are there too, weighted, one column an effect.
+Eigen::MatrixXd contributions(const EffectFitter& fitter, const EffectFit& fit)
 {
   const GapData& data = fitter.data();
-  const auto weighted = [&fitter](const Eigen::MatrixXd& m) -> Eigen::ArrayXXd {
-    return (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt() * m.array(), 0.0);
-  };
-  const Eigen::ArrayXXd all = weighted(fit.predicted - data.simulated);
-  std::vector<double> undone;
+  const Eigen::ArrayXXd root =
+    (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt(), 0.0);
+  Eigen::MatrixXd columns(data.observed.size(), static_cast<Eigen::Index>(fit.set.size()));
   for (std::size_t e = 0; e < fit.set.size(); ++e)
   {
     EffectSet rest = fit.set;
     rest.remove(e);
-    const Eigen::ArrayXXd mine = weighted(fit.predicted - respond(data.camera, data.scene, rest));
-    const double size = mine.square().sum();
-    const double against = -(mine * (all - mine)).sum();
+    const Eigen::ArrayXXd mine =
+      (root > 0.0)
+        .select(root * (fit.predicted - respond(data.camera, data.scene, rest)).array(), 0.0);
+    columns.col(static_cast<Eigen::Index>(e)) =
+      Eigen::Map<const Eigen::VectorXd>(mine.data(), mine.size());
+  }
+  return columns;
+}
+
+// For each effect the part of what it does that the others undo, 0..1.
+std::vector<double> undoneParts(
+  const EffectFitter& fitter, const EffectFit& fit, const Eigen::MatrixXd& contribution)
+{
+  const Eigen::ArrayXXd change =
+    (fitter.weight().array() > 0.0)
+      .select(
+        fitter.weight().array().sqrt() * (fit.predicted - fitter.data().simulated).array(), 0.0);
+  const Eigen::Map<const Eigen::VectorXd> all(change.data(), change.size());
+  std::vector<double> undone;
+  for (Eigen::Index e = 0; e < contribution.cols(); ++e)
+  {
+    const double size = contribution.col(e).squaredNorm();
+    const double against = size - contribution.col(e).dot(all);
     undone.push_back(size > 0.0 ? std::fmin(std::fmax(against / size, 0.0), 1.0) : 0.0);
   }
   return undone;
+}
+
+// For each effect the part of what it does, 0..1, that other effects on the same medium do alike. Two that are that
+// similar and are both needed may be one that the library has not got.
+std::vector<double> alikeParts(const EffectSet& set, const Eigen::MatrixXd& contribution)
+{
+  std::vector<double> alike(set.size(), 0.0);
+  for (std::size_t e = 0; e < set.size(); ++e)
+  {
+    std::vector<Eigen::Index> others;
+    for (std::size_t o = 0; o < set.size(); ++o)
+    {
+      if (o != e && !set.choices[e].medium.empty() &&
+        set.choices[o].medium == set.choices[e].medium)
+      {
+        others.push_back(static_cast<Eigen::Index>(o));
+      }
+    }
+    if (others.empty())
+    {
+      continue;
+    }
+    Eigen::MatrixXd columns(contribution.rows(), static_cast<Eigen::Index>(others.size()));
+    for (std::size_t o = 0; o < others.size(); ++o)
+    {
+      columns.col(static_cast<Eigen::Index>(o)) = contribution.col(others[o]);
+    }
+    const Eigen::VectorXd mine = contribution.col(static_cast<Eigen::Index>(e));
+    const Eigen::VectorXd rest = mine - columns * columns.colPivHouseholderQr().solve(mine);
+    const double size = mine.squaredNorm();
+    alike[e] = size > 0.0 ? std::fmax(1.0 - rest.squaredNorm() / size, 0.0) : 0.0;
+  }
+  return alike;
 }
 
 // The part of an effect's share that its own parameters do not belie: gains of single channels that follow one curve
@@ -254,7 +334,9 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
   const std::vector<double> alone = subsetShrinks(fitter, best);
   const std::vector<double> share = sharesOf(best.set, alone);
   const double sum = std::accumulate(share.begin(), share.end(), 0.0);
-  const std::vector<double> undone = undoneParts(fitter, best);
+  const Eigen::MatrixXd contribution = contributions(fitter, best);
+  const std::vector<double> undone = undoneParts(fitter, best, contribution);
+  const std::vector<double> alike = alikeParts(best.set, contribution);
   const Eigen::VectorXd errors = count > 0
     ? Eigen::VectorXd(fitter.covariance(best).diagonal().cwiseMax(0.0).cwiseSqrt())
     : Eigen::VectorXd();
@@ -265,9 +347,9 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
     cause.effect = best.set.choices[e].effect->name;
     cause.form = best.set.choices[e].form->name;
     cause.medium = best.set.choices[e].medium;
-    cause.share = sum > 0.0
-      ? std::fmax(total, 0.0) * share[e] / sum * (1.0 - doubt * undone[e]) * credible(best.set, e)
-      : 0.0;
+    cause.share = sum > 0.0 ? std::fmax(total, 0.0) * share[e] / sum * (1.0 - doubt * undone[e]) *
+        (1.0 - AlikeDoubt * alike[e]) * credible(best.set, e)
+                            : 0.0;
     cause.shrink = alone[std::size_t(1) << e];
     cause.undone = undone[e];
     if (e < found.causes)

@@ -354,8 +354,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     // What is left has a cause that is not known, and may overlap with those found by as much as its own size: of what
     // they do, only that part is certain.
     const double shrink = report.gap.shrink;
-    const double certain =
-      shrink >= ExplainedShrink ? shrink : shrink * std::fmax(2.0 * shrink - 1.0, 0.0);
+    const double certain = shrink * std::fmax(2.0 * shrink - 1.0, 0.0);
     // Wrong causes that cancel one another mimic one that is not known, but not to the last; right ones may cancel and
     // leave nothing.
     const double left = 1.0 - report.gap.shrinkInterval[1];

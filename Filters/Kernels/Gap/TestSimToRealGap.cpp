@@ -184,6 +184,20 @@ TEST(SimToRealGap, TheSameBytesOnManyThreadsAndOne)
     parallel.causes.front().parameters.front().value);
 }
 
+// Two effects of the surface can imitate a third to the last: r (1 - p) / (1 - p r) is a gain and a loss that grows with r.
+TEST(SimToRealGap, DoubtsTwoAlikeEffectsOfOneMedium)
+{
+  msi::GapOptions options;
+  options.without = { "interreflection" };
+  const msi::GapReport report =
+    diagnosisOf(captureWith({ { "interreflection", "", "fabric", { 0.25 } } }, 192), options);
+  EXPECT_NE(report.verdict, GapVerdict::Explained);
+  for (const msi::GapCause& cause : report.causes)
+  {
+    EXPECT_LT(cause.share, 0.5) << cause.effect;
+  }
+}
+
 TEST(SimToRealGap, StopsWhenAskedTo)
 {
   msi::GapOptions options;

@@ -100,7 +100,7 @@ private:
 
 EffectParameter glare(bool perChannel)
 {
-  return { "fraction", "1", 0.0, -0.1, 0.5, 0.01, "share of the scene's mean signal", perChannel };
+  return { "fraction", "1", 0.0, 0.0, 0.5, 0.01, "share of the scene's mean signal", perChannel };
 }
 }
 
@@ -109,6 +109,10 @@ std::vector<EffectEntry> irradianceEffects()
   const std::vector<EffectParameter> center = { { "center_x", "half field", 0.0, -1.0, 1.0, 0.2,
                                                   "optical axis", false, true },
     { "center_y", "half field", 0.0, -1.0, 1.0, 0.2, "optical axis", false, true } };
+  const EffectParameter tail{ "fraction", "1", 0.0, -0.1, 0.6, 0.01,
+    "share of the light in the tail" };
+  const EffectParameter radius{ "radius", "pixels", 8.0, 1.0, 64.0, 4.0,
+    "reach of the tail, images only", false, true };
   return {
     { { "illumination_gradient", "Illumination gradient",
         "More light on one side of the field than on the other.", EffectStage::Irradiance,
@@ -139,11 +143,16 @@ std::vector<EffectEntry> irradianceEffects()
         "Light scattered by a small angle: the broad tail of the point spread.",
         EffectStage::Irradiance, EffectNeed::Position,
         { { "neighbours",
-          "u + fraction (T u - u); T is the mean of the neighbours on a table, the tail on an "
-          "image",
-          { { "fraction", "1", 0.0, -0.1, 0.6, 0.01, "share of the light in the tail" },
-            { "radius", "pixels", 8.0, 1.0, 64.0, 4.0, "reach of the tail, images only", false,
-              true } } } } },
+            "u + fraction (T u - u); T is the mean of the neighbours on a table, the tail on an "
+            "image",
+            { tail, radius } },
+          { "tail",
+            "the same with T the mean of all around, weighted exp(-distance / reach), on a table",
+            { tail,
+              { "reach", "pitches", 1.0, 0.2, 4.0, 0.5,
+                "reach of the tail, tables only; a pitch is the distance to the next sample", false,
+                true },
+              radius } } } },
       nullptr, nullptr, makeSurroundOperator<StrayLight> },
   };
 }

@@ -181,7 +181,7 @@ std::vector<EffectEntry> reflectanceEffects()
         EffectStage::Reflectance, EffectNeed::Medium,
         { { "power", "r / (1 + loss (wavelength / 550 nm)^exponent r)",
           { { "loss", "1", 0.0, -0.4, 2.0, 0.05, "loss at 550 nm for a reflectance of one" },
-            { "exponent", "1", 2.0, 0.0, 10.0, 1.0, "growth with the wavelength", false,
+            { "exponent", "1", 2.0, 1.0, 10.0, 1.0, "growth with the wavelength", false,
               true } } } } },
       nullptr, makeBlockOperator<Translucency> },
     { { "fluorescence", "Fluorescence",

@@ -1,7 +1,9 @@
 // Lamp and filters that are not what the model says.
 #include "Kernels/Camera/Effects/EffectEntry.h"
 #include "Kernels/Camera/Effects/MovedSpectrum.h"
+#include "Kernels/Camera/Effects/PassbandCenter.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace msi
@@ -138,6 +140,73 @@ private:
   bool FixedPeak;
 };
 
+// Passbands that move or widen under a light that stays: they take on its slope, their brightness changes with it, and
+// they end where it ends. As with the plain shift, the smooth sides, reflectance and light, are read elsewhere:
+// integral of light(w) passband(c + (w - c - shift) / f) r(w) = f x integral of M(v) light(w) / light(v) r(w),
+// w = c + f (v - c) + shift.
+class PassbandsInLight : public ResponsivityOperator
+{
+public:
+  explicit PassbandsInLight(const BoundEffect& effect)
+    : Grid(effect.camera().wavelengths())
+    , Slope(effect.value("slope"))
+    , Bend(effect.value("bend"))
+    , Twist(effect.value("twist"))
+  {
+    const bool widens = effect.definition().name == "filter_bandwidth";
+    const Eigen::Index channels = effect.camera().channelCount();
+    Factor = widens ? effect.perChannel("factor") : Eigen::ArrayXd::Ones(channels);
+    Shift = widens ? Eigen::ArrayXd::Zero(channels) : effect.perChannel("shift");
+  }
+  void apply(Eigen::MatrixXd& responsivity) const override
+  {
+    const Eigen::ArrayXd wavelength = Grid.vector().array();
+    const Eigen::ArrayXd known = logLight(wavelength);
+    for (Eigen::Index k = 0; k < responsivity.rows(); ++k)
+    {
+      const Eigen::ArrayXd row = responsivity.row(k).transpose().array();
+      const double center = Factor[k] == 1.0 ? 0.0 : passbandCenter(Grid, row, known);
+      const Eigen::ArrayXd at = center + Factor[k] * (wavelength - center) + Shift[k];
+      const Eigen::ArrayXd inside = at.unaryExpr([this](double w) { return insidePart(w); });
+      const Eigen::ArrayXd lit = Factor[k] * row * inside * (logLight(at) - known).exp();
+      responsivity.row(k) = (lit.matrix().transpose() * movedSpectrum(Grid, at)).eval();
+    }
+  }
+
+private:
+  Eigen::ArrayXd logLight(const Eigen::ArrayXd& wavelength) const
+  {
+    const double half = 0.5 * (Grid.back() - Grid.front());
+    const double middle = 0.5 * (Grid.back() + Grid.front());
+    const Eigen::ArrayXd x = ((wavelength - middle) / half).cwiseMax(-1.2).cwiseMin(1.2);
+    return Slope * x + Bend * (1.5 * x.square() - 0.5) + Twist * (2.5 * x.cube() - 1.5 * x);
+  }
+  // The light ends with the grid, over one step of it.
+  double insidePart(double wavelength) const
+  {
+    const double below = (wavelength - Grid.front()) / (Grid[1] - Grid[0]);
+    const double above = (Grid.back() - wavelength) / (Grid.back() - Grid[Grid.size() - 2]);
+    return std::clamp(std::fmin(below, above) + 1.0, 0.0, 1.0);
+  }
+
+  WavelengthGrid Grid;
+  Eigen::ArrayXd Factor;
+  Eigen::ArrayXd Shift;
+  double Slope;
+  double Bend;
+  double Twist;
+};
+
+template <typename Plain>
+std::unique_ptr<ResponsivityOperator> makeInLightOr(const BoundEffect& effect)
+{
+  if (effect.form().name == "in_light" && effect.camera().wavelengths().size() > 2)
+  {
+    return std::make_unique<PassbandsInLight>(effect);
+  }
+  return std::make_unique<Plain>(effect);
+}
+
 class FilterLeak : public ResponsivityOperator
 {
 public:
@@ -172,6 +241,14 @@ std::vector<EffectEntry> responsivityEffects()
     return EffectParameter{ "factor", "1", 1.0, 0.3, 3.0, 0.1,
       "real width of the passband over the nominal one", perChannel };
   };
+  // Of the light's logarithm: ln(light) = slope P1(x) + bend P2(x).
+  const EffectParameter slope{ "slope", "1", 0.0, -4.0, 4.0, 0.5,
+    "natural logarithm of the light at the long end over that at the short end, halved", false,
+    true };
+  const EffectParameter bend{ "bend", "1", 0.0, -4.0, 4.0, 0.5,
+    "curvature of the light's logarithm: weight of P2", false, true };
+  const EffectParameter twist{ "twist", "1", 0.0, -4.0, 4.0, 0.5,
+    "further curvature of the light's logarithm: weight of P3", false, true };
   const auto leak = [](bool perChannel)
   {
     return std::vector<EffectParameter>{
@@ -187,26 +264,36 @@ std::vector<EffectEntry> responsivityEffects()
     { { "filter_bandwidth", "Filter bandwidth",
         "Passbands wider or narrower than the nominal ones, about their centroids.",
         EffectStage::Responsivity, EffectNeed::Nothing,
-        { { "common", "M(c + (wavelength - c) / factor), response to white kept",
-            { factor(false) } },
-          { "per_channel", "the same with a factor of its own for each channel", { factor(true) } },
+        { { "common", "M(c + (wavelength - c) / factor), response to white kept", { factor(false) },
+            {}, true },
+          { "per_channel", "the same with a factor of its own for each channel", { factor(true) },
+            {}, true },
           { "fixed_peak", "the same with the peak kept: the response to white grows with the width",
-            { factor(false) } } } },
-      makeResponsivityOperator<FilterBandwidth> },
+            { factor(false) } },
+          { "in_light",
+            "light x passband(c + (wavelength - c) / factor), c the passband's middle; the light "
+            "stays, ln(light) = slope P1(x) + bend P2(x) + twist P3(x), none beyond the grid",
+            { factor(false), slope, bend, twist } } } },
+      makeInLightOr<FilterBandwidth> },
     { { "filter_shift", "Filter shift",
         "Passbands at other wavelengths than nominal: maker's tolerance, oblique incidence, "
         "temperature.",
         EffectStage::Responsivity, EffectNeed::Nothing,
-        { { "common", "M(wavelength - shift), response to white kept", { shift(false) } },
+        { { "common", "M(wavelength - shift), response to white kept", { shift(false) }, {}, true },
           { "sampled",
             "the curve itself is moved on its grid: what leaves at an end is lost to the response "
             "to white",
             { shift(false) } },
           { "linear", "shift + slope (centroid - 550 nm) / 100 nm",
             { shift(false),
-              { "slope", "nm per 100 nm", 0.0, -15.0, 15.0, 1.0, "growth of the shift" } } },
-          { "per_channel", "a shift of its own for each channel", { shift(true) } } } },
-      makeResponsivityOperator<FilterShift> },
+              { "slope", "nm per 100 nm", 0.0, -15.0, 15.0, 1.0, "growth of the shift" } },
+            {}, true },
+          { "in_light",
+            "light x passband(wavelength - shift); the light stays, ln(light) = slope P1(x) + bend "
+            "P2(x) + twist P3(x), none beyond the grid",
+            { shift(false), slope, bend, twist } },
+          { "per_channel", "a shift of its own for each channel", { shift(true) }, {}, true } } },
+      makeInLightOr<FilterShift> },
     { { "filter_leak", "Filter leak",
         "Transmittance outside the passband, even over the grid or tilted.",
         EffectStage::Responsivity, EffectNeed::Nothing,

@@ -117,6 +117,15 @@ TEST(SessionDrift, FollowsItsCourse)
     respondTo(even, { "session_drift", "slope_per_channel", "", { 0.0, 0.1, 0.2, 0.3, 0.4, 0.0 } });
   EXPECT_NEAR(each(4, 4), 0.5 * 1.4, 1e-15);
   EXPECT_EQ(each(0, 4), 0.5);
+  const Eigen::MatrixXd warming = respondTo(
+    even, { "session_drift", "warm_up_per_channel", "", { 0.0, 0.1, 0.2, 0.3, 0.4, 0.5 } });
+  const Eigen::MatrixXd resting = respondTo(
+    even, { "session_drift", "settling_per_channel", "", { 0.0, 0.1, 0.2, 0.3, 0.4, 0.5 } });
+  for (int k = 0; k < 5; ++k)
+  {
+    EXPECT_NEAR(warming(k, 4), 0.5 * (1.0 + 0.1 * k * (1.0 - std::exp(-2.0))), 1e-15);
+    EXPECT_NEAR(resting(k, 4), 0.5 * (1.0 + 0.1 * k * std::exp(-2.0)), 1e-15);
+  }
 }
 
 }

@@ -84,4 +84,26 @@ TEST(LocalStrayLight, BrightensTheNeighboursOfABrightSample)
   EXPECT_EQ(u(0, 12), 0.0);                     // another scene
 }
 
+TEST(LocalStrayLight, FallsOffExponentiallyOverTheSceneInPitches)
+{
+  // One bright sample of scene a, whose raster is 4 columns by 6 rows.
+  Eigen::RowVectorXd reflectance = Eigen::RowVectorXd::Zero(48);
+  reflectance[9] = 0.8;
+  const double reach = 0.7;
+  const Eigen::MatrixXd u =
+    respondTo(reflectance, { "local_stray_light", "tail", "", { 0.1, reach, 8.0 } });
+  for (const int sample : { 10, 11, 0, 26, 43 })
+  {
+    const auto weight = [&](int other)
+    { return std::exp(-std::hypot(sample % 8 - other % 8, sample / 8 - other / 8) / reach); };
+    double sum = 0.0;
+    for (int other = 0; other < 48; ++other)
+    {
+      sum += other % 8 < 4 && other != sample ? weight(other) : 0.0;
+    }
+    EXPECT_NEAR(u(0, sample), 0.1 * 0.8 * weight(9) / sum, 1e-8) << sample;
+  }
+  EXPECT_EQ(u(0, 12), 0.0); // another scene
+}
+
 }

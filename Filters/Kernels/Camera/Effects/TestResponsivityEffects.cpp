@@ -1,5 +1,6 @@
 #include "Kernels/Camera/CameraTestData.h"
 #include "Kernels/Camera/Effects/MovedSpectrum.h"
+#include "Kernels/Camera/Effects/PassbandCenter.h"
 
 #include <gtest/gtest.h>
 
@@ -99,6 +100,96 @@ TEST(FilterBandwidth, WidensAGaussianPassband)
     EXPECT_NEAR(respondTo(band, { "filter_bandwidth", "fixed_peak", "", { factor } })[1],
       factor * expected, 2e-5);
   }
+}
+
+// A camera whose filters are not those of the model, behind the same lamp and balanced on the same white.
+class FiltersInLight : public ::testing::Test
+{
+protected:
+  FiltersInLight()
+    : Grid(fineGrid())
+  {
+    const Eigen::ArrayXd x = (Grid.vector().array() - 550.0) / 150.0;
+    Parts.detector = Eigen::VectorXd::Ones(Grid.size());
+    Parts.light = (Slope * x + Bend * (1.5 * x.square() - 0.5)).exp();
+    Parts.filters = { { 412.0, 30.0 }, { 470.0, 24.0 }, { 560.0, 40.0 }, { 690.0, 30.0 } };
+    Samples.reflectance = 0.3 + 0.2 * (Grid.vector().array() / 35.0).sin();
+  }
+  Eigen::VectorXd expected(double factor, double shift) const
+  {
+    msi::CameraParts real = Parts;
+    for (msi::BandpassFilter& filter : real.filters)
+    {
+      filter.width *= factor;
+      filter.center += shift;
+    }
+    return msi::designCamera(Grid, real).responsivity() * Samples.reflectance.col(0);
+  }
+  Eigen::VectorXd found(const CameraEffect& effect) const
+  {
+    return CameraSimulator(msi::designCamera(Grid, Parts), { effect }, { true })
+      .respond({ Grid, Samples });
+  }
+  static constexpr double Slope = 1.1;
+  static constexpr double Bend = -0.4;
+  WavelengthGrid Grid;
+  msi::CameraParts Parts;
+  msi::SceneSamples Samples;
+};
+
+TEST_F(FiltersInLight, Widen)
+{
+  for (const double factor : { 0.6, 0.9, 1.4, 2.0 })
+  {
+    const Eigen::VectorXd real = expected(factor, 0.0);
+    const Eigen::VectorXd error =
+      found({ "filter_bandwidth", "in_light", "", { factor, Slope, Bend, 0.0 } }) - real;
+    // A passband that the end cuts is not known beyond it: what comes in from there when it narrows is missing.
+    const Eigen::Index first = factor < 1.0 ? 1 : 0;
+    const Eigen::Index count = factor < 1.0 ? 2 : 4;
+    EXPECT_LT(error.segment(first, count).cwiseAbs().maxCoeff(), 4e-4) << factor;
+    EXPECT_LT(error.segment(1, 2).cwiseAbs().maxCoeff(), 2e-5) << factor;
+    // The plain form, which lets the light move along, is far off.
+    const Eigen::VectorXd plain = found({ "filter_bandwidth", "common", "", { factor } }) - real;
+    EXPECT_GT(plain.cwiseAbs().maxCoeff(), 10.0 * error.segment(first, count).cwiseAbs().maxCoeff())
+      << factor;
+  }
+}
+
+TEST_F(FiltersInLight, Shift)
+{
+  for (const double shift : { -6.0, -1.0, 3.0 })
+  {
+    const Eigen::VectorXd error =
+      found({ "filter_shift", "in_light", "", { shift, Slope, Bend, 0.0 } }) - expected(1.0, shift);
+    EXPECT_LT(error.segment(1, 2).cwiseAbs().maxCoeff(), 2e-5) << shift;
+  }
+}
+
+TEST_F(FiltersInLight, ShiftedTheyAreAsBrightAsTheLightThere)
+{
+  Samples.reflectance.setOnes();
+  const Eigen::VectorXd white = CameraSimulator(msi::designCamera(Grid, Parts),
+    { { "filter_shift", "in_light", "", { 4.0, Slope, 0.0, 0.0 } } })
+                                  .respond({ Grid, Samples });
+  EXPECT_NEAR(white[1], std::exp(Slope * 4.0 / 150.0), 1e-12);
+  EXPECT_NEAR(white[2], std::exp(Slope * 4.0 / 150.0), 1e-12);
+  EXPECT_LT(white[3], std::exp(Slope * 4.0 / 150.0)); // a part is out of the light
+}
+
+TEST(PassbandCenter, IsTheGaussiansUnderAnyExponentialLightAndAtTheEndOfTheGrid)
+{
+  const WavelengthGrid grid = WavelengthGrid::uniform(400.0, 700.0, 10.0);
+  const Eigen::ArrayXd logLight = 0.02 * grid.vector().array();
+  for (const double center : { 404.0, 433.3, 551.0, 696.0 })
+  {
+    for (const double deviation : { 5.0, 14.0, 40.0 })
+    {
+      const Eigen::ArrayXd row = gaussian(grid, center, deviation) * (logLight - 11.0).exp();
+      EXPECT_NEAR(msi::passbandCenter(grid, row, logLight), center, 1e-6) << deviation;
+    }
+  }
+  EXPECT_EQ(msi::passbandCenter(grid, Eigen::ArrayXd::Zero(grid.size()), logLight), 550.0);
 }
 
 TEST(FilterLeak, LetsALongPassTileThroughABlueChannel)

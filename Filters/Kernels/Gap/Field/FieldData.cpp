@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldData.h"
 
 #include "Kernels/Camera/CounterRandom.h"
-#include "Kernels/Camera/Imaging/SeparableFilter.h"
+#include "Kernels/Gap/Field/FieldTail.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,6 @@ namespace
 constexpr std::size_t LargestWhole = std::size_t(1) << 21;
 constexpr int RegionSide = 512;
 constexpr int Regions = 3; // a side
-constexpr int TailReach = 2 * ((1 << TailPasses) - 1);
 constexpr int Surround = 2; // finite neighbours
 constexpr int LargestMargin = 8;
 constexpr std::size_t MostBlocks = 208;
@@ -205,17 +204,6 @@ void dealBlocks(std::vector<FieldBlock>& blocks, std::uint64_t seed)
   blocks = std::move(dealt);
 }
 
-SymmetricKernel splineKernel(int channels, int stride)
-{
-  SymmetricKernel kernel;
-  kernel.weights.resize(channels, 3);
-  kernel.weights.col(0).setConstant(6.0F / 16.0F);
-  kernel.weights.col(1).setConstant(4.0F / 16.0F);
-  kernel.weights.col(2).setConstant(1.0F / 16.0F);
-  kernel.stride = stride;
-  return kernel;
-}
-
 void addTails(FieldData& data, const Region& region)
 {
   const std::size_t K = data.pair.channels.size();
@@ -228,7 +216,7 @@ void addTails(FieldData& data, const Region& region)
   }
   for (int pass = 0; pass < TailPasses; ++pass)
   {
-    convolve(splineKernel(buffer.channels, 1 << pass), buffer);
+    convolve(tailKernel(buffer.channels, pass), buffer);
     for (FieldBlock& block : data.blocks)
     {
       if (!region.interior.contains(block.window))

@@ -14,7 +14,6 @@
 namespace msi
 {
 
-inline constexpr int TailPasses = 6;
 inline constexpr int FieldFolds = 5;
 
 using FieldLoop = std::function<void(int count, const std::function<void(int)>& body)>;

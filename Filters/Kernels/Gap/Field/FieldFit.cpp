@@ -53,46 +53,64 @@ Eigen::VectorXd FieldFitter::coefficients(
   using P = FieldParameter;
   const FieldModel& model = Statistics.model;
   Eigen::VectorXd column = Eigen::VectorXd::Zero(Columns);
-  const double gain = model.at(P::Gain, channel);
-  const double mean = gain * Glare[channel];
+  const auto one = [&column](FieldColumn::Index at, double weight = 1.0) { column[at] = weight; };
   switch (parameter)
   {
     case P::Gain:
-      column[FieldColumn::Gain] = 1.0 / gain;
+      one(FieldColumn::Gain, 1.0 / model.at(P::Gain, channel));
       break;
     case P::Dark:
-      column[FieldColumn::One] = 1.0;
+      one(FieldColumn::One);
       break;
     case P::Glare:
-      column[FieldColumn::One] = mean;
+      one(FieldColumn::Mean);
       break;
     case P::ConservingGlare:
-      column[FieldColumn::One] = mean;
-      column[FieldColumn::Gain] = -1.0;
+    {
+      const double kept = 1.0 - model.at(P::ConservingGlare, channel);
+      one(FieldColumn::Gain, -1.0 / kept);
+      one(FieldColumn::Mean,
+        1.0 + (model.at(P::Glare, channel) + model.at(P::ConservingGlare, channel)) / kept);
       break;
+    }
     case P::GradientRight:
-      column[FieldColumn::GradientRight] = 1.0;
+      one(FieldColumn::GradientRight);
       break;
     case P::GradientDown:
-      column[FieldColumn::GradientDown] = 1.0;
+      one(FieldColumn::GradientDown);
       break;
     case P::Falloff:
-      column[FieldColumn::RadiusSquared] = -1.0;
+      one(FieldColumn::RadiusSquared, -1.0);
       break;
     case P::Square:
-      column[FieldColumn::Square] = 1.0;
+      one(FieldColumn::Square);
+      break;
+    case P::Exponent:
+      one(FieldColumn::Exponent);
+      break;
+    case P::Compression:
+      one(FieldColumn::Square, -1.0);
+      break;
+    case P::Clip:
+      one(FieldColumn::Clip);
+      break;
+    case P::ClipLevel:
+      one(FieldColumn::ClipLevel);
+      break;
+    case P::Retained:
+      one(FieldColumn::Before);
       break;
     case P::Right:
-      column[FieldColumn::Right] = 1.0;
+      one(FieldColumn::Right);
       break;
     case P::Down:
-      column[FieldColumn::Down] = 1.0;
+      one(FieldColumn::Down);
       break;
     case P::Magnification:
-      column[FieldColumn::Magnification] = 1.0;
+      one(FieldColumn::Magnification);
       break;
     case P::BlurVariance:
-      column[FieldColumn::BlurVariance] = 1.0;
+      one(FieldColumn::BlurVariance);
       break;
     case P::TailFraction:
       column.segment(FieldColumn::Tail, TailPasses) = tailWeights(radius).matrix();
@@ -102,18 +120,22 @@ Eigen::VectorXd FieldFitter::coefficients(
         model.at(P::TailFraction, channel) * tailSlope(radius).matrix();
       break;
     case P::RowSine:
-      column[FieldColumn::RowSine] = 1.0;
+      one(FieldColumn::RowSine);
       break;
     case P::RowCosine:
-      column[FieldColumn::RowCosine] = 1.0;
+      one(FieldColumn::RowCosine);
       break;
     case P::ColumnSine:
-      column[FieldColumn::ColumnSine] = 1.0;
+      one(FieldColumn::ColumnSine);
       break;
     case P::ColumnCosine:
-      column[FieldColumn::ColumnCosine] = 1.0;
+      one(FieldColumn::ColumnCosine);
       break;
     case P::Count:
+      break;
+    default:
+      column[FieldColumn::Tail + 1 + static_cast<int>(parameter) -
+        static_cast<int>(P::SurroundFirst)] = 1.0;
       break;
   }
   return column;
@@ -226,8 +248,9 @@ FieldFit FieldFitter::fit(const FieldSet& set, double start) const
   std::vector<char> known(FieldParameters, 0);
   const auto add = [&](const FieldTerm& term, bool held)
   {
-    const double neutral =
-      term.parameter == FieldParameter::TailRadius ? radius : neutralValue(term.parameter);
+    const double neutral = term.parameter == FieldParameter::TailRadius ? radius
+      : isShape(term.parameter) ? model.at(term.parameter, 0)
+                                : neutralValue(term.parameter);
     terms.push_back({ term, Eigen::ArrayXd::Constant(Data.channels(), neutral),
       std::vector<char>(K, held ? 1 : 0) });
     known[static_cast<std::size_t>(term.parameter)] = 1;
@@ -249,7 +272,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, double start) const
   for (std::size_t p = 0; p < FieldParameters; ++p)
   {
     const auto parameter = static_cast<FieldParameter>(p);
-    if (known[p] == 0 && parameter != FieldParameter::TailRadius && !model.isNeutral(parameter))
+    if (known[p] == 0 && !isShape(parameter) && !model.isNeutral(parameter))
     {
       add({ parameter, true, 0.0, 0.0, 1.0 }, true);
     }

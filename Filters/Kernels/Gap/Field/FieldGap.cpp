@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
+#include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"

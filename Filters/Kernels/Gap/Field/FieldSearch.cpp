@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldSearch.h"
 
+#include "Kernels/Gap/Field/FieldClip.h"
+#include "Kernels/Gap/Field/FieldHypothesis.h"
 #include "Kernels/Gap/Field/FieldShift.h"
 
 #include <algorithm>
@@ -18,48 +20,7 @@ constexpr double RelevantPart = 0.01; // of the gap's energy, for an effect
 constexpr double PricePart = 0.0005;  // for a parameter
 constexpr double LargestPricePart = 0.001;
 constexpr double PriceOfEffect = 3.0; // prices
-constexpr int Iterations = 4;
-constexpr double SmallStep = 0.02; // typical sizes
 constexpr std::size_t FullFits = 2;
-constexpr double Radii[] = { 2.0, 4.0, 8.0, 16.0, 32.0 };
-constexpr double Indistinct = 0.5; // standard error over typical size
-
-struct Hypothesis
-{
-  FieldSet set;
-  std::shared_ptr<const FieldStatistics> statistics;
-  FieldFit fit;
-};
-
-double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)
-{
-  double n = 0.0;
-  double sum = 0.0;
-  double square = 0.0;
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
-  {
-    if (data.blocks[b].fold >= 0)
-    {
-      const double value = gain[static_cast<Eigen::Index>(b)];
-      n += 1.0;
-      sum += value;
-      square += value * value;
-    }
-  }
-  return sum / std::sqrt(std::fmax(square - sum * sum / n, 1e-30));
-}
-
-FieldSet joined(FieldSet set, const FieldChoice& choice)
-{
-  set.push_back(&choice);
-  return set;
-}
-
-FieldSet withoutOne(FieldSet set, std::size_t position)
-{
-  set.erase(set.begin() + static_cast<std::ptrdiff_t>(position));
-  return set;
-}
 
 class Search
 {
@@ -96,7 +57,7 @@ private:
   const FieldLoop& Loop;
   FieldModel Nominal;
   Eigen::MatrixXd Shifts;
-  Hypothesis Current;
+  FieldHypothesis Current;
   FieldSearchResult Result;
 
   double cost(const FieldFit& fit) const
@@ -130,53 +91,33 @@ private:
       std::fmin(least * dispersion, LargestPricePart * fitter.energy()));
   }
 
-  // The model after Gauss-Newton from a start.
-  Hypothesis refit(const FieldSet& set, const FieldModel& start) const
+  FieldHypothesis refit(const FieldSet& set, const FieldModel& start) const
   {
-    FieldModel model = start;
-    Hypothesis best;
-    for (int iteration = 0; iteration < Iterations; ++iteration)
-    {
-      const auto statistics =
-        std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Result.weights, Loop));
-      FieldFit fit = FieldFitter(Data, *statistics).fit(set);
-      const double step = fit.step;
-      const FieldModel next = fit.next;
-      if (!best.statistics || fit.energy < best.fit.energy || step < SmallStep)
-      {
-        best = { set, statistics, std::move(fit) };
-      }
-      if (step < SmallStep)
-      {
-        break;
-      }
-      model = next;
-    }
-    return best;
+    return refitted(Data, Result.weights, set, start, Loop);
   }
 
-  // Looks for stripes in what is left.
-  void findStripes()
+  // Looks for stripes and clipping in what is left.
+  void findStarts()
   {
     FieldModel model = Current.statistics->model;
-    const auto has = [this](const char* form)
-    {
-      return std::any_of(Current.set.begin(), Current.set.end(),
-        [form](const FieldChoice* choice)
-        { return choice->effect == "banding" && choice->form == form; });
-    };
     bool found = false;
-    if (!has("rows"))
+    if (!contains(Current.set, "banding", "rows"))
     {
       Result.rows = findPeriod(Data, model, true, Loop);
       found = found || Result.rows.period != model.rowPeriod;
       model.rowPeriod = Result.rows.period;
     }
-    if (!has("columns"))
+    if (!contains(Current.set, "banding", "columns"))
     {
       Result.columns = findPeriod(Data, model, false, Loop);
       found = found || Result.columns.period != model.columnPeriod;
       model.columnPeriod = Result.columns.period;
+    }
+    if (!contains(Current.set, "saturation"))
+    {
+      const double level = findClipLevel(Data, model, Loop);
+      found = found || level != model.at(FieldParameter::ClipLevel, 0);
+      model[FieldParameter::ClipLevel].setConstant(level);
     }
     if (found)
     {
@@ -194,27 +135,11 @@ private:
     {
       return false;
     }
+    if (choice.effect == "saturation" && model.isNeutral(FieldParameter::ClipLevel))
+    {
+      return false;
+    }
     return compatible(set, choice);
-  }
-
-  FieldFit linear(const FieldFitter& fitter, const FieldSet& set) const
-  {
-    const bool tail = std::any_of(set.begin(), set.end(),
-      [](const FieldChoice* choice) { return choice->effect == "local_stray_light"; });
-    if (!tail || !fitter.statistics().model.isNeutral(FieldParameter::TailFraction))
-    {
-      return fitter.fit(set);
-    }
-    std::optional<FieldFit> best;
-    for (const double radius : Radii)
-    {
-      FieldFit fit = fitter.fit(set, radius);
-      if (!best || fit.energy < best->energy)
-      {
-        best = std::move(fit);
-      }
-    }
-    return *best;
   }
 
   bool shifted() const { return Shifts.cwiseAbs().maxCoeff() >= 1.0; }
@@ -227,7 +152,7 @@ private:
     {
       if (available(set, choice))
       {
-        fits.push_back(linear(fitter, joined(set, choice)));
+        fits.push_back(linearFit(fitter, joined(set, choice)));
       }
     }
     std::stable_sort(fits.begin(), fits.end(),
@@ -245,53 +170,20 @@ private:
     return best;
   }
 
-  // Effects whose parameters this scene does not show.
-  void findIndistinct(const FieldFitter& fitter)
-  {
-    for (const FieldChoice& choice : Choices)
-    {
-      if (choice.effect != "misregistration" && choice.effect != "defocus" &&
-        choice.effect != "local_stray_light")
-      {
-        continue;
-      }
-      double information = 0.0;
-      for (Eigen::Index k = 0; k < Data.channels(); ++k)
-      {
-        const Eigen::VectorXd column = fitter.coefficients(
-          choice.terms.front().parameter, k, Nominal.at(FieldParameter::TailRadius, 0));
-        for (std::size_t b = 0; b < Data.blocks.size(); ++b)
-        {
-          information += column.dot(
-            fitter.statistics().at(b, k).normal.topLeftCorner(column.size(), column.size()) *
-            column);
-        }
-      }
-      const bool missing =
-        1.0 / std::sqrt(std::fmax(information, 1e-30)) > Indistinct * choice.terms.front().typical;
-      if (missing &&
-        std::find(Result.indistinct.begin(), Result.indistinct.end(), choice.effect) ==
-          Result.indistinct.end())
-      {
-        Result.indistinct.push_back(choice.effect);
-      }
-    }
-  }
-
   bool grow()
   {
-    findStripes();
+    findStarts();
     const FieldFitter fitter(Data, *Current.statistics);
     std::vector<FieldFit> ranked = rank(fitter, Current.set);
     if (Current.set.empty())
     {
-      findIndistinct(fitter);
+      Result.indistinct = indistinctEffects(Data, fitter, Choices);
       for (const FieldFit& fit : ranked)
       {
         Result.singles.push_back({ fit.set.back(), fit.energy, fit.blockEnergy });
       }
     }
-    std::vector<Hypothesis> fitted;
+    std::vector<FieldHypothesis> fitted;
     for (std::size_t i = 0; i < std::min(FullFits, ranked.size()); ++i)
     {
       fitted.push_back(refit(ranked[i].set, ranked[i].next));
@@ -309,8 +201,8 @@ private:
         }
       }
     }
-    const Hypothesis* best = nullptr;
-    for (const Hypothesis& hypothesis : fitted)
+    const FieldHypothesis* best = nullptr;
+    for (const FieldHypothesis& hypothesis : fitted)
     {
       best = best == nullptr || cost(hypothesis.fit) < cost(best->fit) ? &hypothesis : best;
       for (FieldSingle& single : Result.singles)
@@ -340,7 +232,7 @@ private:
   }
 
   // Goes on from here, with weights for what is left.
-  void accept(const Hypothesis& hypothesis)
+  void accept(const FieldHypothesis& hypothesis)
   {
     const FieldModel model = hypothesis.fit.next;
     const Eigen::ArrayXd tolerance = Result.weights.tolerance;
@@ -361,7 +253,7 @@ private:
       {
         if (&choice != Current.set[e] && available(rest, choice))
         {
-          FieldFit fit = linear(fitter, joined(rest, choice));
+          FieldFit fit = linearFit(fitter, joined(rest, choice));
           if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
           {
             best = std::move(fit);
@@ -373,7 +265,7 @@ private:
     {
       return false;
     }
-    const Hypothesis other = refit(best->set, best->next);
+    const FieldHypothesis other = refit(best->set, best->next);
     if (cost(other.fit) >= cost(Current.fit) - Result.price)
     {
       return false;

@@ -16,11 +16,25 @@ namespace
 {
 constexpr double Significant = 4.0; // deviations over blocks
 constexpr double StaysIn = 3.0;
-constexpr double RelevantPart = 0.01; // of the gap's energy, for an effect
+// An effect that clears what is left may concern few blocks, as saturation does.
+constexpr double Cleared = 0.8; // of the energy beyond noise
+constexpr double SignificantWhereCleared = 2.0;
+// What an effect must be worth.
+constexpr double RelevantPart = 0.01;    // of the gap's energy
+constexpr double RelevantOfRest = 0.1;   // and of what is left of it
+constexpr double MostOfRest = 0.5;       // this alone will do where what is left is not less than noise
+constexpr double RelevantBesides = 0.03; // of the gap's energy, where an effect of the edges is there
+constexpr double LeastClip = 0.7;
 constexpr double PricePart = 0.0005;  // for a parameter
 constexpr double LargestPricePart = 0.001;
 constexpr double PriceOfEffect = 3.0; // prices
 constexpr std::size_t FullFits = 2;
+
+// The forms of these approximate point spreads and resampling: what is left of one looks like another.
+bool isOfEdges(const std::string& effect)
+{
+  return effect == "misregistration" || effect == "defocus" || effect == "local_stray_light";
+}
 
 class Search
 {
@@ -204,6 +218,11 @@ private:
     const FieldHypothesis* best = nullptr;
     for (const FieldHypothesis& hypothesis : fitted)
     {
+      if (contains(hypothesis.set, "saturation") &&
+        hypothesis.statistics->model.at(FieldParameter::Clip, 0) < LeastClip)
+      {
+        continue; // bends, but does not clip
+      }
       best = best == nullptr || cost(hypothesis.fit) < cost(best->fit) ? &hypothesis : best;
       for (FieldSingle& single : Result.singles)
       {
@@ -221,14 +240,30 @@ private:
     const double gain = Current.fit.energy - best->fit.energy;
     const auto parameters = static_cast<double>(
       parameterCount(best->set, Data.channels()) - parameterCount(Current.set, Data.channels()));
+    const double excess = std::fmax(Current.fit.energy - fitter.chance(), 0.0);
+    const double deviations =
+      deviationsOf(Data, Current.fit.blockEnergy - best->fit.blockEnergy);
     if (gain < PriceOfEffect * Result.price * parameters ||
-      gain < RelevantPart * Result.gapEnergy ||
-      deviationsOf(Data, Current.fit.blockEnergy - best->fit.blockEnergy) < Significant)
+      !isRelevant(gain, excess, fitter.chance(), *best->set.back()) ||
+      deviations < (gain > Cleared * excess ? SignificantWhereCleared : Significant))
     {
       return false;
     }
     accept(*best);
     return true;
+  }
+
+  bool isRelevant(double gain, double excess, double chance, const FieldChoice& choice) const
+  {
+    const bool besides = isOfEdges(choice.effect) &&
+      std::any_of(Current.set.begin(), Current.set.end(),
+        [](const FieldChoice* other) { return isOfEdges(other->effect); });
+    if (besides)
+    {
+      return gain >= RelevantBesides * Result.gapEnergy && gain >= RelevantOfRest * excess;
+    }
+    return (gain >= RelevantPart * Result.gapEnergy && gain >= RelevantOfRest * excess) ||
+      (excess >= chance && gain >= MostOfRest * excess);
   }
 
   // Goes on from here, with weights for what is left.
@@ -281,8 +316,11 @@ private:
     {
       const FieldFit fit = fitter.fit(withoutOne(Current.set, e));
       const double gain = fit.energy - Current.fit.energy;
-      if (gain < RelevantPart * Result.gapEnergy || cost(fit) < cost(Current.fit) ||
-        deviationsOf(Data, fit.blockEnergy - Current.fit.blockEnergy) < StaysIn)
+      const double excess = fit.energy - fitter.chance();
+      const bool clears = gain > Cleared * excess;
+      if ((gain < RelevantPart * Result.gapEnergy && !clears) || cost(fit) < cost(Current.fit) ||
+        deviationsOf(Data, fit.blockEnergy - Current.fit.blockEnergy) <
+          (clears ? SignificantWhereCleared : StaysIn))
       {
         accept(refit(fit.set, fit.next));
         return true;

@@ -1,12 +1,11 @@
 #include "Kernels/Gap/Field/FieldData.h"
 
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldTail.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -110,7 +109,8 @@ void fillRow(float* row, int pixels, std::size_t step, float other)
 
 // Real values of a block, NaN where they cannot be used; returns how many pixels can.
 std::size_t readBlock(
-  const FieldPair& pair, const ImageWindow& window, bool gaps, int margin, std::vector<float>& real)
+  const FieldPair& pair, const ImageWindow& window, bool gaps, int margin, std::vector<float>& real,
+  const Eigen::ArrayXd* unit = nullptr)
 {
   const std::size_t K = pair.channels.size();
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -144,7 +144,11 @@ std::size_t readBlock(
         }
         if (good)
         {
-          real[out + k] = pair.real[pair.index(x, y) * K + k];
+          const float value = pair.real[pair.index(x, y) * K + k];
+          real[out + k] = unit == nullptr
+            ? value
+            : static_cast<float>(
+                static_cast<double>(value) / (*unit)[static_cast<Eigen::Index>(k)]);
           any = true;
         }
       }
@@ -184,24 +188,6 @@ std::vector<FieldBlock> blocksOf(const FieldPair& pair, const std::vector<Region
   }
   usable /= std::max(looked, 1.0);
   return blocks;
-}
-
-// Shuffles, cuts and deals the blocks.
-void dealBlocks(std::vector<FieldBlock>& blocks, std::uint64_t seed)
-{
-  const CounterRandom random(seed, 81);
-  std::vector<std::size_t> order(blocks.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b) { return random.uniform(a) < random.uniform(b); });
-  order.resize(std::min(order.size(), MostBlocks));
-  std::vector<FieldBlock> dealt;
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    dealt.push_back(std::move(blocks[order[i]]));
-    dealt.back().fold = i % 3 == 2 ? -1 : static_cast<int>(i / 3 * 2 + i % 3) % FieldFolds;
-  }
-  blocks = std::move(dealt);
 }
 
 void addTails(FieldData& data, const Region& region)
@@ -340,18 +326,19 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
       << ": pixels must be finite in both images, with finite neighbours in the simulated one";
     throw std::invalid_argument(message.str());
   }
-  dealBlocks(data.blocks, seed);
+  dealBlocks(pair, data.blocks, MostBlocks, seed);
   if (gaps)
   {
     data.filled = filledScene(pair);
   }
   data.scene = gaps ? data.filled.data() : pair.simulated;
   data.moments = momentsOf(pair);
+  data.unit = fieldUnits(pair);
   loop(static_cast<int>(data.blocks.size()),
     [&](int i)
     {
       FieldBlock& block = data.blocks[static_cast<std::size_t>(i)];
-      readBlock(pair, block.window, gaps, margin, block.real);
+      readBlock(pair, block.window, gaps, margin, block.real, &data.unit);
     });
   loop(static_cast<int>(regions.size()),
     [&](int i) { addTails(data, regions[static_cast<std::size_t>(i)]); });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace msi
 {
@@ -386,18 +387,23 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
       std::pow(PriorSize * single[static_cast<std::size_t>(i)].first.typical, -2);
   }
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(p, p);
+  std::map<int, Eigen::VectorXd> ofGroup;
   for (std::size_t b = 0; b < Data.blocks.size(); ++b)
   {
     if (Data.blocks[b].fold < 0)
     {
       continue;
     }
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(p);
+    Eigen::VectorXd& g =
+      ofGroup.try_emplace(Data.blocks[b].group, Eigen::VectorXd::Zero(p)).first->second;
     for (Eigen::Index k = 0; k < K; ++k)
     {
       g += design[static_cast<std::size_t>(k)].transpose() *
         Statistics.at(b, k).normal.col(Columns).head(Columns);
     }
+  }
+  for (const auto& [number, g] : ofGroup)
+  {
     scatter += g * g.transpose();
   }
   const Eigen::LDLT<Eigen::MatrixXd> factor(information);

@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
 #include "Kernels/Gap/Field/FieldEffects.h"
+#include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
@@ -26,33 +27,30 @@ constexpr double FewUsable = 0.5;
 
 struct TestEnergies
 {
-  SampleEnergies samples; // a block is a sample
+  SampleEnergies samples; // a group of blocks is a sample
   double elements = 0.0;
 };
 
 TestEnergies energiesOf(const FieldData& data, const FieldSearchResult& found)
 {
   TestEnergies energies;
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  const auto count = static_cast<Eigen::Index>(data.blocks.size());
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(count);
+  Eigen::VectorXd after = before;
+  Eigen::VectorXd noise = before;
+  for (Eigen::Index b = 0; b < count; ++b)
   {
-    if (data.blocks[b].fold >= 0)
-    {
-      continue;
-    }
-    double before = 0.0;
-    double after = 0.0;
-    double noise = 0.0;
+    const auto block = static_cast<std::size_t>(b);
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
-      before += found.before.at(b, k).energy;
-      after += found.after.at(b, k).energy;
-      noise += found.after.at(b, k).noise;
-      energies.elements += found.after.at(b, k).pixels;
+      before[b] += found.before.at(block, k).energy;
+      after[b] += found.after.at(block, k).energy;
+      noise[b] += found.after.at(block, k).noise;
+      energies.elements += data.blocks[block].fold < 0 ? found.after.at(block, k).pixels : 0.0;
     }
-    energies.samples.before.push_back(before);
-    energies.samples.after.push_back(after);
-    energies.samples.noise.push_back(noise);
   }
+  energies.samples = { groupSums(data, before, false), groupSums(data, after, false),
+    groupSums(data, noise, false) };
   return energies;
 }
 
@@ -102,6 +100,21 @@ std::vector<std::string> notesOn(const FieldData& data, const FieldSearchResult&
     notes.push_back(effect +
       " cannot be decided: the simulated image has too few edges and too little texture in the "
       "usable pixels");
+  }
+  if ((data.unit != 1.0).any())
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the real image is not in units of white: its channels are ";
+    const bool common = (data.unit == data.unit[0]).all();
+    text << data.unit[0];
+    for (Eigen::Index k = 1; !common && k < data.unit.size(); ++k)
+    {
+      text << ", " << data.unit[k];
+    }
+    text << " times the simulated ones; the figures are after division by that. A flat field or the "
+            "response of a white brings them to 1 for a perfect white";
+    notes.push_back(text.str());
   }
   if (data.usablePart < FewUsable)
   {
@@ -167,6 +180,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
 
   std::optional<FieldGap> gap(std::in_place);
   gap->model = found.after.model;
+  gap->unit = data.unit;
   GapReport& report = gap->report;
   report.gap = figuresOf(energiesOf(data, found), options.seed);
   // The stripes that were found are an axis of the gap before, too.

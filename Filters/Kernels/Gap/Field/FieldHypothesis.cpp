@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldHypothesis.h"
 
+#include "Kernels/Gap/Field/FieldGroups.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -20,15 +22,11 @@ double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)
   double n = 0.0;
   double sum = 0.0;
   double square = 0.0;
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  for (const double value : groupSums(data, gain, true))
   {
-    if (data.blocks[b].fold >= 0)
-    {
-      const double value = gain[static_cast<Eigen::Index>(b)];
-      n += 1.0;
-      sum += value;
-      square += value * value;
-    }
+    n += 1.0;
+    sum += value;
+    square += value * value;
   }
   return sum / std::sqrt(std::fmax(square - sum * sum / n, 1e-30));
 }

@@ -21,7 +21,7 @@ FieldSet joined(FieldSet set, const FieldChoice& choice);
 FieldSet withoutOne(FieldSet set, std::size_t position);
 bool contains(const FieldSet& set, const char* effect, const char* form = nullptr);
 
-// The mean gain of the training blocks over its standard error from block to block.
+// The mean gain of the training blocks over its standard error from group to group.
 double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain);
 
 // The model after Gauss-Newton from a start.

@@ -1,12 +1,14 @@
 #include "Kernels/Gap/Field/FieldReport.h"
 
 #include "Kernels/Gap/Field/FieldEffects.h"
+#include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/Shapley.h"
 #include "Kernels/Gap/ShrinkInterval.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace msi
 {
@@ -108,32 +110,25 @@ std::vector<GapCandidate> fieldCandidates(
   const FieldData& data, const FieldSearchResult& found, std::uint64_t seed)
 {
   const Eigen::VectorXd before = FieldFitter(data, found.before).fit({}).blockEnergy;
+  Eigen::VectorXd chance = Eigen::VectorXd::Zero(before.size());
+  for (Eigen::Index b = 0; b < chance.size(); ++b)
+  {
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      chance[b] += found.before.at(static_cast<std::size_t>(b), k).chance;
+    }
+  }
   std::vector<GapCandidate> candidates;
   for (const FieldSingle& single : found.singles)
   {
-    SampleEnergies energies;
-    double sums[3] = { 0.0, 0.0, 0.0 };
-    for (std::size_t b = 0; b < data.blocks.size(); ++b)
-    {
-      if (data.blocks[b].fold < 0)
-      {
-        continue;
-      }
-      double chance = 0.0;
-      for (Eigen::Index k = 0; k < data.channels(); ++k)
-      {
-        chance += found.before.at(b, k).chance;
-      }
-      const auto block = static_cast<Eigen::Index>(b);
-      energies.before.push_back(before[block]);
-      energies.after.push_back(single.blockEnergy[block]);
-      energies.noise.push_back(chance);
-      sums[0] += before[block];
-      sums[1] += single.blockEnergy[block];
-      sums[2] += chance;
-    }
+    // Cross-validated on the training blocks; the test blocks are for the figures.
+    const SampleEnergies energies{ groupSums(data, before, true),
+      groupSums(data, single.blockEnergy, true), groupSums(data, chance, true) };
+    const auto sum = [](const std::vector<double>& values)
+    { return std::accumulate(values.begin(), values.end(), 0.0); };
     candidates.push_back({ single.choice->effect, libraryForm(*single.choice), "",
-      shrinkOf(sums[0], sums[1], sums[2]), shrinkInterval(energies, seed) });
+      shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise)),
+      shrinkInterval(energies, seed) });
   }
   std::stable_sort(candidates.begin(), candidates.end(),
     [](const GapCandidate& a, const GapCandidate& b) { return a.shrink > b.shrink; });

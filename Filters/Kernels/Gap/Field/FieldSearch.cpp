@@ -14,8 +14,8 @@ namespace msi
 
 namespace
 {
-constexpr double Significant = 4.0; // deviations over blocks
-constexpr double StaysIn = 3.0;
+constexpr double Significant = 3.0; // deviations over groups of blocks
+constexpr double StaysIn = 2.5;
 // An effect that clears what is left may concern few blocks, as saturation does.
 constexpr double Cleared = 0.8; // of the energy beyond noise
 constexpr double SignificantWhereCleared = 2.0;
@@ -25,6 +25,7 @@ constexpr double RelevantOfRest = 0.1;   // and of what is left of it
 constexpr double MostOfRest = 0.5;       // this alone will do where what is left is not less than noise
 constexpr double RelevantBesides = 0.03; // of the gap's energy, where an effect of the edges is there
 constexpr double LeastClip = 0.7;
+constexpr int BackwardRounds = 4;
 constexpr double PricePart = 0.0005;  // for a parameter
 constexpr double LargestPricePart = 0.001;
 constexpr double PriceOfEffect = 3.0; // prices
@@ -57,7 +58,7 @@ public:
     while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow())
     {
     }
-    for (int round = 0; round < 2 && !stop() && (exchange() || drop()); ++round)
+    for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
     {
     }
     Result.set = Current.set;
@@ -245,7 +246,9 @@ private:
       deviationsOf(Data, Current.fit.blockEnergy - best->fit.blockEnergy);
     if (gain < PriceOfEffect * Result.price * parameters ||
       !isRelevant(gain, excess, fitter.chance(), *best->set.back()) ||
-      deviations < (gain > Cleared * excess ? SignificantWhereCleared : Significant))
+      deviations <
+        (gain > Cleared * excess && excess >= fitter.chance() ? SignificantWhereCleared
+                                                               : Significant))
     {
       return false;
     }
@@ -277,23 +280,37 @@ private:
     setPrice(FieldFitter(Data, *Current.statistics));
   }
 
+  // Puts another effect or form in the place of each, and a simpler form in the place of one more.
   bool exchange()
   {
     const FieldFitter fitter(Data, *Current.statistics);
     std::optional<FieldFit> best;
+    const auto consider = [&](FieldFit fit)
+    {
+      if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+      {
+        best = std::move(fit);
+      }
+    };
     for (std::size_t e = 0; e < Current.set.size(); ++e)
     {
       const FieldSet rest = withoutOne(Current.set, e);
       for (const FieldChoice& choice : Choices)
       {
-        if (&choice != Current.set[e] && available(rest, choice))
+        if (&choice == Current.set[e] || !available(rest, choice))
         {
-          FieldFit fit = linearFit(fitter, joined(rest, choice));
-          if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+          continue;
+        }
+        const FieldSet other = joined(rest, choice);
+        FieldFit fit = linearFit(fitter, other);
+        if (fit.energy < Current.fit.energy + RelevantPart * Result.gapEnergy)
+        {
+          for (const FieldSet& simple : simpler(other))
           {
-            best = std::move(fit);
+            consider(linearFit(fitter, simple));
           }
         }
+        consider(std::move(fit));
       }
     }
     if (!best)
@@ -309,6 +326,26 @@ private:
     return true;
   }
 
+  // The set with a form of fewer parameters in the place of one.
+  std::vector<FieldSet> simpler(const FieldSet& set) const
+  {
+    std::vector<FieldSet> sets;
+    for (std::size_t e = 0; e < set.size(); ++e)
+    {
+      for (const FieldChoice& choice : Choices)
+      {
+        if (choice.effect == set[e]->effect &&
+          parameterCount({ &choice }, Data.channels()) <
+            parameterCount({ set[e] }, Data.channels()) &&
+          available(withoutOne(set, e), choice))
+        {
+          sets.push_back(joined(withoutOne(set, e), choice));
+        }
+      }
+    }
+    return sets;
+  }
+
   bool drop()
   {
     const FieldFitter fitter(Data, *Current.statistics);
@@ -317,7 +354,7 @@ private:
       const FieldFit fit = fitter.fit(withoutOne(Current.set, e));
       const double gain = fit.energy - Current.fit.energy;
       const double excess = fit.energy - fitter.chance();
-      const bool clears = gain > Cleared * excess;
+      const bool clears = gain > Cleared * excess && excess >= fitter.chance();
       if ((gain < RelevantPart * Result.gapEnergy && !clears) || cost(fit) < cost(Current.fit) ||
         deviationsOf(Data, fit.blockEnergy - Current.fit.blockEnergy) <
           (clears ? SignificantWhereCleared : StaysIn))

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldSearch.h"
 
+#include "Kernels/Gap/Field/FieldAcceptance.h"
 #include "Kernels/Gap/Field/FieldClip.h"
 #include "Kernels/Gap/Field/FieldHypothesis.h"
 #include "Kernels/Gap/Field/FieldShift.h"
@@ -14,28 +15,12 @@ namespace msi
 
 namespace
 {
-constexpr double Significant = 3.0; // deviations over groups of blocks
-constexpr double StaysIn = 2.5;
-// An effect that clears what is left may concern few blocks, as saturation does.
-constexpr double Cleared = 0.8; // of the energy beyond noise
-constexpr double SignificantWhereCleared = 2.0;
-// What an effect must be worth.
-constexpr double RelevantPart = 0.01;    // of the gap's energy
-constexpr double RelevantOfRest = 0.1;   // and of what is left of it
-constexpr double MostOfRest = 0.5;       // this alone will do where what is left is not less than noise
-constexpr double RelevantBesides = 0.03; // of the gap's energy, where an effect of the edges is there
+constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
 constexpr double LeastClip = 0.7;
 constexpr int BackwardRounds = 4;
 constexpr double PricePart = 0.0005;  // for a parameter
 constexpr double LargestPricePart = 0.001;
-constexpr double PriceOfEffect = 3.0; // prices
 constexpr std::size_t FullFits = 2;
-
-// The forms of these approximate point spreads and resampling: what is left of one looks like another.
-bool isOfEdges(const std::string& effect)
-{
-  return effect == "misregistration" || effect == "defocus" || effect == "local_stray_light";
-}
 
 class Search
 {
@@ -75,11 +60,8 @@ private:
   FieldHypothesis Current;
   FieldSearchResult Result;
 
-  double cost(const FieldFit& fit) const
-  {
-    return fit.energy +
-      Result.price * static_cast<double>(parameterCount(fit.set, Data.channels()));
-  }
+  FieldAcceptance acceptance() const { return { Data, Result.gapEnergy, Result.price }; }
+  double cost(const FieldFit& fit) const { return acceptance().cost(fit); }
 
   void measureNominal()
   {
@@ -199,56 +181,49 @@ private:
       }
     }
     std::vector<FieldHypothesis> fitted;
-    for (std::size_t i = 0; i < std::min(FullFits, ranked.size()); ++i)
+    const auto tryOut = [&](const FieldSet& set, const FieldModel& start)
     {
-      fitted.push_back(refit(ranked[i].set, ranked[i].next));
-    }
-    if (shifted())
-    {
-      for (const FieldChoice& choice : Choices)
+      FieldHypothesis hypothesis = refit(set, start);
+      // What bends the curve does not clip.
+      if (!contains(set, "saturation") ||
+        hypothesis.statistics->model.at(FieldParameter::Clip, 0) >= LeastClip)
       {
-        if (choice.effect == "misregistration" && compatible(Current.set, choice))
-        {
-          FieldModel start = Current.statistics->model;
-          start[FieldParameter::Right] = Shifts.col(0);
-          start[FieldParameter::Down] = Shifts.col(1);
-          fitted.push_back(refit(joined(Current.set, choice), start));
-        }
+        fitted.push_back(std::move(hypothesis));
+      }
+    };
+    // The cheapest; and the cheapest of those that count as they stand.
+    std::size_t counted = 0;
+    for (std::size_t i = 0; i < ranked.size(); ++i)
+    {
+      const bool counts = counted < FullFits &&
+        acceptance().mayJoin(Current.fit, ranked[i], fitter.chance());
+      counted += counts ? 1 : 0;
+      if (i < FullFits || counts)
+      {
+        tryOut(ranked[i].set, ranked[i].next);
+      }
+    }
+    for (const FieldChoice& choice : Choices)
+    {
+      if (shifted() && choice.effect == "misregistration" && compatible(Current.set, choice))
+      {
+        FieldModel start = Current.statistics->model;
+        start[FieldParameter::Right] = Shifts.col(0);
+        start[FieldParameter::Down] = Shifts.col(1);
+        tryOut(joined(Current.set, choice), start);
       }
     }
     const FieldHypothesis* best = nullptr;
     for (const FieldHypothesis& hypothesis : fitted)
     {
-      if (contains(hypothesis.set, "saturation") &&
-        hypothesis.statistics->model.at(FieldParameter::Clip, 0) < LeastClip)
+      keepSingle(hypothesis);
+      if ((best == nullptr || cost(hypothesis.fit) < cost(best->fit)) &&
+        acceptance().mayJoin(Current.fit, hypothesis.fit, fitter.chance()))
       {
-        continue; // bends, but does not clip
-      }
-      best = best == nullptr || cost(hypothesis.fit) < cost(best->fit) ? &hypothesis : best;
-      for (FieldSingle& single : Result.singles)
-      {
-        if (Current.set.empty() && single.choice->effect == hypothesis.set.back()->effect &&
-          hypothesis.fit.energy < single.energy)
-        {
-          single = { hypothesis.set.back(), hypothesis.fit.energy, hypothesis.fit.blockEnergy };
-        }
+        best = &hypothesis;
       }
     }
     if (best == nullptr)
-    {
-      return false;
-    }
-    const double gain = Current.fit.energy - best->fit.energy;
-    const auto parameters = static_cast<double>(
-      parameterCount(best->set, Data.channels()) - parameterCount(Current.set, Data.channels()));
-    const double excess = std::fmax(Current.fit.energy - fitter.chance(), 0.0);
-    const double deviations =
-      deviationsOf(Data, Current.fit.blockEnergy - best->fit.blockEnergy);
-    if (gain < PriceOfEffect * Result.price * parameters ||
-      !isRelevant(gain, excess, fitter.chance(), *best->set.back()) ||
-      deviations <
-        (gain > Cleared * excess && excess >= fitter.chance() ? SignificantWhereCleared
-                                                               : Significant))
     {
       return false;
     }
@@ -256,17 +231,17 @@ private:
     return true;
   }
 
-  bool isRelevant(double gain, double excess, double chance, const FieldChoice& choice) const
+  // What the first effect does alone, where it was fitted in full.
+  void keepSingle(const FieldHypothesis& hypothesis)
   {
-    const bool besides = isOfEdges(choice.effect) &&
-      std::any_of(Current.set.begin(), Current.set.end(),
-        [](const FieldChoice* other) { return isOfEdges(other->effect); });
-    if (besides)
+    for (FieldSingle& single : Result.singles)
     {
-      return gain >= RelevantBesides * Result.gapEnergy && gain >= RelevantOfRest * excess;
+      if (Current.set.empty() && single.choice->effect == hypothesis.set.back()->effect &&
+        hypothesis.fit.energy < single.energy)
+      {
+        single = { hypothesis.set.back(), hypothesis.fit.energy, hypothesis.fit.blockEnergy };
+      }
     }
-    return (gain >= RelevantPart * Result.gapEnergy && gain >= RelevantOfRest * excess) ||
-      (excess >= chance && gain >= MostOfRest * excess);
   }
 
   // Goes on from here, with weights for what is left.
@@ -303,7 +278,7 @@ private:
         }
         const FieldSet other = joined(rest, choice);
         FieldFit fit = linearFit(fitter, other);
-        if (fit.energy < Current.fit.energy + RelevantPart * Result.gapEnergy)
+        if (fit.energy < Current.fit.energy + Tolerated * Result.gapEnergy)
         {
           for (const FieldSet& simple : simpler(other))
           {
@@ -352,12 +327,7 @@ private:
     for (std::size_t e = Current.set.size(); e-- > 0;)
     {
       const FieldFit fit = fitter.fit(withoutOne(Current.set, e));
-      const double gain = fit.energy - Current.fit.energy;
-      const double excess = fit.energy - fitter.chance();
-      const bool clears = gain > Cleared * excess && excess >= fitter.chance();
-      if ((gain < RelevantPart * Result.gapEnergy && !clears) || cost(fit) < cost(Current.fit) ||
-        deviationsOf(Data, fit.blockEnergy - Current.fit.blockEnergy) <
-          (clears ? SignificantWhereCleared : StaysIn))
+      if (!acceptance().mayStay(Current.fit, fit, fitter.chance()))
       {
         accept(refit(fit.set, fit.next));
         return true;

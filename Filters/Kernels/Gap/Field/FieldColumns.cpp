@@ -96,6 +96,32 @@ private:
   }
 };
 
+// The sines of the lines of a block.
+struct Stripes
+{
+  FieldParameter bySine, byCosine;
+  Eigen::ArrayXd sine, cosine; // empty without period
+
+  Stripes(double period, int first, int lines, FieldParameter ofSine, FieldParameter ofCosine)
+    : bySine(ofSine)
+    , byCosine(ofCosine)
+  {
+    if (period > 0.0)
+    {
+      const Eigen::ArrayXd angle =
+        TwoPi / period * Eigen::ArrayXd::LinSpaced(lines, first, first + lines - 1);
+      sine = angle.sin();
+      cosine = angle.cos();
+    }
+  }
+  double factor(const FieldModel& model, Eigen::Index channel, int line) const
+  {
+    return sine.size() == 0
+      ? 0.0
+      : model.at(bySine, channel) * sine[line] + model.at(byCosine, channel) * cosine[line];
+  }
+};
+
 // The field's factor at each pixel of a window.
 std::vector<double> fieldFactors(
   const FieldData& data, const FieldModel& model, const ImageWindow& window)
@@ -176,6 +202,10 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     }
   }
   const FieldDetector detector(model, channel);
+  const Stripes rows(
+    model.rowPeriod, window.y, window.height, P::RowSine, P::RowCosine);
+  const Stripes columns(
+    model.columnPeriod, window.x, window.width, P::ColumnSine, P::ColumnCosine);
   const double gain = model.at(P::Gain, channel);
   const double retained = model.at(P::Retained, channel);
   const auto count = static_cast<Eigen::Index>(scratch.pixel.size());
@@ -189,7 +219,8 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     const int row = i / window.width;
     const double x = data.pair.fieldX(window.x + column);
     const double y = data.pair.fieldY(window.y + row);
-    const double chain = gain * model.bandFactor(channel, window.x + column, window.y + row);
+    const double chain =
+      gain * (1.0 + rows.factor(model, channel, row) + columns.factor(model, channel, column));
     const double before = scratch.before[at];
     const double linear = chain * (scratch.signal[at] + retained * before);
     const DetectorAnswer answer = detector(linear);
@@ -224,15 +255,13 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     }
     if (model.rowPeriod > 0.0)
     {
-      const double angle = TwoPi * (window.y + row) / model.rowPeriod;
-      out[FieldColumn::RowSine] = std::sin(angle) * u;
-      out[FieldColumn::RowCosine] = std::cos(angle) * u;
+      out[FieldColumn::RowSine] = rows.sine[row] * u;
+      out[FieldColumn::RowCosine] = rows.cosine[row] * u;
     }
     if (model.columnPeriod > 0.0)
     {
-      const double angle = TwoPi * (window.x + column) / model.columnPeriod;
-      out[FieldColumn::ColumnSine] = std::sin(angle) * u;
-      out[FieldColumn::ColumnCosine] = std::cos(angle) * u;
+      out[FieldColumn::ColumnSine] = columns.sine[column] * u;
+      out[FieldColumn::ColumnCosine] = columns.cosine[column] * u;
     }
     out[FieldColumn::Diagonal] = x * y * direct;
     out[FieldColumn::Saddle] = (x * x - y * y) * direct;

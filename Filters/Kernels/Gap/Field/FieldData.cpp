@@ -19,7 +19,8 @@ constexpr int RegionSide = 512;
 constexpr int Regions = 3; // a side
 constexpr int Surround = 2; // finite neighbours
 constexpr int LargestMargin = 8;
-constexpr std::size_t MostBlocks = 208;
+constexpr std::size_t MostBlocks = 208; // with up to 8 channels; fewer with more, down to half
+
 constexpr std::size_t EnoughBlocks = 64;
 constexpr std::size_t FewestBlocks = 15;
 constexpr double UsablePart = 0.25;
@@ -326,7 +327,8 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
       << ": pixels must be finite in both images, with finite neighbours in the simulated one";
     throw std::invalid_argument(message.str());
   }
-  dealBlocks(pair, data.blocks, MostBlocks, seed);
+  dealBlocks(pair, data.blocks,
+    std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
   if (gaps)
   {
     data.filled = filledScene(pair);

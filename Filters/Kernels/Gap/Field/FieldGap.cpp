@@ -92,7 +92,8 @@ bool has(const FieldSet& set, const char* effect)
     [effect](const FieldChoice* choice) { return choice->effect == effect; });
 }
 
-std::vector<std::string> notesOn(const FieldData& data, const FieldSearchResult& found)
+std::vector<std::string> notesOn(
+  const FieldData& data, const FieldSearchResult& found, const FieldSet& set)
 {
   std::vector<std::string> notes;
   for (const std::string& effect : found.indistinct)
@@ -124,17 +125,17 @@ std::vector<std::string> notesOn(const FieldData& data, const FieldSearchResult&
             "beside them in the simulated one";
     notes.push_back(text.str());
   }
-  if (!data.filled.empty() && has(found.set, "local_stray_light"))
+  if (!data.filled.empty() && has(set, "local_stray_light"))
   {
     notes.emplace_back("the surround of the usable pixels is partly not simulated; "
                        "local_stray_light takes it to be like its neighbours in the row");
   }
-  if (has(found.set, "vignetting") && has(found.set, "illumination_gradient"))
+  if (has(set, "vignetting") && has(set, "illumination_gradient"))
   {
     notes.emplace_back("vignetting about a center off the middle looks like vignetting with "
                        "illumination_gradient; the chart rotated by 180 degrees separates them");
   }
-  if (has(found.set, "dark_offset") != has(found.set, "veiling_glare"))
+  if (has(set, "dark_offset") != has(set, "veiling_glare"))
   {
     notes.emplace_back("an offset of each channel may be dark_offset or veiling_glare: one image "
                        "cannot tell unless the offsets go with the channels' means");
@@ -190,14 +191,14 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   report.where = fieldAxes(data, fieldStatistics(data, nominal, &found.weights, loop), loop);
   const std::vector<GapAxis> rest = fieldAxes(data, found.after, loop);
   const double left = blockMeanExcess(data, found.after, false);
-  if (!found.set.empty() && report.gap.shrink > 0.0)
+  const double shrink = report.gap.shrink;
+  const bool noiseAlone =
+    report.gap.rmsAfter < UnexplainedRms * report.gap.noiseFloor && left < ExplainedBlocks;
+  // Effects that account for little are candidates, not causes.
+  if (!found.set.empty() && (shrink >= PartlyShrink || (noiseAlone && shrink > 0.0)))
   {
-    const bool noiseAlone =
-      report.gap.rmsAfter < UnexplainedRms * report.gap.noiseFloor && left < ExplainedBlocks;
-    const double shrink = report.gap.shrink;
     report.verdict = shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained
-      : shrink >= PartlyShrink                               ? GapVerdict::PartlyExplained
-                                                             : GapVerdict::Unexplained;
+                                                             : GapVerdict::PartlyExplained;
     // What is left has a cause that is not known and may overlap with those found.
     const double certain = report.verdict == GapVerdict::Explained
       ? shrink
@@ -210,8 +211,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   else
   {
     gap->model = found.before.model;
-    const bool gapThere =
-      report.gap.rmsBefore > UnexplainedRms * report.gap.noiseFloor || left > UnexplainedBlocks;
+    const bool gapThere = report.gap.rmsBefore > UnexplainedRms * report.gap.noiseFloor ||
+      blockMeanExcess(data, found.before, false) > UnexplainedBlocks;
     report.verdict = gapThere ? GapVerdict::Unexplained : GapVerdict::NoGap;
     if (gapThere)
     {
@@ -232,7 +233,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
       report.nextCapture = std::move(next);
     }
   }
-  report.notes = notesOn(data, found);
+  report.notes = notesOn(data, found, report.causes.empty() ? FieldSet() : found.set);
   say(1.0, "done");
   return gap;
 }

@@ -1,13 +1,9 @@
 #include "Kernels/Gap/Field/FieldSearch.h"
 
-#include "Kernels/Gap/Field/FieldAcceptance.h"
-#include "Kernels/Gap/Field/FieldClip.h"
-#include "Kernels/Gap/Field/FieldHypothesis.h"
-#include "Kernels/Gap/Field/FieldShift.h"
+#include "Kernels/Gap/Field/FieldSearchState.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 namespace msi
@@ -18,129 +14,26 @@ namespace
 constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
 constexpr double LeastClip = 0.7;
 constexpr int BackwardRounds = 4;
-constexpr double PricePart = 0.0005;  // for a parameter
-constexpr double LargestPricePart = 0.001;
 constexpr std::size_t FullFits = 2;
 
-class Search
+class Search : public FieldSearchState
 {
 public:
-  Search(const FieldData& data, const std::vector<FieldChoice>& choices, const FieldLoop& loop)
-    : Data(data)
-    , Choices(choices)
-    , Loop(loop)
-    , Nominal(data.channels())
-  {
-    Result.before = fieldStatistics(data, Nominal, nullptr, loop);
-    Result.weights = fieldWeights(Result.before, nullptr);
-    // Once more with noise known, and what the tolerance does with it.
-    measureNominal();
-    Shifts = wholePixelShifts(data, loop);
-  }
+  using FieldSearchState::FieldSearchState;
 
   FieldSearchResult run(int maximumEffects, const std::function<bool()>& stop)
   {
-    while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow())
+    while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() &&
+      grow(maximumEffects))
     {
     }
     for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
     {
     }
-    Result.set = Current.set;
-    Result.after = *Current.statistics;
-    return Result;
+    return result();
   }
 
 private:
-  const FieldData& Data;
-  const std::vector<FieldChoice>& Choices;
-  const FieldLoop& Loop;
-  FieldModel Nominal;
-  Eigen::MatrixXd Shifts;
-  FieldHypothesis Current;
-  FieldSearchResult Result;
-
-  FieldAcceptance acceptance() const { return { Data, Result.gapEnergy, Result.price }; }
-  double cost(const FieldFit& fit) const { return acceptance().cost(fit); }
-
-  void measureNominal()
-  {
-    const auto statistics =
-      std::make_shared<FieldStatistics>(fieldStatistics(Data, Nominal, &Result.weights, Loop));
-    Result.before = *statistics;
-    const FieldFitter fitter(Data, *statistics);
-    Result.gapEnergy = std::fmax(fitter.energy() - fitter.chance(), 0.0);
-    Current = { {}, statistics, fitter.fit({}) };
-    setPrice(fitter);
-  }
-
-  void setPrice(const FieldFitter& fitter)
-  {
-    double blocks = 0.0;
-    for (const FieldBlock& block : Data.blocks)
-    {
-      blocks += block.fold >= 0 ? 1.0 : 0.0;
-    }
-    const double least = 0.5 * std::log(blocks);
-    const double dispersion = fitter.energy() / std::fmax(fitter.chance(), 1e-9) *
-      blockMeanExcess(Data, fitter.statistics(), true);
-    Result.price = std::fmax(std::fmax(least, PricePart * Result.gapEnergy),
-      std::fmin(least * dispersion, LargestPricePart * fitter.energy()));
-  }
-
-  FieldHypothesis refit(const FieldSet& set, const FieldModel& start) const
-  {
-    return refitted(Data, Result.weights, set, start, Loop);
-  }
-
-  // Looks for stripes and clipping in what is left.
-  void findStarts()
-  {
-    FieldModel model = Current.statistics->model;
-    bool found = false;
-    if (!contains(Current.set, "banding", "rows"))
-    {
-      Result.rows = findPeriod(Data, model, true, Loop);
-      found = found || Result.rows.period != model.rowPeriod;
-      model.rowPeriod = Result.rows.period;
-    }
-    if (!contains(Current.set, "banding", "columns"))
-    {
-      Result.columns = findPeriod(Data, model, false, Loop);
-      found = found || Result.columns.period != model.columnPeriod;
-      model.columnPeriod = Result.columns.period;
-    }
-    if (!contains(Current.set, "saturation"))
-    {
-      const double level = findClipLevel(Data, model, Loop);
-      found = found || level != model.at(FieldParameter::ClipLevel, 0);
-      model[FieldParameter::ClipLevel].setConstant(level);
-    }
-    if (found)
-    {
-      Current.statistics =
-        std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Result.weights, Loop));
-      Current.fit = FieldFitter(Data, *Current.statistics).fit(Current.set);
-    }
-  }
-
-  bool available(const FieldSet& set, const FieldChoice& choice) const
-  {
-    const FieldModel& model = Current.statistics->model;
-    if (choice.effect == "banding" &&
-      (choice.form == "rows" ? model.rowPeriod : model.columnPeriod) <= 0.0)
-    {
-      return false;
-    }
-    if (choice.effect == "saturation" && model.isNeutral(FieldParameter::ClipLevel))
-    {
-      return false;
-    }
-    return compatible(set, choice);
-  }
-
-  bool shifted() const { return Shifts.cwiseAbs().maxCoeff() >= 1.0; }
-
   // Forms ranked by cost; of each effect the best.
   std::vector<FieldFit> rank(const FieldFitter& fitter, const FieldSet& set)
   {
@@ -167,7 +60,7 @@ private:
     return best;
   }
 
-  bool grow()
+  bool grow(int maximumEffects)
   {
     findStarts();
     const FieldFitter fitter(Data, *Current.statistics);
@@ -191,6 +84,10 @@ private:
         fitted.push_back(std::move(hypothesis));
       }
     };
+    if (static_cast<int>(Current.set.size()) + 2 <= maximumEffects)
+    {
+      rankWithGain(fitter, ranked);
+    }
     // The cheapest; and the cheapest of those that count as they stand.
     std::size_t counted = 0;
     for (std::size_t i = 0; i < ranked.size(); ++i)
@@ -231,28 +128,48 @@ private:
     return true;
   }
 
+  // Where no effect counts alone: each with a gain or an offset beside it. Light that falls off, seen against a white in the
+  // same light, is too bright in the middle and too dark at the border: no single effect.
+  void rankWithGain(const FieldFitter& fitter, std::vector<FieldFit>& ranked)
+  {
+    const double chance = fitter.chance();
+    const auto counts = [&](const FieldFit& fit)
+    { return acceptance().mayJoin(Current.fit, fit, chance); };
+    if (Current.fit.energy < 2.0 * chance || std::any_of(ranked.begin(), ranked.end(), counts))
+    {
+      return;
+    }
+    for (const FieldChoice& choice : Choices)
+    {
+      const bool anchor = choice.effect == "exposure_gain" || choice.effect == "channel_gain" ||
+        choice.effect == "dark_offset";
+      if (anchor && available(Current.set, choice))
+      {
+        for (FieldFit& fit : rank(fitter, joined(Current.set, choice)))
+        {
+          if (counts(fit))
+          {
+            ranked.push_back(std::move(fit));
+          }
+        }
+      }
+    }
+    std::stable_sort(ranked.begin(), ranked.end(),
+      [this](const FieldFit& a, const FieldFit& b) { return cost(a) < cost(b); });
+  }
+
   // What the first effect does alone, where it was fitted in full.
   void keepSingle(const FieldHypothesis& hypothesis)
   {
     for (FieldSingle& single : Result.singles)
     {
-      if (Current.set.empty() && single.choice->effect == hypothesis.set.back()->effect &&
+      if (Current.set.empty() && hypothesis.set.size() == 1 &&
+        single.choice->effect == hypothesis.set.back()->effect &&
         hypothesis.fit.energy < single.energy)
       {
         single = { hypothesis.set.back(), hypothesis.fit.energy, hypothesis.fit.blockEnergy };
       }
     }
-  }
-
-  // Goes on from here, with weights for what is left.
-  void accept(const FieldHypothesis& hypothesis)
-  {
-    const FieldModel model = hypothesis.fit.next;
-    const Eigen::ArrayXd tolerance = Result.weights.tolerance;
-    const FieldStatistics plain = fieldStatistics(Data, model, &Result.weights, Loop);
-    Result.weights = fieldWeights(plain, &tolerance);
-    Current = refit(hypothesis.set, model);
-    setPrice(FieldFitter(Data, *Current.statistics));
   }
 
   // Puts another effect or form in the place of each, and a simpler form in the place of one more.
@@ -336,25 +253,6 @@ private:
     return false;
   }
 };
-}
-
-double blockMeanExcess(const FieldData& data, const FieldStatistics& statistics, bool training)
-{
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
-  {
-    for (Eigen::Index k = 0; (data.blocks[b].fold >= 0) == training && k < data.channels(); ++k)
-    {
-      const BlockSums& sums = statistics.at(b, k);
-      if (sums.pixels > 0.0)
-      {
-        sum += sums.mean * sums.mean * sums.pixels * sums.pixels / sums.noise;
-        count += 1.0;
-      }
-    }
-  }
-  return count > 0.0 ? sum / count : 0.0;
 }
 
 FieldSearchResult searchField(const FieldData& data, const std::vector<FieldChoice>& choices,

@@ -18,7 +18,8 @@ constexpr double StaysIn = 0.85;
 constexpr double PriceOfEffect = 3.0;    // prices
 constexpr double RelevantPart = 0.01;    // of the gap's energy
 constexpr double RelevantOfRest = 0.1;   // and of what is left of it
-constexpr double MostOfRest = 0.5;       // this alone will do where what is left is not less than noise
+constexpr double MostOfRest = 0.5;       // this alone will do where what is left is not much less than noise
+constexpr double BesideNoise = 0.5;      // of what noise allows
 constexpr double RelevantBesides = 0.03; // of the gap's energy, where an effect of the edges is there
 
 // The forms of these approximate point spreads and resampling: what is left of one looks like another.
@@ -65,7 +66,7 @@ bool FieldAcceptance::mayJoin(const FieldFit& current, const FieldFit& fit, doub
       [](const FieldChoice* other) { return isOfEdges(other->effect); });
   const double part = besides ? RelevantBesides : RelevantPart;
   return (gain >= part * gapEnergy && gain >= RelevantOfRest * excess) ||
-    (!besides && excess >= chance && gain >= MostOfRest * excess);
+    (!besides && excess >= BesideNoise * chance && gain >= MostOfRest * excess);
 }
 
 bool FieldAcceptance::mayStay(

@@ -11,6 +11,28 @@ from .command import Failure
 # The outputs of Image Sim To Real Gap.
 PORTS = {"map": 0, "summary": 1, "where": 2, "causes": 3, "candidates": 4, "notes": 5}
 _KINDS = {"real": "real", "sim": "simulated", "labels": "labels", "patches": "patches"}
+AXES = {
+    "position": "it depends on the place in the field (x from -1 at the left to 1 at the right, y from -1 at the bottom to 1 at "
+                "the top, over the longer side)",
+    "level": "it grows with the signal: bright and dark places differ",
+    "sample": "single labelled patches stand out",
+}
+# What to do about what no effect of a lens, a lamp's place or a detector accounts for.
+NEXT = {
+    "sample": "What is left differs from patch to patch, as it does where the lamp, the filters or the measured reflectance are "
+              "others than simulated. Diagnose the patches as a table (samples.csv and responses.csv in the capture): that "
+              "knows the effects of light and filters.",
+    "region": "What is left stands in single regions: look for reflections, shadows and dirt there on the map.",
+    "edges": "What is left stands along edges: rotation, distortion or a point spread that is not round. Register the images "
+             "first, or capture a grid target through each filter.",
+    "position": "What is left changes smoothly over the field, but neither as a plane of light nor as a lens falls off about the "
+                "middle: capture a flat field.",
+    "channel": "What is left differs from channel to channel: capture a grey ramp, which tells gains from offsets and from the "
+               "spectrum of the lamp.",
+    "level": "What is left goes with the signal: capture an exposure series of one patch.",
+    "rows": "What is left changes from row to row, but not as a sine: capture a flat field at two exposure times.",
+    "columns": "What is left changes from column to column, but not as a sine: capture a flat field at two exposure times.",
+}
 _CAMERAS = ("camera.json", "camera.csv")
 
 
@@ -76,17 +98,43 @@ def diagnose(images, **options):
         inputs["Labels"] = labels
     gap = pipeline.create("ImageSimToRealGap", **inputs, **options)
     pipeline.update(gap)
-    return diagnosis.Diagnosis(gap, PORTS)
+    return diagnosis.Diagnosis(gap, PORTS, "blocks of pixels", AXES)
 
 
 def write(gap, folder):
     diagnosis.write(gap, folder)
     image = servermanager.Fetch(gap.port("map"), idx=PORTS["map"])
+    summary = servermanager.Fetch(gap.port("summary"), idx=PORTS["summary"])
     if command.rank() == 0:
         gap_pictures.draw_map(image, folder)
+        write_effects(summary, os.path.join(folder, "effects.json"))
+
+
+def write_effects(summary, path):
+    """The effects that were found, as Camera Simulator and `camera --effects` take them; none: no file."""
+    effects = summary.GetFieldData().GetAbstractArray("Effects") if summary else None
+    text = effects.GetValue(0) if effects and effects.GetNumberOfValues() else ""
+    if text.strip(" \n[]"):
+        with open(path + ".part", "w", encoding="utf-8") as file:
+            file.write(text.rstrip() + "\n")
+        os.replace(path + ".part", path)
+    elif os.path.exists(path):
+        os.remove(path)
 
 
 def sections(gap, folder):
-    return [report.text("The images", "The real and the simulated image of the capture, pixel by pixel. The "
-                        "figures below are of blocks of pixels that took no part in finding the effects."),
-            *diagnosis.sections(gap, folder)]
+    pages = [report.text("The images", "The real and the simulated image of the capture, pixel by pixel. The "
+                         "figures below are of blocks of pixels that took no part in finding the effects."),
+             *diagnosis.sections(gap, folder)]
+    figures = gap.summary()
+    axis = figures.get("unexplained_where", "").split(" ")[0] if figures else ""
+    words = []
+    if figures and figures["verdict"] in ("unexplained", "partly explained") and axis in NEXT:
+        words.append(NEXT[axis])
+    if os.path.exists(os.path.join(folder, "effects.json")):
+        words.append("effects.json holds the effects that were found: give it to Camera Simulator as its Effect File, or to "
+                     "./multispectral camera as --effects, and the simulated camera has them. report.json holds this page as "
+                     "data.")
+    if words:
+        pages.append(report.text("What to do next", *words))
+    return pages

@@ -82,8 +82,13 @@ std::string whereIs(const std::vector<GapAxis>& axes)
   {
     return "no axis stands out";
   }
-  return axes.front().axis +
-    (axes.front().worst.empty() ? "" : " " + axes.front().worst.front().cell);
+  const GapAxis& axis = axes.front();
+  if (axis.worst.empty())
+  {
+    return axis.axis;
+  }
+  const std::string& cell = axis.worst.front().cell;
+  return cell.rfind(axis.axis, 0) == 0 ? cell : axis.axis + " " + cell;
 }
 
 bool has(const FieldSet& set, const char* effect)

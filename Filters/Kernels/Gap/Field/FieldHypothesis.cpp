@@ -22,8 +22,9 @@ double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)
   double n = 0.0;
   double sum = 0.0;
   double square = 0.0;
-  for (const double value : groupSums(data, gain, true))
+  for (const double energy : groupSums(data, gain, true))
   {
+    const double value = std::copysign(std::sqrt(std::fabs(energy)), energy);
     n += 1.0;
     sum += value;
     square += value * value;

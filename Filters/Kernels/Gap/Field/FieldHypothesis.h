@@ -21,7 +21,8 @@ FieldSet joined(FieldSet set, const FieldChoice& choice);
 FieldSet withoutOne(FieldSet set, std::size_t position);
 bool contains(const FieldSet& set, const char* effect, const char* form = nullptr);
 
-// The mean gain of the training blocks over its standard error from group to group.
+// The mean over groups of training blocks of the signed root of what they gain, over its standard error. The root: energies
+// have tails, and a plane of light gains little in the middle of the field.
 double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain);
 
 // The model after Gauss-Newton from a start.

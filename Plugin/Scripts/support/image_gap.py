@@ -51,6 +51,7 @@ def pair(folder):
         kind = next((kind for start, kind in _KINDS.items() if name.lower().startswith(start)), None)
         if kind:
             found[kind] += _files(os.path.join(place, name))
+    found = {kind: _without_data_files(files) for kind, files in found.items()}
     found["camera"] = [path for path in (os.path.join(folder, name) for name in _CAMERAS)
                        if os.path.exists(path)][:1]
     if not any(found[kind] for kind in _KINDS.values()):
@@ -77,6 +78,13 @@ def _files(path):
         return [path]
     return [os.path.join(path, name) for name in sorted(os.listdir(path), key=_natural)
             if not name.startswith(".")]
+
+
+def _without_data_files(files):
+    """An ENVI header stands for the data beside it."""
+    headers = {os.path.splitext(path)[0] for path in files if path.lower().endswith(".hdr")}
+    return [path for path in files if path.lower().endswith(".hdr")
+            or not {path, os.path.splitext(path)[0]} & headers]
 
 
 def simulated(images, labels):

@@ -44,12 +44,13 @@ void FieldCorrection::operator()(
   PixelBuffer& signal = workspace.signal;
   signal.resize(grown(window, halo, Pair.extent), static_cast<int>(K));
   const ImageWindow& region = signal.window;
+  const float* scene = Filled.empty() ? Pair.simulated : Filled.data();
   for (int y = region.y; y < region.y + region.height; ++y)
   {
     for (int x = region.x; x < region.x + region.width; ++x)
     {
       const auto factor = static_cast<float>(Model.fieldFactor(Pair.fieldX(x), Pair.fieldY(y)));
-      const float* source = Filled.data() + Pair.index(x, y) * K;
+      const float* source = scene + Pair.index(x, y) * K;
       float* out = signal.pixel(x, y);
       for (std::size_t k = 0; k < K; ++k)
       {

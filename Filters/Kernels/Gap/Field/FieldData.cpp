@@ -282,6 +282,10 @@ Eigen::ArrayXd sceneMean(const FieldData& data, const FieldModel& model)
 std::vector<float> filledScene(const FieldPair& pair)
 {
   const std::size_t K = pair.channels.size();
+  if (!hasGaps(pair))
+  {
+    return {};
+  }
   std::vector<float> filled(pair.simulated, pair.simulated + pair.pixels() * K);
   const Eigen::MatrixXd moments = momentsOf(pair);
   for (int y = 0; y < pair.extent.height; ++y)
@@ -329,10 +333,7 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
   }
   dealBlocks(pair, data.blocks,
     std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
-  if (gaps)
-  {
-    data.filled = filledScene(pair);
-  }
+  data.filled = filledScene(pair);
   data.scene = gaps ? data.filled.data() : pair.simulated;
   data.moments = momentsOf(pair);
   data.unit = fieldUnits(pair);

@@ -59,7 +59,8 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
 Eigen::ArrayXd sceneMean(const FieldPair& pair, const FieldModel& model);
 Eigen::ArrayXd sceneMean(const FieldData& data, const FieldModel& model);
 
-// The simulated image without gaps: gaps take the values at both sides in their row.
+// The simulated image without gaps: gaps take the values at both sides in their row. Empty where there
+// are none.
 std::vector<float> filledScene(const FieldPair& pair);
 
 } // namespace msi

@@ -226,8 +226,7 @@ int vtkImageSimToRealGap::RequestData(
       const auto gap = newArray("Gap", real);
       const auto after = newArray("GapAfter", real);
       const auto corrected = newArray("Corrected", real);
-      writeGap(
-        pair, found, gap->GetPointer(0), after->GetPointer(0), corrected->GetPointer(0));
+      writeGap(pair, found, gap->GetPointer(0), after->GetPointer(0), corrected->GetPointer(0));
       for (vtkFloatArray* array : { corrected.Get(), after.Get(), gap.Get() })
       {
         msi::setAxis(output, array, axis);

@@ -15,12 +15,14 @@ constexpr double SignificantWhereCleared = 2.0;
 constexpr double Cleared = 0.8; // of the energy beyond noise
 constexpr double StaysIn = 0.85;
 // What an effect must be worth.
-constexpr double PriceOfEffect = 3.0;    // prices
-constexpr double RelevantPart = 0.01;    // of the gap's energy
-constexpr double RelevantOfRest = 0.1;   // and of what is left of it
-constexpr double MostOfRest = 0.5;       // this alone will do where what is left is not much less than noise
-constexpr double BesideNoise = 0.5;      // of what noise allows
-constexpr double RelevantBesides = 0.03; // of the gap's energy, where an effect of the edges is there
+constexpr double PriceOfEffect = 3.0;  // prices
+constexpr double RelevantPart = 0.01;  // of the gap's energy
+constexpr double RelevantOfRest = 0.1; // and of what is left of it
+constexpr double MostOfRest =
+  0.5; // this alone will do where what is left is not much less than noise
+constexpr double BesideNoise = 0.5; // of what noise allows
+constexpr double RelevantBesides =
+  0.03; // of the gap's energy, where an effect of the edges is there
 
 // The forms of these approximate point spreads and resampling: what is left of one looks like another.
 bool isOfEdges(const std::string& effect)
@@ -69,12 +71,11 @@ bool FieldAcceptance::mayJoin(const FieldFit& current, const FieldFit& fit, doub
     (!besides && excess >= BesideNoise * chance && gain >= MostOfRest * excess);
 }
 
-bool FieldAcceptance::mayStay(
-  const FieldFit& current, const FieldFit& without, double chance) const
+bool FieldAcceptance::mayStay(const FieldFit& current, const FieldFit& without, double chance) const
 {
   const double gain = without.energy - current.energy;
   const double excess = std::fmax(without.energy - chance, 0.0);
-  return (gain >= RelevantPart * gapEnergy || clears(gain, excess, chance)) && 
+  return (gain >= RelevantPart * gapEnergy || clears(gain, excess, chance)) &&
     cost(without) >= cost(current) &&
     deviationsOf(data, without.blockEnergy - current.blockEnergy) >=
     StaysIn * leastDeviations(gain, excess, chance);

@@ -202,10 +202,8 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     }
   }
   const FieldDetector detector(model, channel);
-  const Stripes rows(
-    model.rowPeriod, window.y, window.height, P::RowSine, P::RowCosine);
-  const Stripes columns(
-    model.columnPeriod, window.x, window.width, P::ColumnSine, P::ColumnCosine);
+  const Stripes rows(model.rowPeriod, window.y, window.height, P::RowSine, P::RowCosine);
+  const Stripes columns(model.columnPeriod, window.x, window.width, P::ColumnSine, P::ColumnCosine);
   const double gain = model.at(P::Gain, channel);
   const double retained = model.at(P::Retained, channel);
   const auto count = static_cast<Eigen::Index>(scratch.pixel.size());
@@ -245,8 +243,8 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     const double down = sharp * light.scene().down(column, row);
     out[FieldColumn::Right] = right;
     out[FieldColumn::Down] = down;
-    out[FieldColumn::Magnification] = data.pair.offX(window.x + column) * right +
-      data.pair.offY(window.y + row) * down;
+    out[FieldColumn::Magnification] =
+      data.pair.offX(window.x + column) * right + data.pair.offY(window.y + row) * down;
     out[FieldColumn::BlurVariance] = sharp * light.scene().blur(column, row);
     const Surround surround = light.surround(i) - light.self(i);
     for (int pass = 0; pass < TailPasses; ++pass)

@@ -25,9 +25,9 @@ enum Index : int
   Exponent,      // u ln u
   Clip,          // u above the level of clipping
   ClipLevel,
-  Before,        // the channel before
-  Mean,          // of the scene, what glare adds
-  Right,         // derivative by displacement
+  Before, // the channel before
+  Mean,   // of the scene, what glare adds
+  Right,  // derivative by displacement
   Down,
   Magnification,
   BlurVariance, // derivative by the blur's variance

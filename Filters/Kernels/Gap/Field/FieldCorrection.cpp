@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldCorrection.h"
 
-#include "Kernels/Gap/Field/FieldData.h"
+#include "Kernels/Gap/Field/FieldScene.h"
 
 #include <cmath>
 #include <limits>

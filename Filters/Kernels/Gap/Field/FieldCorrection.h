@@ -4,9 +4,9 @@
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Camera/Imaging/SeparableFilter.h"
+#include "Kernels/Gap/Field/FieldDetector.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/Field/FieldPair.h"
-#include "Kernels/Gap/Field/FieldDetector.h"
 #include "Kernels/Gap/Field/FieldTail.h"
 
 #include <Eigen/Core>

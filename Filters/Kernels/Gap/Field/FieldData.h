@@ -33,7 +33,7 @@ struct FieldData
   FieldPair pair;
   std::vector<float> filled;    // the simulated image without gaps, where it had some
   const float* scene = nullptr; // filled, or the simulated image itself
-  Eigen::ArrayXd unit;          // of the real image's channels, K; FieldBlock::real is divided by it
+  Eigen::ArrayXd unit; // of the real image's channels, K; FieldBlock::real is divided by it
   int blockSize = 0;
   std::vector<FieldBlock> blocks;
   double usablePart = 0.0; // of the image's pixels
@@ -56,11 +56,6 @@ Eigen::ArrayXd fieldUnits(const FieldPair& pair);
 FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop);
 
 // The mean over the scene of the simulated signal behind gradient and vignetting, K.
-Eigen::ArrayXd sceneMean(const FieldPair& pair, const FieldModel& model);
 Eigen::ArrayXd sceneMean(const FieldData& data, const FieldModel& model);
-
-// The simulated image without gaps: gaps take the values at both sides in their row. Empty where there
-// are none.
-std::vector<float> filledScene(const FieldPair& pair);
 
 } // namespace msi

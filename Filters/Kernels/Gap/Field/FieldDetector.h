@@ -13,7 +13,7 @@ struct DetectorAnswer
 {
   double value;
   double bySignal;
-  double bySquare;      // of the quadratic, and minus that by the compression
+  double bySquare; // of the quadratic, and minus that by the compression
   double byExponent;
   double byOffset;
   double byClip;

@@ -118,8 +118,9 @@ std::vector<std::string> notesOn(
     {
       text << ", " << data.unit[k];
     }
-    text << " times the simulated ones; the figures are after division by that. A flat field or the "
-            "response of a white brings them to 1 for a perfect white";
+    text
+      << " times the simulated ones; the figures are after division by that. A flat field or the "
+         "response of a white brings them to 1 for a perfect white";
     notes.push_back(text.str());
   }
   if (data.usablePart < FewUsable)
@@ -202,8 +203,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   // Effects that account for little are candidates, not causes.
   if (!found.set.empty() && (shrink >= PartlyShrink || (noiseAlone && shrink > 0.0)))
   {
-    report.verdict = shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained
-                                                             : GapVerdict::PartlyExplained;
+    report.verdict =
+      shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained : GapVerdict::PartlyExplained;
     // What is left has a cause that is not known and may overlap with those found.
     const double certain = report.verdict == GapVerdict::Explained
       ? shrink

@@ -114,15 +114,12 @@ std::vector<std::string> indistinctEffects(
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
         information += column.dot(
-          fitter.statistics().at(b, k).normal.topLeftCorner(column.size(), column.size()) *
-          column);
+          fitter.statistics().at(b, k).normal.topLeftCorner(column.size(), column.size()) * column);
       }
     }
     const bool missing =
       1.0 / std::sqrt(std::fmax(information, 1e-30)) > Indistinct * choice.terms.front().typical;
-    if (missing &&
-      std::find(found.begin(), found.end(), choice.effect) ==
-        found.end())
+    if (missing && std::find(found.begin(), found.end(), choice.effect) == found.end())
     {
       found.push_back(choice.effect);
     }

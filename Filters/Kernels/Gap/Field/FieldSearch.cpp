@@ -23,8 +23,7 @@ public:
 
   FieldSearchResult run(int maximumEffects, const std::function<bool()>& stop)
   {
-    while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() &&
-      grow(maximumEffects))
+    while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow(maximumEffects))
     {
     }
     for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
@@ -92,8 +91,8 @@ private:
     std::size_t counted = 0;
     for (std::size_t i = 0; i < ranked.size(); ++i)
     {
-      const bool counts = counted < FullFits &&
-        acceptance().mayJoin(Current.fit, ranked[i], fitter.chance());
+      const bool counts =
+        counted < FullFits && acceptance().mayJoin(Current.fit, ranked[i], fitter.chance());
       counted += counts ? 1 : 0;
       if (i < FullFits || counts)
       {

@@ -39,8 +39,8 @@ FieldSearchResult FieldSearchState::result() const
 
 void FieldSearchState::measureNominal()
 {
-  const auto statistics =
-    std::make_shared<FieldStatistics>(fieldStatistics(Data, FieldModel(Data.channels()), &Result.weights, Loop));
+  const auto statistics = std::make_shared<FieldStatistics>(
+    fieldStatistics(Data, FieldModel(Data.channels()), &Result.weights, Loop));
   Result.before = *statistics;
   const FieldFitter fitter(Data, *statistics);
   Result.gapEnergy = std::fmax(fitter.energy() - fitter.chance(), 0.0);

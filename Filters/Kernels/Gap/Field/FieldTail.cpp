@@ -60,8 +60,8 @@ void FieldTail::operator()(PixelBuffer& signal, PixelBuffer& wide) const
     convolve(tailKernel(signal.channels, pass), wide);
     for (std::size_t i = 0; pass > 0 && i < signal.values.size(); ++i)
     {
-      const auto weight = static_cast<float>(
-        Model.at(surroundWeight(pass - 1), static_cast<Eigen::Index>(i % K)));
+      const auto weight =
+        static_cast<float>(Model.at(surroundWeight(pass - 1), static_cast<Eigen::Index>(i % K)));
       signal.values[i] += weight * (wide.values[i] - sharp.values[i]);
     }
   }

@@ -9,7 +9,7 @@ namespace msi
 
 namespace
 {
-constexpr double OtherUnit = 5.0;  // times
+constexpr double OtherUnit = 5.0;   // times
 constexpr double Correlated = 0.25; // squared
 constexpr std::size_t MostPixels = std::size_t(1) << 20;
 }

@@ -338,8 +338,8 @@ TEST(FieldGap, LagOfTheChannelBefore)
 TEST(FieldGap, SaturationOfTheBrightest)
 {
   const TestScene scene(32);
-  const TestPair pair = changed(
-    scene, 42, [](double u, int, int, int, double) { return std::fmin(u, 0.45); });
+  const TestPair pair =
+    changed(scene, 42, [](double u, int, int, int, double) { return std::fmin(u, 0.45); });
   const GapReport report = diagnose(pair);
   expectFirst(report, "saturation", "level");
   expectParameter(report, "saturation", "level", 0.45, 0.005);
@@ -348,13 +348,13 @@ TEST(FieldGap, SaturationOfTheBrightest)
 TEST(FieldGap, NonlinearityIsAPowerOrACompression)
 {
   const TestScene scene(33);
-  const GapReport power = diagnose(changed(
-    scene, 43, [](double u, int, int, int, double) { return std::pow(u, 1.1); }));
+  const GapReport power =
+    diagnose(changed(scene, 43, [](double u, int, int, int, double) { return std::pow(u, 1.1); }));
   expectFirst(power, "detector_nonlinearity", "level");
   EXPECT_EQ(power.causes.front().form, "gamma");
   expectParameter(power, "detector_nonlinearity", "exponent", 1.1, 0.005);
-  const GapReport bent = diagnose(changed(
-    scene, 44, [](double u, int, int, int, double) { return u / (1.0 + 0.3 * u); }));
+  const GapReport bent = diagnose(
+    changed(scene, 44, [](double u, int, int, int, double) { return u / (1.0 + 0.3 * u); }));
   expectFirst(bent, "detector_nonlinearity", "level");
 }
 

@@ -13,6 +13,7 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
   const FieldTerm right{ P::Right, true, -20.0, 20.0, 0.5 };
   const FieldTerm down{ P::Down, true, -20.0, 20.0, 0.5 };
   std::vector<FieldTerm> surround;
+  surround.reserve(FreePasses);
   for (int i = 0; i < FreePasses; ++i)
   {
     surround.push_back({ surroundWeight(i), false, -0.05, 0.6, 0.01 });

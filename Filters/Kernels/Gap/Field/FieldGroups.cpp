@@ -76,6 +76,7 @@ void dealBlocks(
   std::vector<std::size_t> order = shuffled(blocks.size(), CounterRandom(seed, 81));
   order.resize(std::min(order.size(), most));
   std::vector<FieldBlock> drawn;
+  drawn.reserve(order.size());
   for (const std::size_t b : order)
   {
     drawn.push_back(std::move(blocks[b]));
@@ -122,6 +123,7 @@ std::vector<double> groupSums(const FieldData& data, const Eigen::VectorXd& ofBl
     }
   }
   std::vector<double> values;
+  values.reserve(sums.size());
   for (const auto& [number, sum] : sums)
   {
     values.push_back(sum);

@@ -2,10 +2,16 @@
 
 #include "Kernels/Gap/Field/FieldColumns.h"
 
+#include <cmath>
 #include <limits>
 
 namespace msi
 {
+
+namespace
+{
+constexpr int RadiusSteps = 48;
+}
 
 SymmetricKernel tailKernel(int channels, int pass)
 {
@@ -27,8 +33,9 @@ TailForm tailForm(const FieldModel& model)
   }
   TailForm best{ 0.0, 0.0 };
   double least = std::numeric_limits<double>::infinity();
-  for (double radius = 1.0; radius <= 64.0; radius *= 1.1)
+  for (int step = 0; step <= RadiusSteps; ++step)
   {
+    const double radius = std::exp2(6.0 * step / RadiusSteps); // 1 .. 64 pixels
     const Eigen::ArrayXd form = tailWeights(radius);
     const double fraction = (form * weight).sum() / form.square().sum();
     const double error = (weight - fraction * form).square().sum();

@@ -60,10 +60,11 @@ std::vector<int> labelsOf(vtkImageData* image, vtkIdType pixels)
 }
 
 // The simulated image with the model's effects, and what is left of the gap.
-void writeGap(const msi::FieldPair& pair, const msi::FieldModel& model, float* gap, float* after,
+void writeGap(const msi::FieldPair& pair, const msi::FieldGap& found, float* gap, float* after,
   float* corrected)
 {
-  const msi::FieldCorrection correction(pair, model);
+  const msi::FieldCorrection correction(pair, found.model);
+  const Eigen::ArrayXf white = found.unit.inverse().cast<float>();
   const int columns = (pair.extent.width + WindowSide - 1) / WindowSide;
   const int rows = (pair.extent.height + WindowSide - 1) / WindowSide;
   const std::size_t K = pair.channels.size();
@@ -85,9 +86,10 @@ void writeGap(const msi::FieldPair& pair, const msi::FieldModel& model, float* g
         {
           for (std::size_t i = pair.index(x, v) * K; i < pair.index(x + window.width, v) * K; ++i)
           {
+            const float real = pair.real[i] * white[static_cast<Eigen::Index>(i % K)];
             corrected[i] = *value++;
-            gap[i] = pair.real[i] - pair.simulated[i];
-            after[i] = pair.real[i] - corrected[i];
+            gap[i] = real - pair.simulated[i];
+            after[i] = real - corrected[i];
           }
         }
       }
@@ -224,8 +226,7 @@ int vtkImageSimToRealGap::RequestData(
       const auto gap = newArray("Gap", real);
       const auto after = newArray("GapAfter", real);
       const auto corrected = newArray("Corrected", real);
-      writeGap(
-        pair, found.model, gap->GetPointer(0), after->GetPointer(0), corrected->GetPointer(0));
+      writeGap(pair, found, gap->GetPointer(0), after->GetPointer(0), corrected->GetPointer(0));
       for (vtkFloatArray* array : { corrected.Get(), after.Get(), gap.Get() })
       {
         msi::setAxis(output, array, axis);

@@ -14,7 +14,8 @@ def arguments():
         "capture/ --without filter_shift --causes 3 --output gap")
     parser.add_argument("capture", metavar="CAPTURE_DIR",
                         help="folder with capture.json, camera.csv, samples.csv and responses.csv; or with "
-                             "images/ (real* and simulated*), or with both")
+                             "images/ (real* and simulated*; or real*, labels* and patches* of a chart, "
+                             "which camera.csv then simulates), or with both")
     parser.add_argument("--without", metavar="EFFECT", action="append", default=[],
                         help="an effect that may not be blamed; may be given several times")
     parser.add_argument("--causes", metavar="N", type=command.whole_number(1), default=5,

@@ -121,6 +121,33 @@ def check_images(launcher, folder):
     expect((folder / "pair-out" / "gap-map.png").exists(), "image pair: no map")
 
 
+def check_chart(launcher, folder):
+    """The raw image of a chart, which the capture's camera simulates: the dark level that was planted."""
+    capture, output = folder / "chart", folder / "chart-out"
+    real = capture / "images" / "real"
+    real.mkdir(parents=True)
+    for file in IMAGE.glob("channel_*.tif"):
+        shutil.copy(file, real)
+    shutil.copy(IMAGE / "labels.png", capture / "images")
+    shutil.copy(DEMO / "camera.csv", capture)
+    done = run(launcher, capture, output)
+    expect(done.returncode == 1 and "images/patches.csv is missing" in done.stderr
+           and len(done.stderr.splitlines()) == 1, f"chart without patches: {done.stderr}")
+    shutil.copy(IMAGE / "patches.csv", capture / "images")
+    done = run(launcher, capture, output)
+    expect(done.returncode == 0, f"chart: status {done.returncode}: {done.stderr}")
+    report = json.loads((output / "report.json").read_text(encoding="utf-8"))
+    # Counts of a camera whose dark level is 96 and whose white is 3200; glare adds as a dark level does.
+    named = [{cause["effect"], *cause["equivalent"]} for cause in report["causes"]]
+    expect(named and "dark_offset" in named[0], f"chart: causes {report['causes']}")
+    expect(any("not in units of white" in note for note in report["notes"]), f"chart: notes {report['notes']}")
+    effects = json.loads((output / "effects.json").read_text(encoding="utf-8"))
+    expect([effect["effect"] for effect in effects] == [cause["effect"] for cause in report["causes"]],
+           f"chart: effects {effects}")
+    page = (output / "report.html").read_text(encoding="utf-8")
+    expect(page.count("data:image/png;base64,") == 4 and "What to do next" in page, "chart: the page")
+
+
 def edited(folder, name, **changes):
     """A copy of the demo capture; changes: {file stem: what becomes of its lines, or None to leave it out}."""
     place = folder / name
@@ -238,6 +265,7 @@ def main():
     if part == "demo":
         check_demo(launcher, folder)
         check_images(launcher, folder)
+        check_chart(launcher, folder)
     else:
         check_bad_input(launcher, folder)
     print("\n".join(faults) or "as the contract says")

@@ -35,11 +35,15 @@ AXES = {
 
 
 class Diagnosis:
-    """The outputs of a diagnosis by name; those that it does not have are empty."""
+    """The outputs of a diagnosis by name; those that it does not have are empty.
 
-    def __init__(self, proxy, ports):
+    held: what took no part in finding the causes; axes: words for axes that are not those of samples."""
+
+    def __init__(self, proxy, ports, held="samples", axes=None):
         self.proxy = proxy
         self.ports = ports
+        self.held = held
+        self.axes = {**AXES, **(axes or {})}
         self._known = {}
 
     def port(self, name):
@@ -90,7 +94,7 @@ def write(gap, folder):
             pipeline.save_table(gap.port(name), os.path.join(folder, f"{name}.csv"))
     tables, summary = gap.tables(), gap.summary()
     if command.rank() == 0:
-        gap_pictures.draw_all(tables, summary, folder)
+        gap_pictures.draw_all(tables, summary, folder, gap.held)
 
 
 def print_summary(gap):
@@ -98,7 +102,7 @@ def print_summary(gap):
     if not figures:
         return
     command.say(f"Verdict: {figures['verdict']}")
-    command.say(f"  {far(figures)}")
+    command.say(f"  {far(figures, gap.held)}")
     for cause in causes:
         command.say(f"  {cause_line(cause)}")
     if figures["next_capture"]:
@@ -113,9 +117,9 @@ def first_rows(rows):
     return list(seen.values())
 
 
-def far(figures):
+def far(figures, held="samples"):
     text = (f"rms {figures['rms_before']:.4f} before, {figures['rms_after']:.4f} after, noise alone "
-            f"{figures['noise_floor']:.4f} (response, 1 = white; samples held out)")
+            f"{figures['noise_floor']:.4f} (response, 1 = white; {held} held out)")
     if figures["verdict"] != "no gap":
         text += (f"; shrink {100 * figures['shrink']:.0f} % "
                  f"({100 * figures['shrink_low']:.0f} to {100 * figures['shrink_high']:.0f} %)")
@@ -142,11 +146,11 @@ def sections(gap, folder):
         return []
     drawn = gap_pictures.drawn(folder)
     pages = [
-        verdict_section(figures, first_rows(tables["causes"])),
-        *where_sections(tables["where"], figures, drawn, folder),
-        *which_sections(tables["causes"], figures, drawn, folder),
+        verdict_section(figures, first_rows(tables["causes"]), gap.held),
+        *where_sections(tables["where"], figures, drawn, folder, gap.axes),
+        *which_sections(tables["causes"], figures, drawn, folder, gap.held),
         report.pictures("How far it shrinks", folder, {
-            "how-far.png": "The gap before and after the causes are simulated, on samples that took no "
+            "how-far.png": f"The gap before and after the causes are simulated, on {gap.held} that took no "
                            "part in finding them, against what noise alone makes"}),
         undecided_section(figures, first_rows(tables["causes"]), notes)]
     if "camera" in gap.ports:
@@ -164,8 +168,8 @@ def corrected_section(causes):
         "to put back. report.json holds this page as data.")
 
 
-def verdict_section(figures, causes):
-    lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures)}."]
+def verdict_section(figures, causes, held):
+    lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures, held)}."]
     lines += [f"Cause {number}: {cause_line(cause)}." for number, cause in enumerate(causes, 1)]
     if causes and figures["unexplained_share"] >= 0.005:
         lines.append(f"Left over: {100 * figures['unexplained_share']:.0f} % of the gap"
@@ -179,7 +183,7 @@ def verdict_section(figures, causes):
     return report.text(f"Verdict: {figures['verdict']}", *lines)
 
 
-def where_sections(where, figures, drawn, folder):
+def where_sections(where, figures, drawn, folder, meanings):
     if figures["verdict"] == "no gap":
         words = ["There is no gap beyond noise; the pictures show how evenly what is left is spread."]
     else:
@@ -189,23 +193,27 @@ def where_sections(where, figures, drawn, folder):
             cells = [row for row in where if row["axis"] == axis["axis"] and row["cell"]][:3]
             worst = ", ".join(f"{row['cell']} ({100 * row['share']:.0f} %)" for row in cells)
             words.append(f"{axis['axis']}: {100 * axis['share']:.0f} % of the gap's energy: "
-                         f"{AXES.get(axis['axis'], '')}."
+                         f"{meanings.get(axis['axis'], '')}."
                          + (f" Most of the energy is in {worst}." if worst else ""))
         words = words or ["No axis stands out: the gap is spread over everything alike."]
     captions = {
-        "gap-map.png": "The gap of the images, real minus simulated: before above, after the correction below",
-        "axes.png": "How much of the gap's energy each axis predicts on samples held out; what two axes "
+        "axes.png": "How much of the gap's energy each axis predicts on what was held out; what two axes "
                     "have in common is shared between them",
         "where.png": "The gap of each channel and group of samples, before and after the correction",
         "map.png": "The gap over the field, relative to the simulated response, before and after",
         "trend.png": "The gap over the capture order, relative to the simulated response; the line is the "
                      "median between places where the level changes"}
-    return [report.text("Where the gap lies", *words),
+    # The map of images has the page's whole width.
+    whole = [report.pictures("Over the field", folder, {
+        "gap-map.png": "The gap of the images channel by channel, real minus simulated: before above, after the "
+                       "causes are simulated below. Purple: the real camera sees more light, orange: less"})
+    ] if "gap-map.png" in drawn else []
+    return [report.text("Where the gap lies", *words), *whole,
             report.pictures("Where, in pictures", folder,
                             {name: text for name, text in captions.items() if name in drawn})]
 
 
-def which_sections(causes, figures, drawn, folder):
+def which_sections(causes, figures, drawn, folder, held):
     parts = []
     for cause in first_rows(causes):
         medium = f" ({cause['medium']})" if cause["medium"] else ""
@@ -214,7 +222,7 @@ def which_sections(causes, figures, drawn, folder):
                  f"by {100 * cause['shrink']:.0f} %."]
         if cause["equivalent"]:
             words.append(f"These data cannot tell it from {cause['equivalent']}: any of them does as well "
-                         f"on samples held out. A capture that tells: {cause['next_capture']}.")
+                         f"on {held} held out. A capture that tells: {cause['next_capture']}.")
         parts.append(report.text(f"Cause {cause['rank']}: {cause['title']}{medium}", *words))
     if not parts:
         parts = [report.text("Which effects cause it",
@@ -226,7 +234,7 @@ def which_sections(causes, figures, drawn, folder):
     if "which.png" in drawn:
         parts.append(report.pictures("Which effects were tried", folder, {
             "which.png": "The causes found, each with the effects that the data cannot tell from it; and "
-                         "what each effect alone would do, with the 95 % interval over samples"}))
+                         f"what each effect alone would do, with the 95 % interval over {held}"}))
     return parts
 
 

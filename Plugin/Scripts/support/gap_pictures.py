@@ -17,10 +17,12 @@ _STYLE = {"font.size": 11, "axes.spines.top": False, "axes.spines.right": False,
 _NAMES = ("gap-map.png", "axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
 _MOST_LABELS = 40
 _MOST_SCENES = 4
-_MOST_CHANNELS = 6
+_MOST_CHANNELS = 18
+_CHANNELS_IN_A_LINE = 6
+_MOST_PIXELS_OF_A_SIDE = 512
 
 
-def draw_all(tables, summary, folder):
+def draw_all(tables, summary, folder, held):
     """Those pictures for which there are data; one that an earlier run left behind is taken away."""
     with pyplot.rc_context(_STYLE):
         gap = summary["verdict"] != "no gap"
@@ -28,7 +30,7 @@ def draw_all(tables, summary, folder):
                     "where.png": _heat_maps(tables["heat-map"], summary),
                     "map.png": _field(tables["samples"]), "trend.png": _trend(tables["trend"]),
                     "which.png": _which(tables["causes"], tables["candidates"], summary) if gap else None,
-                    "how-far.png": _far(summary)}
+                    "how-far.png": _far(summary, held)}
         for name, figure in pictures.items():
             _save(figure, os.path.join(folder, name))
 
@@ -144,24 +146,44 @@ def _field(samples):
 
 
 def _gap_map(image):
+    """Line by line six channels, the gap before above the gap after."""
     width, height, _ = image.GetDimensions()
-    before, after = (vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(height, width, -1)
-                     for name in ("Gap", "GapAfter"))
+    arrays = [image.GetPointData().GetArray(name) for name in ("Gap", "GapAfter")]
+    step = -(-max(width, height) // _MOST_PIXELS_OF_A_SIDE)
+    before, after = (vtk_to_numpy(array).reshape(height, width, -1)[::step, ::step] for array in arrays)
     channels = before.shape[2]
     shown = sorted(set(numpy.linspace(0, channels - 1, _MOST_CHANNELS).astype(int)))
-    limit = float(numpy.nanpercentile(numpy.abs(before), 99))
-    figure, plots = pyplot.subplots(2, len(shown), squeeze=False, layout="compressed", sharex=True,
-                                    sharey=True, figsize=(2.6 * len(shown) + 1, 5.2))
-    for line, values, title in zip(plots, (before, after), ("before", "after")):
-        for plot, channel in zip(line, shown):
+    limit = float(numpy.nanpercentile(numpy.abs(before), 99)) or 1e-6
+    lines = -(-len(shown) // _CHANNELS_IN_A_LINE)
+    across = -(-len(shown) // lines)
+    tall = min(max(height / width, 0.4), 1.6)
+    figure, plots = pyplot.subplots(2 * lines, across, squeeze=False, layout="compressed", sharex=True,
+                                    sharey=True, figsize=(2.2 * across + 1, 2 * lines * (2.2 * tall + 0.35)))
+    for plot in plots.flat:
+        plot.set_axis_off()
+    for number, channel in enumerate(shown):
+        line, place = divmod(number, across)
+        for row, values, when in ((2 * line, before, "before"), (2 * line + 1, after, "after")):
+            plot = plots[row][place]
+            plot.set_axis_on()
             drawn = plot.imshow(values[:, :, channel], origin="lower", cmap="PuOr",
-                                norm=Normalize(-limit, limit))
-            plot.set_title(f"channel {channel + 1}, {title}", fontsize=9)
+                                norm=Normalize(-limit, limit), interpolation="antialiased")
+            plot.set_title(f"{_channel_name(image, arrays[0], channel)}, {when}", fontsize=11)
             plot.set_xticks([])
             plot.set_yticks([])
-    bar = figure.colorbar(drawn, ax=plots)
-    bar.set_label("response, 1 = white; ends at the 99th percentile", fontsize=9)
+            plot.set_facecolor("#D8D8D8")  # no value
+            for side in plot.spines.values():
+                side.set_visible(False)
+    bar = figure.colorbar(drawn, ax=plots, shrink=0.9 if lines == 1 else 0.4)
+    bar.set_label("real - simulated (1 = white)\ncolors end at the 99th percentile; grey: no value", fontsize=9)
     return figure
+
+
+def _channel_name(image, array, channel):
+    wavelengths = image.GetFieldData().GetArray("Wavelength")
+    if wavelengths and wavelengths.GetNumberOfTuples() == array.GetNumberOfComponents():
+        return f"{wavelengths.GetValue(channel):g} nm"
+    return array.GetComponentName(channel) or f"channel {channel + 1}"
 
 
 def _trend(rows):
@@ -248,7 +270,7 @@ def _bracket(plot, first, last):
     plot.text(1.035, first, "cannot be\ntold apart", transform=across, va="top", fontsize=9)
 
 
-def _far(summary):
+def _far(summary, held):
     bars = (("before", "rms_before", _BEFORE), ("after", "rms_after", _AFTER),
             ("noise alone", "noise_floor", _FLOOR))
     figure, plot = pyplot.subplots(figsize=(9, 2.4))
@@ -256,7 +278,7 @@ def _far(summary):
         plot.barh(name, summary[key], color=color)
         plot.text(summary[key], name, f" {summary[key]:.4f}", va="center")
     plot.invert_yaxis()
-    plot.set_xlabel("rms of the gap on samples held out (response, 1 = white)")
+    plot.set_xlabel(f"rms of the gap on {held} held out (response, 1 = white)")
     if summary["verdict"] != "no gap":
         plot.set_title(f"Shrink {100 * summary['shrink']:.0f} % (95 % interval "
                        f"{100 * summary['shrink_low']:.0f} to {100 * summary['shrink_high']:.0f} %)",

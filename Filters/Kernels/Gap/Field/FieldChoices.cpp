@@ -12,6 +12,12 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
   const FieldTerm glare{ P::Glare, false, -0.1, 0.5, 0.01 };
   const FieldTerm right{ P::Right, true, -20.0, 20.0, 0.5 };
   const FieldTerm down{ P::Down, true, -20.0, 20.0, 0.5 };
+  std::vector<FieldTerm> surround;
+  surround.reserve(FreePasses);
+  for (int i = 0; i < FreePasses; ++i)
+  {
+    surround.push_back({ surroundWeight(i), false, -0.05, 0.6, 0.01 });
+  }
   const FieldTerm blur{ P::BlurVariance, false, 0.0, 16.0, 0.25 };
   const auto perChannel = [](FieldTerm term)
   {
@@ -28,6 +34,8 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
     { "veiling_glare", "per_channel", { perChannel(glare) } },
     { "local_stray_light", "neighbours",
       { { P::TailFraction, false, -0.1, 0.6, 0.01 }, { P::TailRadius, false, 1.0, 64.0, 4.0 } } },
+    // Any shape; the effect's own form is fitted to it where it is put back.
+    { "local_stray_light", "free", surround },
     { "vignetting", "quadratic", { { P::Falloff, false, -0.45, 0.45, 0.03 } } },
     { "illumination_gradient", "plane",
       { { P::GradientRight, false, -0.5, 0.5, 0.03 },
@@ -42,6 +50,11 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
     { "banding", "columns",
       { { P::ColumnSine, true, -0.3, 0.3, 0.01 }, { P::ColumnCosine, true, -0.3, 0.3, 0.01 } } },
     { "detector_nonlinearity", "quadratic", { { P::Square, false, -0.45, 0.9, 0.05 } } },
+    { "detector_nonlinearity", "gamma", { { P::Exponent, false, 0.4, 2.5, 0.05 } } },
+    { "detector_nonlinearity", "compressive", { { P::Compression, false, -0.4, 2.0, 0.05 } } },
+    { "saturation", "soft",
+      { { P::Clip, false, 0.0, 1.0, 0.3 }, { P::ClipLevel, false, 0.1, 8.0, 0.1 } } },
+    { "lag", "common", { { P::Retained, false, 0.0, 0.3, 0.01 } } },
   };
   for (const std::string& name : without)
   {

@@ -22,7 +22,12 @@ enum Index : int
   GradientDown,  // y u
   RadiusSquared, // rho^2 u
   Square,        // u^2
-  Right,         // derivative by displacement
+  Exponent,      // u ln u
+  Clip,          // u above the level of clipping
+  ClipLevel,
+  Before, // the channel before
+  Mean,   // of the scene, what glare adds
+  Right,  // derivative by displacement
   Down,
   Magnification,
   BlurVariance, // derivative by the blur's variance
@@ -48,6 +53,10 @@ struct FieldScratch
   Eigen::MatrixXd columns; // usable pixels x FieldColumn::Count
   Eigen::ArrayXd level;    // predicted, of each
   std::vector<int> pixel;  // number in the block, of each
+  // Of every pixel of the block: the signal behind stray light, and that of the channel before.
+  std::vector<double> signal, before;
+  const FieldBlock* lastBlock = nullptr;
+  Eigen::Index lastChannel = -1;
 };
 
 // Fills `scratch` for the usable pixels of a block in one channel.

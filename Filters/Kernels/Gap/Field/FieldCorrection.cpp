@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldCorrection.h"
 
-#include "Kernels/Gap/Field/FieldData.h"
+#include "Kernels/Gap/Field/FieldScene.h"
 
 #include <cmath>
 #include <limits>
@@ -13,6 +13,7 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   , Model(model)
   , Glare(sceneMean(pair, model))
   , Filled(filledScene(pair))
+  , Surround(model)
 {
   using P = FieldParameter;
   if (!model.isNeutral(P::Right) || !model.isNeutral(P::Down) || !model.isNeutral(P::Magnification))
@@ -27,6 +28,10 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   {
     Tail.emplace(model.at(P::TailRadius, 0));
   }
+  for (std::size_t k = 0; k < pair.channels.size(); ++k)
+  {
+    Detector.emplace_back(model, static_cast<Eigen::Index>(k));
+  }
 }
 
 void FieldCorrection::operator()(
@@ -35,16 +40,17 @@ void FieldCorrection::operator()(
   using P = FieldParameter;
   const std::size_t K = Pair.channels.size();
   const int halo = (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) +
-    (Tail ? Tail->reach() : 0);
+    (Tail ? Tail->reach() : 0) + Surround.reach();
   PixelBuffer& signal = workspace.signal;
   signal.resize(grown(window, halo, Pair.extent), static_cast<int>(K));
   const ImageWindow& region = signal.window;
+  const float* scene = Filled.empty() ? Pair.simulated : Filled.data();
   for (int y = region.y; y < region.y + region.height; ++y)
   {
     for (int x = region.x; x < region.x + region.width; ++x)
     {
       const auto factor = static_cast<float>(Model.fieldFactor(Pair.fieldX(x), Pair.fieldY(y)));
-      const float* source = Filled.data() + Pair.index(x, y) * K;
+      const float* source = scene + Pair.index(x, y) * K;
       float* out = signal.pixel(x, y);
       for (std::size_t k = 0; k < K; ++k)
       {
@@ -65,6 +71,12 @@ void FieldCorrection::operator()(
     workspace.scratch = signal;
     (*Tail)(workspace.scratch, workspace.tail);
   }
+  if (!Surround.isNeutral())
+  {
+    Surround(signal, workspace.scratch);
+  }
+  std::vector<double>& light = workspace.light;
+  light.resize(K);
   for (int y = window.y; y < window.y + window.height; ++y)
   {
     for (int x = window.x; x < window.x + window.width; ++x)
@@ -74,7 +86,8 @@ void FieldCorrection::operator()(
       for (std::size_t k = 0; k < K; ++k)
       {
         const auto channel = static_cast<Eigen::Index>(k);
-        double u = static_cast<double>(self[k]);
+        double& u = light[k];
+        u = static_cast<double>(self[k]);
         if (Tail)
         {
           u += Model.at(P::TailFraction, channel) *
@@ -82,9 +95,14 @@ void FieldCorrection::operator()(
         }
         u += Model.at(P::Glare, channel) * Glare[channel] +
           Model.at(P::ConservingGlare, channel) * (Glare[channel] - u);
-        u *= Model.bandFactor(channel, x, y) * Model.at(P::Gain, channel);
-        u += Model.at(P::Square, channel) * u * u + Model.at(P::Dark, channel);
-        *corrected++ = std::isfinite(simulated[k]) ? static_cast<float>(u)
+      }
+      for (std::size_t k = 0; k < K; ++k)
+      {
+        const auto channel = static_cast<Eigen::Index>(k);
+        const double before = k > 0 ? light[k - 1] : 0.0;
+        const double u = (light[k] + Model.at(P::Retained, channel) * before) *
+          Model.bandFactor(channel, x, y) * Model.at(P::Gain, channel);
+        *corrected++ = std::isfinite(simulated[k]) ? static_cast<float>(Detector[k](u).value)
                                                    : std::numeric_limits<float>::quiet_NaN();
       }
     }

@@ -4,8 +4,10 @@
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Camera/Imaging/SeparableFilter.h"
+#include "Kernels/Gap/Field/FieldDetector.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/Field/FieldPair.h"
+#include "Kernels/Gap/Field/FieldTail.h"
 
 #include <Eigen/Core>
 
@@ -19,6 +21,7 @@ namespace msi
 struct CorrectionWorkspace
 {
   PixelBuffer signal, scratch, tail;
+  std::vector<double> light; // of one pixel
 };
 
 // Runs the model on the simulated image window by window, with the operators of ImageSimulator and in its order.
@@ -40,6 +43,8 @@ private:
   std::optional<ChannelRegistration> Registration;
   std::optional<SymmetricKernel> Blur;
   std::optional<ScatterTail> Tail;
+  FieldTail Surround;
+  std::vector<FieldDetector> Detector; // of each channel
 };
 
 } // namespace msi

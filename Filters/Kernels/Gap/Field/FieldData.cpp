@@ -1,12 +1,12 @@
 #include "Kernels/Gap/Field/FieldData.h"
 
-#include "Kernels/Camera/CounterRandom.h"
-#include "Kernels/Camera/Imaging/SeparableFilter.h"
+#include "Kernels/Gap/Field/FieldGroups.h"
+#include "Kernels/Gap/Field/FieldScene.h"
+#include "Kernels/Gap/Field/FieldTail.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -17,15 +17,14 @@ namespace
 {
 constexpr std::size_t LargestWhole = std::size_t(1) << 21;
 constexpr int RegionSide = 512;
-constexpr int Regions = 3; // a side
-constexpr int TailReach = 2 * ((1 << TailPasses) - 1);
+constexpr int Regions = 3;  // a side
 constexpr int Surround = 2; // finite neighbours
 constexpr int LargestMargin = 8;
-constexpr std::size_t MostBlocks = 208;
+constexpr std::size_t MostBlocks = 208; // with up to 8 channels; fewer with more, down to half
+
 constexpr std::size_t EnoughBlocks = 64;
 constexpr std::size_t FewestBlocks = 15;
 constexpr double UsablePart = 0.25;
-constexpr std::size_t MomentPixels = std::size_t(1) << 20;
 
 struct Region
 {
@@ -78,40 +77,9 @@ std::vector<Region> regionsOf(const ImageExtent& extent)
   return regions;
 }
 
-bool hasGaps(const FieldPair& pair)
-{
-  const std::size_t count = pair.pixels() * pair.channels.size();
-  return !std::all_of(
-    pair.simulated, pair.simulated + count, [](float value) { return std::isfinite(value); });
-}
-
-// A row of one channel: gaps become the mean of both sides, weighted by nearness.
-void fillRow(float* row, int pixels, std::size_t step, float other)
-{
-  int last = -1;
-  for (int x = 0; x <= pixels; ++x)
-  {
-    if (x < pixels && !std::isfinite(row[static_cast<std::size_t>(x) * step]))
-    {
-      continue;
-    }
-    for (int gap = last + 1; gap < x; ++gap)
-    {
-      const float left = last >= 0 ? row[static_cast<std::size_t>(last) * step] : 0.0F;
-      const float right = x < pixels ? row[static_cast<std::size_t>(x) * step] : 0.0F;
-      const auto part = static_cast<float>(gap - last) / static_cast<float>(x - last);
-      row[static_cast<std::size_t>(gap) * step] = last < 0 && x == pixels ? other
-        : last < 0                                                        ? right
-        : x == pixels                                                     ? left
-                      : left + part * (right - left);
-    }
-    last = x;
-  }
-}
-
 // Real values of a block, NaN where they cannot be used; returns how many pixels can.
-std::size_t readBlock(
-  const FieldPair& pair, const ImageWindow& window, bool gaps, int margin, std::vector<float>& real)
+std::size_t readBlock(const FieldPair& pair, const ImageWindow& window, bool gaps, int margin,
+  std::vector<float>& real, const Eigen::ArrayXd* unit = nullptr)
 {
   const std::size_t K = pair.channels.size();
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -145,7 +113,10 @@ std::size_t readBlock(
         }
         if (good)
         {
-          real[out + k] = pair.real[pair.index(x, y) * K + k];
+          const float value = pair.real[pair.index(x, y) * K + k];
+          real[out + k] = unit == nullptr ? value
+                                          : static_cast<float>(static_cast<double>(value) /
+                                              (*unit)[static_cast<Eigen::Index>(k)]);
           any = true;
         }
       }
@@ -187,35 +158,6 @@ std::vector<FieldBlock> blocksOf(const FieldPair& pair, const std::vector<Region
   return blocks;
 }
 
-// Shuffles, cuts and deals the blocks.
-void dealBlocks(std::vector<FieldBlock>& blocks, std::uint64_t seed)
-{
-  const CounterRandom random(seed, 81);
-  std::vector<std::size_t> order(blocks.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b) { return random.uniform(a) < random.uniform(b); });
-  order.resize(std::min(order.size(), MostBlocks));
-  std::vector<FieldBlock> dealt;
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    dealt.push_back(std::move(blocks[order[i]]));
-    dealt.back().fold = i % 3 == 2 ? -1 : static_cast<int>(i / 3 * 2 + i % 3) % FieldFolds;
-  }
-  blocks = std::move(dealt);
-}
-
-SymmetricKernel splineKernel(int channels, int stride)
-{
-  SymmetricKernel kernel;
-  kernel.weights.resize(channels, 3);
-  kernel.weights.col(0).setConstant(6.0F / 16.0F);
-  kernel.weights.col(1).setConstant(4.0F / 16.0F);
-  kernel.weights.col(2).setConstant(1.0F / 16.0F);
-  kernel.stride = stride;
-  return kernel;
-}
-
 void addTails(FieldData& data, const Region& region)
 {
   const std::size_t K = data.pair.channels.size();
@@ -228,7 +170,7 @@ void addTails(FieldData& data, const Region& region)
   }
   for (int pass = 0; pass < TailPasses; ++pass)
   {
-    convolve(splineKernel(buffer.channels, 1 << pass), buffer);
+    convolve(tailKernel(buffer.channels, pass), buffer);
     for (FieldBlock& block : data.blocks)
     {
       if (!region.interior.contains(block.window))
@@ -246,78 +188,6 @@ void addTails(FieldData& data, const Region& region)
     }
   }
 }
-
-Eigen::MatrixXd momentsOf(const FieldPair& pair)
-{
-  const auto K = static_cast<Eigen::Index>(pair.channels.size());
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(K, 6);
-  Eigen::ArrayXd count = Eigen::ArrayXd::Zero(K);
-  int step = 1;
-  while (pair.pixels() / static_cast<std::size_t>(step * step) > MomentPixels)
-  {
-    ++step;
-  }
-  for (int y = 0; y < pair.extent.height; y += step)
-  {
-    for (int x = 0; x < pair.extent.width; x += step)
-    {
-      const double X = pair.fieldX(x);
-      const double Y = pair.fieldY(y);
-      const double R = X * X + Y * Y;
-      Eigen::RowVectorXd basis(6);
-      basis << 1.0, X, Y, R, X * R, Y * R;
-      const float* u = pair.simulated + pair.index(x, y) * static_cast<std::size_t>(K);
-      for (Eigen::Index k = 0; k < K; ++k)
-      {
-        if (std::isfinite(u[k]))
-        {
-          sums.row(k) += static_cast<double>(u[k]) * basis;
-          count[k] += 1.0;
-        }
-      }
-    }
-  }
-  return sums.array().colwise() / count.max(1.0);
-}
-}
-
-namespace
-{
-Eigen::ArrayXd meanOf(const Eigen::MatrixXd& moments, const FieldModel& model)
-{
-  const double right = model.at(FieldParameter::GradientRight, 0);
-  const double down = model.at(FieldParameter::GradientDown, 0);
-  const double falloff = model.at(FieldParameter::Falloff, 0);
-  Eigen::VectorXd factor(6);
-  factor << 1.0, right, down, -falloff, -falloff * right, -falloff * down;
-  return (moments * factor).array();
-}
-}
-
-Eigen::ArrayXd sceneMean(const FieldPair& pair, const FieldModel& model)
-{
-  return meanOf(momentsOf(pair), model);
-}
-
-Eigen::ArrayXd sceneMean(const FieldData& data, const FieldModel& model)
-{
-  return meanOf(data.moments, model);
-}
-
-std::vector<float> filledScene(const FieldPair& pair)
-{
-  const std::size_t K = pair.channels.size();
-  std::vector<float> filled(pair.simulated, pair.simulated + pair.pixels() * K);
-  const Eigen::MatrixXd moments = momentsOf(pair);
-  for (int y = 0; y < pair.extent.height; ++y)
-  {
-    for (std::size_t k = 0; k < K; ++k)
-    {
-      fillRow(filled.data() + pair.index(0, y) * K + k, pair.extent.width, K,
-        static_cast<float>(moments(static_cast<Eigen::Index>(k), 0)));
-    }
-  }
-  return filled;
 }
 
 FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop)
@@ -352,18 +222,17 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
       << ": pixels must be finite in both images, with finite neighbours in the simulated one";
     throw std::invalid_argument(message.str());
   }
-  dealBlocks(data.blocks, seed);
-  if (gaps)
-  {
-    data.filled = filledScene(pair);
-  }
+  dealBlocks(pair, data.blocks,
+    std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
+  data.filled = filledScene(pair);
   data.scene = gaps ? data.filled.data() : pair.simulated;
-  data.moments = momentsOf(pair);
+  data.moments = sceneMoments(pair);
+  data.unit = fieldUnits(pair);
   loop(static_cast<int>(data.blocks.size()),
     [&](int i)
     {
       FieldBlock& block = data.blocks[static_cast<std::size_t>(i)];
-      readBlock(pair, block.window, gaps, margin, block.real);
+      readBlock(pair, block.window, gaps, margin, block.real, &data.unit);
     });
   loop(static_cast<int>(regions.size()),
     [&](int i) { addTails(data, regions[static_cast<std::size_t>(i)]); });

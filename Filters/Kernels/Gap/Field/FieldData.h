@@ -14,7 +14,6 @@
 namespace msi
 {
 
-inline constexpr int TailPasses = 6;
 inline constexpr int FieldFolds = 5;
 
 using FieldLoop = std::function<void(int count, const std::function<void(int)>& body)>;
@@ -23,6 +22,7 @@ struct FieldBlock
 {
   ImageWindow window;
   int fold = -1; // 0 .. FieldFolds - 1; -1: a test block that takes no part in choosing and fitting
+  int group = 0; // FieldGroups
   std::vector<float> real; // pixel after pixel; NaN: not usable
   // Passes 1 .. TailPasses of the broad tail (ScatterTail) for each value; pass after pass.
   std::vector<float> tail;
@@ -33,6 +33,7 @@ struct FieldData
   FieldPair pair;
   std::vector<float> filled;    // the simulated image without gaps, where it had some
   const float* scene = nullptr; // filled, or the simulated image itself
+  Eigen::ArrayXd unit; // of the real image's channels, K; FieldBlock::real is divided by it
   int blockSize = 0;
   std::vector<FieldBlock> blocks;
   double usablePart = 0.0; // of the image's pixels
@@ -42,19 +43,19 @@ struct FieldData
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
 };
 
+// The unit of each channel of the real image, where it is not that of the simulated one (white = 1): counts, say. 1 where the
+// images agree within a factor of five, else the same for all channels where that is enough.
+Eigen::ArrayXd fieldUnits(const FieldPair& pair);
+
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and
-// that lies a little inside the image. At most 208 blocks of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.
-// Two thirds are for training, in FieldFolds folds.
+// that lies a little inside the image. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.
+// Two thirds are for training, in FieldFolds folds, whole groups (FieldGroups) in one of them.
 // The tail needs the surround: images of more than 2 million pixels are looked at in nine windows of at most
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.
 // Errors: std::invalid_argument for an empty image, no channel, or too few usable pixels.
 FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop);
 
 // The mean over the scene of the simulated signal behind gradient and vignetting, K.
-Eigen::ArrayXd sceneMean(const FieldPair& pair, const FieldModel& model);
 Eigen::ArrayXd sceneMean(const FieldData& data, const FieldModel& model);
-
-// The simulated image without gaps: gaps take the values at both sides in their row.
-std::vector<float> filledScene(const FieldPair& pair);
 
 } // namespace msi

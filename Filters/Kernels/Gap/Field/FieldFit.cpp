@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace msi
 {
@@ -45,78 +46,6 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
       Chance += sums.chance;
     }
   }
-}
-
-Eigen::VectorXd FieldFitter::coefficients(
-  FieldParameter parameter, Eigen::Index channel, double radius) const
-{
-  using P = FieldParameter;
-  const FieldModel& model = Statistics.model;
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(Columns);
-  const double gain = model.at(P::Gain, channel);
-  const double mean = gain * Glare[channel];
-  switch (parameter)
-  {
-    case P::Gain:
-      column[FieldColumn::Gain] = 1.0 / gain;
-      break;
-    case P::Dark:
-      column[FieldColumn::One] = 1.0;
-      break;
-    case P::Glare:
-      column[FieldColumn::One] = mean;
-      break;
-    case P::ConservingGlare:
-      column[FieldColumn::One] = mean;
-      column[FieldColumn::Gain] = -1.0;
-      break;
-    case P::GradientRight:
-      column[FieldColumn::GradientRight] = 1.0;
-      break;
-    case P::GradientDown:
-      column[FieldColumn::GradientDown] = 1.0;
-      break;
-    case P::Falloff:
-      column[FieldColumn::RadiusSquared] = -1.0;
-      break;
-    case P::Square:
-      column[FieldColumn::Square] = 1.0;
-      break;
-    case P::Right:
-      column[FieldColumn::Right] = 1.0;
-      break;
-    case P::Down:
-      column[FieldColumn::Down] = 1.0;
-      break;
-    case P::Magnification:
-      column[FieldColumn::Magnification] = 1.0;
-      break;
-    case P::BlurVariance:
-      column[FieldColumn::BlurVariance] = 1.0;
-      break;
-    case P::TailFraction:
-      column.segment(FieldColumn::Tail, TailPasses) = tailWeights(radius).matrix();
-      break;
-    case P::TailRadius:
-      column.segment(FieldColumn::Tail, TailPasses) =
-        model.at(P::TailFraction, channel) * tailSlope(radius).matrix();
-      break;
-    case P::RowSine:
-      column[FieldColumn::RowSine] = 1.0;
-      break;
-    case P::RowCosine:
-      column[FieldColumn::RowCosine] = 1.0;
-      break;
-    case P::ColumnSine:
-      column[FieldColumn::ColumnSine] = 1.0;
-      break;
-    case P::ColumnCosine:
-      column[FieldColumn::ColumnCosine] = 1.0;
-      break;
-    case P::Count:
-      break;
-  }
-  return column;
 }
 
 // The normal matrix is an arrow: parameters of one channel meet only those of that channel and the common ones. The
@@ -226,8 +155,9 @@ FieldFit FieldFitter::fit(const FieldSet& set, double start) const
   std::vector<char> known(FieldParameters, 0);
   const auto add = [&](const FieldTerm& term, bool held)
   {
-    const double neutral =
-      term.parameter == FieldParameter::TailRadius ? radius : neutralValue(term.parameter);
+    const double neutral = term.parameter == FieldParameter::TailRadius ? radius
+      : isShape(term.parameter) ? model.at(term.parameter, 0)
+                                : neutralValue(term.parameter);
     terms.push_back({ term, Eigen::ArrayXd::Constant(Data.channels(), neutral),
       std::vector<char>(K, held ? 1 : 0) });
     known[static_cast<std::size_t>(term.parameter)] = 1;
@@ -249,7 +179,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, double start) const
   for (std::size_t p = 0; p < FieldParameters; ++p)
   {
     const auto parameter = static_cast<FieldParameter>(p);
-    if (known[p] == 0 && parameter != FieldParameter::TailRadius && !model.isNeutral(parameter))
+    if (known[p] == 0 && !isShape(parameter) && !model.isNeutral(parameter))
     {
       add({ parameter, true, 0.0, 0.0, 1.0 }, true);
     }
@@ -363,18 +293,23 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
       std::pow(PriorSize * single[static_cast<std::size_t>(i)].first.typical, -2);
   }
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(p, p);
+  std::map<int, Eigen::VectorXd> ofGroup;
   for (std::size_t b = 0; b < Data.blocks.size(); ++b)
   {
     if (Data.blocks[b].fold < 0)
     {
       continue;
     }
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(p);
+    Eigen::VectorXd& g =
+      ofGroup.try_emplace(Data.blocks[b].group, Eigen::VectorXd::Zero(p)).first->second;
     for (Eigen::Index k = 0; k < K; ++k)
     {
       g += design[static_cast<std::size_t>(k)].transpose() *
         Statistics.at(b, k).normal.col(Columns).head(Columns);
     }
+  }
+  for (const auto& [number, g] : ofGroup)
+  {
     scatter += g * g.transpose();
   }
   const Eigen::LDLT<Eigen::MatrixXd> factor(information);

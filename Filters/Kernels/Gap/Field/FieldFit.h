@@ -65,7 +65,7 @@ public:
   double chance() const noexcept { return Chance; }
 
   // Standard deviation of each parameter of the set, terms in order, channels within a per-channel term.
-  // Sandwich over blocks.
+  // Sandwich over groups of blocks.
   Eigen::VectorXd standardErrors(const FieldSet& set) const;
 
   // What one term changes in the columns of a channel.

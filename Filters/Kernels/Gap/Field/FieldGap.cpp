@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
+#include "Kernels/Gap/Field/FieldEffects.h"
+#include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
@@ -25,33 +27,30 @@ constexpr double FewUsable = 0.5;
 
 struct TestEnergies
 {
-  SampleEnergies samples; // a block is a sample
+  SampleEnergies samples; // a group of blocks is a sample
   double elements = 0.0;
 };
 
 TestEnergies energiesOf(const FieldData& data, const FieldSearchResult& found)
 {
   TestEnergies energies;
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  const auto count = static_cast<Eigen::Index>(data.blocks.size());
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(count);
+  Eigen::VectorXd after = before;
+  Eigen::VectorXd noise = before;
+  for (Eigen::Index b = 0; b < count; ++b)
   {
-    if (data.blocks[b].fold >= 0)
-    {
-      continue;
-    }
-    double before = 0.0;
-    double after = 0.0;
-    double noise = 0.0;
+    const auto block = static_cast<std::size_t>(b);
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
-      before += found.before.at(b, k).energy;
-      after += found.after.at(b, k).energy;
-      noise += found.after.at(b, k).noise;
-      energies.elements += found.after.at(b, k).pixels;
+      before[b] += found.before.at(block, k).energy;
+      after[b] += found.after.at(block, k).energy;
+      noise[b] += found.after.at(block, k).noise;
+      energies.elements += data.blocks[block].fold < 0 ? found.after.at(block, k).pixels : 0.0;
     }
-    energies.samples.before.push_back(before);
-    energies.samples.after.push_back(after);
-    energies.samples.noise.push_back(noise);
   }
+  energies.samples = { groupSums(data, before, false), groupSums(data, after, false),
+    groupSums(data, noise, false) };
   return energies;
 }
 
@@ -83,8 +82,13 @@ std::string whereIs(const std::vector<GapAxis>& axes)
   {
     return "no axis stands out";
   }
-  return axes.front().axis +
-    (axes.front().worst.empty() ? "" : " " + axes.front().worst.front().cell);
+  const GapAxis& axis = axes.front();
+  if (axis.worst.empty())
+  {
+    return axis.axis;
+  }
+  const std::string& cell = axis.worst.front().cell;
+  return cell.rfind(axis.axis, 0) == 0 ? cell : axis.axis + " " + cell;
 }
 
 bool has(const FieldSet& set, const char* effect)
@@ -93,7 +97,8 @@ bool has(const FieldSet& set, const char* effect)
     [effect](const FieldChoice* choice) { return choice->effect == effect; });
 }
 
-std::vector<std::string> notesOn(const FieldData& data, const FieldSearchResult& found)
+std::vector<std::string> notesOn(
+  const FieldData& data, const FieldSearchResult& found, const FieldSet& set)
 {
   std::vector<std::string> notes;
   for (const std::string& effect : found.indistinct)
@@ -101,6 +106,22 @@ std::vector<std::string> notesOn(const FieldData& data, const FieldSearchResult&
     notes.push_back(effect +
       " cannot be decided: the simulated image has too few edges and too little texture in the "
       "usable pixels");
+  }
+  if ((data.unit != 1.0).any())
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the real image is not in units of white: its channels are ";
+    const bool common = (data.unit == data.unit[0]).all();
+    text << data.unit[0];
+    for (Eigen::Index k = 1; !common && k < data.unit.size(); ++k)
+    {
+      text << ", " << data.unit[k];
+    }
+    text
+      << " times the simulated ones; the figures are after division by that. A flat field or the "
+         "response of a white brings them to 1 for a perfect white";
+    notes.push_back(text.str());
   }
   if (data.usablePart < FewUsable)
   {
@@ -110,17 +131,17 @@ std::vector<std::string> notesOn(const FieldData& data, const FieldSearchResult&
             "beside them in the simulated one";
     notes.push_back(text.str());
   }
-  if (!data.filled.empty() && has(found.set, "local_stray_light"))
+  if (!data.filled.empty() && has(set, "local_stray_light"))
   {
     notes.emplace_back("the surround of the usable pixels is partly not simulated; "
                        "local_stray_light takes it to be like its neighbours in the row");
   }
-  if (has(found.set, "vignetting") && has(found.set, "illumination_gradient"))
+  if (has(set, "vignetting") && has(set, "illumination_gradient"))
   {
     notes.emplace_back("vignetting about a center off the middle looks like vignetting with "
                        "illumination_gradient; the chart rotated by 180 degrees separates them");
   }
-  if (has(found.set, "dark_offset") != has(found.set, "veiling_glare"))
+  if (has(set, "dark_offset") != has(set, "veiling_glare"))
   {
     notes.emplace_back("an offset of each channel may be dark_offset or veiling_glare: one image "
                        "cannot tell unless the offsets go with the channels' means");
@@ -166,6 +187,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
 
   std::optional<FieldGap> gap(std::in_place);
   gap->model = found.after.model;
+  gap->unit = data.unit;
   GapReport& report = gap->report;
   report.gap = figuresOf(energiesOf(data, found), options.seed);
   // The stripes that were found are an axis of the gap before, too.
@@ -175,14 +197,14 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   report.where = fieldAxes(data, fieldStatistics(data, nominal, &found.weights, loop), loop);
   const std::vector<GapAxis> rest = fieldAxes(data, found.after, loop);
   const double left = blockMeanExcess(data, found.after, false);
-  if (!found.set.empty() && report.gap.shrink > 0.0)
+  const double shrink = report.gap.shrink;
+  const bool noiseAlone =
+    report.gap.rmsAfter < UnexplainedRms * report.gap.noiseFloor && left < ExplainedBlocks;
+  // Effects that account for little are candidates, not causes.
+  if (!found.set.empty() && (shrink >= PartlyShrink || (noiseAlone && shrink > 0.0)))
   {
-    const bool noiseAlone =
-      report.gap.rmsAfter < UnexplainedRms * report.gap.noiseFloor && left < ExplainedBlocks;
-    const double shrink = report.gap.shrink;
-    report.verdict = shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained
-      : shrink >= PartlyShrink                               ? GapVerdict::PartlyExplained
-                                                             : GapVerdict::Unexplained;
+    report.verdict =
+      shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained : GapVerdict::PartlyExplained;
     // What is left has a cause that is not known and may overlap with those found.
     const double certain = report.verdict == GapVerdict::Explained
       ? shrink
@@ -195,8 +217,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   else
   {
     gap->model = found.before.model;
-    const bool gapThere =
-      report.gap.rmsBefore > UnexplainedRms * report.gap.noiseFloor || left > UnexplainedBlocks;
+    const bool gapThere = report.gap.rmsBefore > UnexplainedRms * report.gap.noiseFloor ||
+      blockMeanExcess(data, found.before, false) > UnexplainedBlocks;
     report.verdict = gapThere ? GapVerdict::Unexplained : GapVerdict::NoGap;
     if (gapThere)
     {
@@ -217,7 +239,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
       report.nextCapture = std::move(next);
     }
   }
-  report.notes = notesOn(data, found);
+  report.notes = notesOn(data, found, report.causes.empty() ? FieldSet() : found.set);
   say(1.0, "done");
   return gap;
 }

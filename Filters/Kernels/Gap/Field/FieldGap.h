@@ -15,6 +15,8 @@ struct FieldGap
 {
   GapReport report; // gapBefore and gapAfter stay empty: see FieldCorrection
   FieldModel model; // the effects found
+  // What the real image's channels were divided by to be relative to white, K; the report speaks of the quotient.
+  Eigen::ArrayXd unit;
 };
 
 // Empty only where progress() asked to stop.

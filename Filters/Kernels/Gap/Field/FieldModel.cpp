@@ -9,6 +9,7 @@ namespace
 {
 constexpr double TwoPi = 6.283185307179586;
 constexpr double NeutralRadius = 8.0;
+constexpr double NeutralLevel = 8.0;
 }
 
 double neutralValue(FieldParameter parameter) noexcept
@@ -16,9 +17,12 @@ double neutralValue(FieldParameter parameter) noexcept
   switch (parameter)
   {
     case FieldParameter::Gain:
+    case FieldParameter::Exponent:
       return 1.0;
     case FieldParameter::TailRadius:
       return NeutralRadius;
+    case FieldParameter::ClipLevel:
+      return NeutralLevel;
     default:
       return 0.0;
   }

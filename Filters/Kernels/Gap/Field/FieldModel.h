@@ -13,6 +13,9 @@
 namespace msi
 {
 
+inline constexpr int TailPasses = 6;
+inline constexpr int FreePasses = TailPasses - 1; // the first is too narrow to be told from a blur
+
 enum class FieldParameter
 {
   Gain,
@@ -23,12 +26,19 @@ enum class FieldParameter
   GradientDown,
   Falloff,
   Square,
+  Exponent,
+  Compression,
+  Clip, // 1: the rounded clipping at ClipLevel; parts of it only on the way there
+  ClipLevel,
+  Retained,
   Right,
   Down,
   Magnification,
   BlurVariance, // pixels^2
   TailFraction,
   TailRadius,
+  SurroundFirst, // weights of single passes of the tail: any shape
+  SurroundLast = SurroundFirst + FreePasses - 1,
   RowSine, // u (1 + sine sin(2 pi row / period) + cosine cos(2 pi row / period))
   RowCosine,
   ColumnSine,
@@ -40,8 +50,8 @@ inline constexpr std::size_t FieldParameters = static_cast<std::size_t>(FieldPar
 
 // One number of each parameter for every channel; parameters common to the channels repeat.
 //
-// Order: gradient and vignetting; misregistration; defocus; local stray light; veiling glare; banding;
-//        gain; nonlinearity; dark offset: that of ImageSimulator.
+// Order: gradient and vignetting; misregistration; defocus; local stray light; veiling glare; lag; banding;
+//        gain; nonlinearity; dark offset; saturation: that of ImageSimulator.
 struct FieldModel
 {
   explicit FieldModel(Eigen::Index channels = 0);
@@ -72,5 +82,17 @@ private:
 };
 
 double neutralValue(FieldParameter parameter) noexcept;
+
+// The weight of single pass i + 1 of the tail, counted from 0.
+constexpr FieldParameter surroundWeight(int i) noexcept
+{
+  return static_cast<FieldParameter>(static_cast<int>(FieldParameter::SurroundFirst) + i);
+}
+
+// A shape that another parameter turns on: without it, it changes nothing.
+constexpr bool isShape(FieldParameter parameter) noexcept
+{
+  return parameter == FieldParameter::TailRadius || parameter == FieldParameter::ClipLevel;
+}
 
 } // namespace msi

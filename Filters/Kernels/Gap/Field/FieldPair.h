@@ -28,8 +28,11 @@ struct FieldPair
       static_cast<std::size_t>(x);
   }
   // (x, y) from -1 to 1 over the longer side, from pixel center to pixel center: as ImageSimulator.
-  double fieldX(double x) const noexcept { return (x - 0.5 * (extent.width - 1)) / half(); }
-  double fieldY(double y) const noexcept { return (y - 0.5 * (extent.height - 1)) / half(); }
+  double fieldX(double x) const noexcept { return offX(x) / half(); }
+  double fieldY(double y) const noexcept { return offY(y) / half(); }
+  // From the middle, in pixels.
+  double offX(double x) const noexcept { return x - 0.5 * (extent.width - 1); }
+  double offY(double y) const noexcept { return y - 0.5 * (extent.height - 1); }
 
 private:
   double half() const noexcept

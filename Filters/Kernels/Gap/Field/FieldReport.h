@@ -17,8 +17,4 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
 std::vector<GapCandidate> fieldCandidates(
   const FieldData& data, const FieldSearchResult& found, std::uint64_t seed);
 
-// The effects as the simulator takes them.
-std::vector<CameraEffect> fieldCorrection(
-  const FieldSet& set, const FieldModel& model, const std::vector<std::string>& channels);
-
 } // namespace msi

@@ -1,10 +1,9 @@
 #include "Kernels/Gap/Field/FieldSearch.h"
 
-#include "Kernels/Gap/Field/FieldShift.h"
+#include "Kernels/Gap/Field/FieldSearchState.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 namespace msi
@@ -12,213 +11,28 @@ namespace msi
 
 namespace
 {
-constexpr double Significant = 4.0; // deviations over blocks
-constexpr double StaysIn = 3.0;
-constexpr double RelevantPart = 0.01; // of the gap's energy, for an effect
-constexpr double PricePart = 0.0005;  // for a parameter
-constexpr double LargestPricePart = 0.001;
-constexpr double PriceOfEffect = 3.0; // prices
-constexpr int Iterations = 4;
-constexpr double SmallStep = 0.02; // typical sizes
+constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
+constexpr double LeastClip = 0.7;
+constexpr int BackwardRounds = 4;
 constexpr std::size_t FullFits = 2;
-constexpr double Radii[] = { 2.0, 4.0, 8.0, 16.0, 32.0 };
-constexpr double Indistinct = 0.5; // standard error over typical size
 
-struct Hypothesis
-{
-  FieldSet set;
-  std::shared_ptr<const FieldStatistics> statistics;
-  FieldFit fit;
-};
-
-double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)
-{
-  double n = 0.0;
-  double sum = 0.0;
-  double square = 0.0;
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
-  {
-    if (data.blocks[b].fold >= 0)
-    {
-      const double value = gain[static_cast<Eigen::Index>(b)];
-      n += 1.0;
-      sum += value;
-      square += value * value;
-    }
-  }
-  return sum / std::sqrt(std::fmax(square - sum * sum / n, 1e-30));
-}
-
-FieldSet joined(FieldSet set, const FieldChoice& choice)
-{
-  set.push_back(&choice);
-  return set;
-}
-
-FieldSet withoutOne(FieldSet set, std::size_t position)
-{
-  set.erase(set.begin() + static_cast<std::ptrdiff_t>(position));
-  return set;
-}
-
-class Search
+class Search : public FieldSearchState
 {
 public:
-  Search(const FieldData& data, const std::vector<FieldChoice>& choices, const FieldLoop& loop)
-    : Data(data)
-    , Choices(choices)
-    , Loop(loop)
-    , Nominal(data.channels())
-  {
-    Result.before = fieldStatistics(data, Nominal, nullptr, loop);
-    Result.weights = fieldWeights(Result.before, nullptr);
-    // Once more with noise known, and what the tolerance does with it.
-    measureNominal();
-    Shifts = wholePixelShifts(data, loop);
-  }
+  using FieldSearchState::FieldSearchState;
 
   FieldSearchResult run(int maximumEffects, const std::function<bool()>& stop)
   {
-    while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow())
+    while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow(maximumEffects))
     {
     }
-    for (int round = 0; round < 2 && !stop() && (exchange() || drop()); ++round)
+    for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
     {
     }
-    Result.set = Current.set;
-    Result.after = *Current.statistics;
-    return Result;
+    return result();
   }
 
 private:
-  const FieldData& Data;
-  const std::vector<FieldChoice>& Choices;
-  const FieldLoop& Loop;
-  FieldModel Nominal;
-  Eigen::MatrixXd Shifts;
-  Hypothesis Current;
-  FieldSearchResult Result;
-
-  double cost(const FieldFit& fit) const
-  {
-    return fit.energy +
-      Result.price * static_cast<double>(parameterCount(fit.set, Data.channels()));
-  }
-
-  void measureNominal()
-  {
-    const auto statistics =
-      std::make_shared<FieldStatistics>(fieldStatistics(Data, Nominal, &Result.weights, Loop));
-    Result.before = *statistics;
-    const FieldFitter fitter(Data, *statistics);
-    Result.gapEnergy = std::fmax(fitter.energy() - fitter.chance(), 0.0);
-    Current = { {}, statistics, fitter.fit({}) };
-    setPrice(fitter);
-  }
-
-  void setPrice(const FieldFitter& fitter)
-  {
-    double blocks = 0.0;
-    for (const FieldBlock& block : Data.blocks)
-    {
-      blocks += block.fold >= 0 ? 1.0 : 0.0;
-    }
-    const double least = 0.5 * std::log(blocks);
-    const double dispersion = fitter.energy() / std::fmax(fitter.chance(), 1e-9) *
-      blockMeanExcess(Data, fitter.statistics(), true);
-    Result.price = std::fmax(std::fmax(least, PricePart * Result.gapEnergy),
-      std::fmin(least * dispersion, LargestPricePart * fitter.energy()));
-  }
-
-  // The model after Gauss-Newton from a start.
-  Hypothesis refit(const FieldSet& set, const FieldModel& start) const
-  {
-    FieldModel model = start;
-    Hypothesis best;
-    for (int iteration = 0; iteration < Iterations; ++iteration)
-    {
-      const auto statistics =
-        std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Result.weights, Loop));
-      FieldFit fit = FieldFitter(Data, *statistics).fit(set);
-      const double step = fit.step;
-      const FieldModel next = fit.next;
-      if (!best.statistics || fit.energy < best.fit.energy || step < SmallStep)
-      {
-        best = { set, statistics, std::move(fit) };
-      }
-      if (step < SmallStep)
-      {
-        break;
-      }
-      model = next;
-    }
-    return best;
-  }
-
-  // Looks for stripes in what is left.
-  void findStripes()
-  {
-    FieldModel model = Current.statistics->model;
-    const auto has = [this](const char* form)
-    {
-      return std::any_of(Current.set.begin(), Current.set.end(),
-        [form](const FieldChoice* choice)
-        { return choice->effect == "banding" && choice->form == form; });
-    };
-    bool found = false;
-    if (!has("rows"))
-    {
-      Result.rows = findPeriod(Data, model, true, Loop);
-      found = found || Result.rows.period != model.rowPeriod;
-      model.rowPeriod = Result.rows.period;
-    }
-    if (!has("columns"))
-    {
-      Result.columns = findPeriod(Data, model, false, Loop);
-      found = found || Result.columns.period != model.columnPeriod;
-      model.columnPeriod = Result.columns.period;
-    }
-    if (found)
-    {
-      Current.statistics =
-        std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Result.weights, Loop));
-      Current.fit = FieldFitter(Data, *Current.statistics).fit(Current.set);
-    }
-  }
-
-  bool available(const FieldSet& set, const FieldChoice& choice) const
-  {
-    const FieldModel& model = Current.statistics->model;
-    if (choice.effect == "banding" &&
-      (choice.form == "rows" ? model.rowPeriod : model.columnPeriod) <= 0.0)
-    {
-      return false;
-    }
-    return compatible(set, choice);
-  }
-
-  FieldFit linear(const FieldFitter& fitter, const FieldSet& set) const
-  {
-    const bool tail = std::any_of(set.begin(), set.end(),
-      [](const FieldChoice* choice) { return choice->effect == "local_stray_light"; });
-    if (!tail || !fitter.statistics().model.isNeutral(FieldParameter::TailFraction))
-    {
-      return fitter.fit(set);
-    }
-    std::optional<FieldFit> best;
-    for (const double radius : Radii)
-    {
-      FieldFit fit = fitter.fit(set, radius);
-      if (!best || fit.energy < best->energy)
-      {
-        best = std::move(fit);
-      }
-    }
-    return *best;
-  }
-
-  bool shifted() const { return Shifts.cwiseAbs().maxCoeff() >= 1.0; }
-
   // Forms ranked by cost; of each effect the best.
   std::vector<FieldFit> rank(const FieldFitter& fitter, const FieldSet& set)
   {
@@ -227,7 +41,7 @@ private:
     {
       if (available(set, choice))
       {
-        fits.push_back(linear(fitter, joined(set, choice)));
+        fits.push_back(linearFit(fitter, joined(set, choice)));
       }
     }
     std::stable_sort(fits.begin(), fits.end(),
@@ -245,93 +59,67 @@ private:
     return best;
   }
 
-  // Effects whose parameters this scene does not show.
-  void findIndistinct(const FieldFitter& fitter)
+  bool grow(int maximumEffects)
   {
-    for (const FieldChoice& choice : Choices)
-    {
-      if (choice.effect != "misregistration" && choice.effect != "defocus" &&
-        choice.effect != "local_stray_light")
-      {
-        continue;
-      }
-      double information = 0.0;
-      for (Eigen::Index k = 0; k < Data.channels(); ++k)
-      {
-        const Eigen::VectorXd column = fitter.coefficients(
-          choice.terms.front().parameter, k, Nominal.at(FieldParameter::TailRadius, 0));
-        for (std::size_t b = 0; b < Data.blocks.size(); ++b)
-        {
-          information += column.dot(
-            fitter.statistics().at(b, k).normal.topLeftCorner(column.size(), column.size()) *
-            column);
-        }
-      }
-      const bool missing =
-        1.0 / std::sqrt(std::fmax(information, 1e-30)) > Indistinct * choice.terms.front().typical;
-      if (missing &&
-        std::find(Result.indistinct.begin(), Result.indistinct.end(), choice.effect) ==
-          Result.indistinct.end())
-      {
-        Result.indistinct.push_back(choice.effect);
-      }
-    }
-  }
-
-  bool grow()
-  {
-    findStripes();
+    findStarts();
     const FieldFitter fitter(Data, *Current.statistics);
     std::vector<FieldFit> ranked = rank(fitter, Current.set);
     if (Current.set.empty())
     {
-      findIndistinct(fitter);
+      Result.indistinct = indistinctEffects(Data, fitter, Choices);
       for (const FieldFit& fit : ranked)
       {
         Result.singles.push_back({ fit.set.back(), fit.energy, fit.blockEnergy });
       }
     }
-    std::vector<Hypothesis> fitted;
-    for (std::size_t i = 0; i < std::min(FullFits, ranked.size()); ++i)
+    std::vector<FieldHypothesis> fitted;
+    const auto tryOut = [&](const FieldSet& set, const FieldModel& start)
     {
-      fitted.push_back(refit(ranked[i].set, ranked[i].next));
-    }
-    if (shifted())
-    {
-      for (const FieldChoice& choice : Choices)
+      FieldHypothesis hypothesis = refit(set, start);
+      // What bends the curve does not clip.
+      if (!contains(set, "saturation") ||
+        hypothesis.statistics->model.at(FieldParameter::Clip, 0) >= LeastClip)
       {
-        if (choice.effect == "misregistration" && compatible(Current.set, choice))
-        {
-          FieldModel start = Current.statistics->model;
-          start[FieldParameter::Right] = Shifts.col(0);
-          start[FieldParameter::Down] = Shifts.col(1);
-          fitted.push_back(refit(joined(Current.set, choice), start));
-        }
+        fitted.push_back(std::move(hypothesis));
+      }
+    };
+    if (static_cast<int>(Current.set.size()) + 2 <= maximumEffects)
+    {
+      rankWithGain(fitter, ranked);
+    }
+    // The cheapest; and the cheapest of those that count as they stand.
+    std::size_t counted = 0;
+    for (std::size_t i = 0; i < ranked.size(); ++i)
+    {
+      const bool counts =
+        counted < FullFits && acceptance().mayJoin(Current.fit, ranked[i], fitter.chance());
+      counted += counts ? 1 : 0;
+      if (i < FullFits || counts)
+      {
+        tryOut(ranked[i].set, ranked[i].next);
       }
     }
-    const Hypothesis* best = nullptr;
-    for (const Hypothesis& hypothesis : fitted)
+    for (const FieldChoice& choice : Choices)
     {
-      best = best == nullptr || cost(hypothesis.fit) < cost(best->fit) ? &hypothesis : best;
-      for (FieldSingle& single : Result.singles)
+      if (shifted() && choice.effect == "misregistration" && compatible(Current.set, choice))
       {
-        if (Current.set.empty() && single.choice->effect == hypothesis.set.back()->effect &&
-          hypothesis.fit.energy < single.energy)
-        {
-          single = { hypothesis.set.back(), hypothesis.fit.energy, hypothesis.fit.blockEnergy };
-        }
+        FieldModel start = Current.statistics->model;
+        start[FieldParameter::Right] = Shifts.col(0);
+        start[FieldParameter::Down] = Shifts.col(1);
+        tryOut(joined(Current.set, choice), start);
+      }
+    }
+    const FieldHypothesis* best = nullptr;
+    for (const FieldHypothesis& hypothesis : fitted)
+    {
+      keepSingle(hypothesis);
+      if ((best == nullptr || cost(hypothesis.fit) < cost(best->fit)) &&
+        acceptance().mayJoin(Current.fit, hypothesis.fit, fitter.chance()))
+      {
+        best = &hypothesis;
       }
     }
     if (best == nullptr)
-    {
-      return false;
-    }
-    const double gain = Current.fit.energy - best->fit.energy;
-    const auto parameters = static_cast<double>(
-      parameterCount(best->set, Data.channels()) - parameterCount(Current.set, Data.channels()));
-    if (gain < PriceOfEffect * Result.price * parameters ||
-      gain < RelevantPart * Result.gapEnergy ||
-      deviationsOf(Data, Current.fit.blockEnergy - best->fit.blockEnergy) < Significant)
     {
       return false;
     }
@@ -339,41 +127,88 @@ private:
     return true;
   }
 
-  // Goes on from here, with weights for what is left.
-  void accept(const Hypothesis& hypothesis)
+  // Where no effect counts alone: each with a gain or an offset beside it. Light that falls off, seen against a white in the
+  // same light, is too bright in the middle and too dark at the border: no single effect.
+  void rankWithGain(const FieldFitter& fitter, std::vector<FieldFit>& ranked)
   {
-    const FieldModel model = hypothesis.fit.next;
-    const Eigen::ArrayXd tolerance = Result.weights.tolerance;
-    const FieldStatistics plain = fieldStatistics(Data, model, &Result.weights, Loop);
-    Result.weights = fieldWeights(plain, &tolerance);
-    Current = refit(hypothesis.set, model);
-    setPrice(FieldFitter(Data, *Current.statistics));
+    const double chance = fitter.chance();
+    const auto counts = [&](const FieldFit& fit)
+    { return acceptance().mayJoin(Current.fit, fit, chance); };
+    if (Current.fit.energy < 2.0 * chance || std::any_of(ranked.begin(), ranked.end(), counts))
+    {
+      return;
+    }
+    for (const FieldChoice& choice : Choices)
+    {
+      const bool anchor = choice.effect == "exposure_gain" || choice.effect == "channel_gain" ||
+        choice.effect == "dark_offset";
+      if (anchor && available(Current.set, choice))
+      {
+        for (FieldFit& fit : rank(fitter, joined(Current.set, choice)))
+        {
+          if (counts(fit))
+          {
+            ranked.push_back(std::move(fit));
+          }
+        }
+      }
+    }
+    std::stable_sort(ranked.begin(), ranked.end(),
+      [this](const FieldFit& a, const FieldFit& b) { return cost(a) < cost(b); });
   }
 
+  // What the first effect does alone, where it was fitted in full.
+  void keepSingle(const FieldHypothesis& hypothesis)
+  {
+    for (FieldSingle& single : Result.singles)
+    {
+      if (Current.set.empty() && hypothesis.set.size() == 1 &&
+        single.choice->effect == hypothesis.set.back()->effect &&
+        hypothesis.fit.energy < single.energy)
+      {
+        single = { hypothesis.set.back(), hypothesis.fit.energy, hypothesis.fit.blockEnergy };
+      }
+    }
+  }
+
+  // Puts another effect or form in the place of each, and a simpler form in the place of one more.
   bool exchange()
   {
     const FieldFitter fitter(Data, *Current.statistics);
     std::optional<FieldFit> best;
+    const auto consider = [&](FieldFit fit)
+    {
+      if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+      {
+        best = std::move(fit);
+      }
+    };
     for (std::size_t e = 0; e < Current.set.size(); ++e)
     {
       const FieldSet rest = withoutOne(Current.set, e);
       for (const FieldChoice& choice : Choices)
       {
-        if (&choice != Current.set[e] && available(rest, choice))
+        if (&choice == Current.set[e] || !available(rest, choice))
         {
-          FieldFit fit = linear(fitter, joined(rest, choice));
-          if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+          continue;
+        }
+        const FieldSet other = joined(rest, choice);
+        FieldFit fit = linearFit(fitter, other);
+        if (fit.energy < Current.fit.energy + Tolerated * Result.gapEnergy)
+        {
+          for (const FieldSet& simple : simpler(other))
           {
-            best = std::move(fit);
+            consider(linearFit(fitter, simple));
           }
         }
+        consider(std::move(fit));
       }
     }
     if (!best)
     {
       return false;
     }
-    const Hypothesis other = refit(best->set, best->next);
+    const FieldHypothesis other = refit(best->set, best->next);
     if (cost(other.fit) >= cost(Current.fit) - Result.price)
     {
       return false;
@@ -382,15 +217,33 @@ private:
     return true;
   }
 
+  // The set with a form of fewer parameters in the place of one.
+  std::vector<FieldSet> simpler(const FieldSet& set) const
+  {
+    std::vector<FieldSet> sets;
+    for (std::size_t e = 0; e < set.size(); ++e)
+    {
+      for (const FieldChoice& choice : Choices)
+      {
+        if (choice.effect == set[e]->effect &&
+          parameterCount({ &choice }, Data.channels()) <
+            parameterCount({ set[e] }, Data.channels()) &&
+          available(withoutOne(set, e), choice))
+        {
+          sets.push_back(joined(withoutOne(set, e), choice));
+        }
+      }
+    }
+    return sets;
+  }
+
   bool drop()
   {
     const FieldFitter fitter(Data, *Current.statistics);
     for (std::size_t e = Current.set.size(); e-- > 0;)
     {
       const FieldFit fit = fitter.fit(withoutOne(Current.set, e));
-      const double gain = fit.energy - Current.fit.energy;
-      if (gain < RelevantPart * Result.gapEnergy || cost(fit) < cost(Current.fit) ||
-        deviationsOf(Data, fit.blockEnergy - Current.fit.blockEnergy) < StaysIn)
+      if (!acceptance().mayStay(Current.fit, fit, fitter.chance()))
       {
         accept(refit(fit.set, fit.next));
         return true;
@@ -399,25 +252,6 @@ private:
     return false;
   }
 };
-}
-
-double blockMeanExcess(const FieldData& data, const FieldStatistics& statistics, bool training)
-{
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
-  {
-    for (Eigen::Index k = 0; (data.blocks[b].fold >= 0) == training && k < data.channels(); ++k)
-    {
-      const BlockSums& sums = statistics.at(b, k);
-      if (sums.pixels > 0.0)
-      {
-        sum += sums.mean * sums.mean * sums.pixels * sums.pixels / sums.noise;
-        count += 1.0;
-      }
-    }
-  }
-  return count > 0.0 ? sum / count : 0.0;
 }
 
 FieldSearchResult searchField(const FieldData& data, const std::vector<FieldChoice>& choices,

@@ -315,6 +315,206 @@ TEST(FieldGap, LocalStrayLightIsABroadTail)
   expectParameter(report, "local_stray_light", "radius", 6.0, 1.0);
 }
 
+TEST(FieldGap, LagOfTheChannelBefore)
+{
+  const TestScene scene(31, 4);
+  std::vector<ImagePlane> planes;
+  for (int k = 0; k < scene.channels(); ++k)
+  {
+    planes.push_back(scene.pixels(scene.fine(k)));
+  }
+  const TestPair pair = changed(scene, 41,
+    [&](double u, int k, int x, int y, double)
+    { return u + (k > 0 ? 0.05 * planes[static_cast<std::size_t>(k) - 1].read(x, y) : 0.0); });
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "lag");
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  expectParameter(report, "lag", "retained", 0.05, 0.001);
+}
+
+// Few pixels are that bright; all others are as they were.
+TEST(FieldGap, SaturationOfTheBrightest)
+{
+  const TestScene scene(32);
+  const TestPair pair =
+    changed(scene, 42, [](double u, int, int, int, double) { return std::fmin(u, 0.45); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "saturation", "level");
+  expectParameter(report, "saturation", "level", 0.45, 0.005);
+}
+
+TEST(FieldGap, NonlinearityIsAPowerOrACompression)
+{
+  const TestScene scene(33);
+  const GapReport power =
+    diagnose(changed(scene, 43, [](double u, int, int, int, double) { return std::pow(u, 1.1); }));
+  expectFirst(power, "detector_nonlinearity", "level");
+  EXPECT_EQ(power.causes.front().form, "gamma");
+  expectParameter(power, "detector_nonlinearity", "exponent", 1.1, 0.005);
+  const GapReport bent = diagnose(
+    changed(scene, 44, [](double u, int, int, int, double) { return u / (1.0 + 0.3 * u); }));
+  expectFirst(bent, "detector_nonlinearity", "level");
+}
+
+// exp(-distance / radius), summed in the plane by plain loops: no sum of splines.
+TEST(FieldGap, LocalStrayLightOfAnotherShape)
+{
+  const TestScene scene(34, 2, 128, 112);
+  constexpr int Reach = 24;
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      const ImagePlane sharp = scene.pixels(scene.fine(k));
+      ImagePlane plane = sharp;
+      std::vector<double> weight;
+      double sum = 0.0;
+      for (int j = -Reach; j <= Reach; ++j)
+      {
+        for (int i = -Reach; i <= Reach; ++i)
+        {
+          weight.push_back(std::exp(-std::hypot(i, j) / 5.0));
+          sum += weight.back();
+        }
+      }
+      for (int y = 0; y < plane.height; ++y)
+      {
+        for (int x = 0; x < plane.width; ++x)
+        {
+          double wide = 0.0;
+          std::size_t n = 0;
+          for (int j = -Reach; j <= Reach; ++j)
+          {
+            for (int i = -Reach; i <= Reach; ++i)
+            {
+              wide += weight[n++] * sharp.read(x + i, y + j);
+            }
+          }
+          plane.at(x, y) += 0.2 * (wide / sum - plane.at(x, y));
+        }
+      }
+      return plane;
+    },
+    45);
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "local_stray_light");
+  EXPECT_EQ(report.causes.front().form, "neighbours");
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_GT(report.gap.shrink, 0.9);
+}
+
+// Counts of a camera whose white is 3200 of 65535, with an offset of 96, under uneven light.
+TEST(FieldGap, CountsOfARawImage)
+{
+  const TestScene scene(35, 3);
+  TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      ImagePlane plane = scene.pixels(scene.fine(k));
+      for (int y = 0; y < plane.height; ++y)
+      {
+        for (int x = 0; x < plane.width; ++x)
+        {
+          const double rho2 = std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2);
+          const double light = (1.0 - 0.07 * scene.fieldX(x)) * (1.0 - 0.06 * rho2);
+          plane.at(x, y) = 0.03 + plane.at(x, y) * light;
+        }
+      }
+      return plane;
+    },
+    46, 0.001, 0.001);
+  for (float& value : pair.real)
+  {
+    value *= 3200.0F;
+  }
+  const FieldGap found = *msi::diagnoseField(pair.pair());
+  const GapReport& report = found.report;
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  // The unit may hold a part of the gain; what the camera does is the product.
+  const msi::GapParameter* gain = findParameter(report, "exposure_gain", "gain");
+  const double left = gain == nullptr ? 1.0 : gain->value;
+  EXPECT_NEAR(found.unit[0] * left, 3200.0, 0.01 * 3200.0);
+  const msi::GapParameter* offset = findParameter(report, "dark_offset", "offset");
+  ASSERT_NE(offset, nullptr);
+  EXPECT_NEAR(offset->value * found.unit[0], 96.0, 3.0);
+  expectParameter(report, "vignetting", "falloff", 0.06, 0.003);
+  expectParameter(report, "illumination_gradient", "right", -0.07, 0.002);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes.front().find("not in units of white"), std::string::npos);
+}
+
+// Seen against a white in the same light, the middle is too bright and the border too dark.
+TEST(FieldGap, FalloffAboutItsMean)
+{
+  const TestScene scene(36);
+  const TestPair pair = changed(scene, 47,
+    [&](double u, int, int x, int y, double)
+    {
+      const double rho2 = std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2);
+      return u * 1.06 * (1.0 - 0.1 * rho2);
+    });
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_EQ(report.causes.size(), 2U);
+  expectParameter(report, "vignetting", "falloff", 0.1, 0.003);
+  expectParameter(report, "exposure_gain", "gain", 1.06, 0.003);
+}
+
+// Patches whose color is simulated wrongly, each in its own way, are no effect of the camera.
+TEST(FieldGap, ColorsOffPatchByPatchAreNoEffect)
+{
+  int blamed = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed)
+  {
+    const TestScene scene(400 + seed, 4);
+    const msi::CounterRandom random(seed, 9);
+    const auto patchOf = [](int x, int y) { return x / 24 + 8 * (y / 24); };
+    TestPair pair = changed(scene, 500 + seed,
+      [&](double u, int k, int x, int y, double)
+      {
+        const auto patch = static_cast<std::uint64_t>(patchOf(x, y));
+        return u * (1.0 + 0.06 * random.normal(patch * 4 + static_cast<std::uint64_t>(k)));
+      });
+    for (int y = 0; y < scene.height(); ++y)
+    {
+      for (int x = 0; x < scene.width(); ++x)
+      {
+        pair.labels.push_back(1 + patchOf(x, y));
+      }
+    }
+    const GapReport report = diagnose(pair);
+    EXPECT_EQ(report.where.front().axis, "sample") << describe(report);
+    EXPECT_NE(report.verdict, GapVerdict::NoGap) << describe(report);
+    blamed += report.causes.empty() ? 0 : 1;
+  }
+  EXPECT_LE(blamed, 1);
+}
+
+TEST(FieldGap, ScenesThatShowLittle)
+{
+  const TestScene scene(37, 1, 96, 80);
+  TestPair pair = changed(scene, 48, [](double u, int, int, int, double) { return u; });
+  EXPECT_EQ(diagnose(pair).verdict, GapVerdict::NoGap); // one channel
+  std::fill(pair.simulated.begin(), pair.simulated.end(), 0.5F);
+  pair.real = pair.simulated;
+  EXPECT_EQ(diagnose(pair).verdict, GapVerdict::NoGap);
+  for (float& value : pair.real)
+  {
+    value *= 0.9F;
+  }
+  const GapReport constant = diagnose(pair);
+  EXPECT_EQ(constant.verdict, GapVerdict::Explained) << describe(constant);
+  EXPECT_FALSE(constant.causes.front().equivalent.empty()) << describe(constant);
+  std::fill(pair.simulated.begin(), pair.simulated.end(), 0.0F);
+  EXPECT_NE(diagnose(pair).verdict, GapVerdict::NoGap);
+}
+
 TEST(FieldGap, BandingOfRowsAndOfColumns)
 {
   const TestScene scene(12);

@@ -1,0 +1,84 @@
+#include "Kernels/Gap/Field/FieldAcceptance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace msi
+{
+
+namespace
+{
+// Deviations over groups of blocks. An effect that clears what is left may concern few of them, as saturation does:
+// from a tenth of what is left to all of it less and less is asked for.
+constexpr double Significant = 3.0;
+constexpr double SignificantWhereCleared = 2.0;
+constexpr double Cleared = 0.8; // of the energy beyond noise
+constexpr double StaysIn = 0.85;
+// What an effect must be worth.
+constexpr double PriceOfEffect = 3.0;  // prices
+constexpr double RelevantPart = 0.01;  // of the gap's energy
+constexpr double RelevantOfRest = 0.1; // and of what is left of it
+constexpr double MostOfRest =
+  0.5; // this alone will do where what is left is not much less than noise
+constexpr double BesideNoise = 0.5; // of what noise allows
+constexpr double RelevantBesides =
+  0.03; // of the gap's energy, where an effect of the edges is there
+
+// The forms of these approximate point spreads and resampling: what is left of one looks like another.
+bool isOfEdges(const std::string& effect)
+{
+  return effect == "misregistration" || effect == "defocus" || effect == "local_stray_light";
+}
+
+bool clears(double gain, double excess, double chance)
+{
+  return gain > Cleared * excess && excess >= chance;
+}
+
+double leastDeviations(double gain, double excess, double chance)
+{
+  if (excess < chance)
+  {
+    return Significant;
+  }
+  const double part = (gain / excess - RelevantOfRest) / (Cleared - RelevantOfRest);
+  return Significant - (Significant - SignificantWhereCleared) * std::clamp(part, 0.0, 1.0);
+}
+}
+
+double FieldAcceptance::cost(const FieldFit& fit) const
+{
+  return fit.energy + price * static_cast<double>(parameterCount(fit.set, data.channels()));
+}
+
+bool FieldAcceptance::mayJoin(const FieldFit& current, const FieldFit& fit, double chance) const
+{
+  const double gain = current.energy - fit.energy;
+  const double excess = std::fmax(current.energy - chance, 0.0);
+  const auto parameters = static_cast<double>(
+    parameterCount(fit.set, data.channels()) - parameterCount(current.set, data.channels()));
+  if (gain < PriceOfEffect * price * parameters ||
+    deviationsOf(data, current.blockEnergy - fit.blockEnergy) <
+      leastDeviations(gain, excess, chance))
+  {
+    return false;
+  }
+  const bool besides = isOfEdges(fit.set.back()->effect) &&
+    std::any_of(current.set.begin(), current.set.end(),
+      [](const FieldChoice* other) { return isOfEdges(other->effect); });
+  const double part = besides ? RelevantBesides : RelevantPart;
+  return (gain >= part * gapEnergy && gain >= RelevantOfRest * excess) ||
+    (!besides && excess >= BesideNoise * chance && gain >= MostOfRest * excess);
+}
+
+bool FieldAcceptance::mayStay(const FieldFit& current, const FieldFit& without, double chance) const
+{
+  const double gain = without.energy - current.energy;
+  const double excess = std::fmax(without.energy - chance, 0.0);
+  return (gain >= RelevantPart * gapEnergy || clears(gain, excess, chance)) &&
+    cost(without) >= cost(current) &&
+    deviationsOf(data, without.blockEnergy - current.blockEnergy) >=
+    StaysIn * leastDeviations(gain, excess, chance);
+}
+
+} // namespace msi

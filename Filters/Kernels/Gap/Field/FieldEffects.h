@@ -1,0 +1,26 @@
+// The effects that were found, as the effect library writes them.
+#pragma once
+
+#include "Kernels/Gap/Field/FieldSearch.h"
+#include "Kernels/Gap/GapReport.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+// The form of the library that stands for a choice.
+std::string libraryForm(const FieldChoice& choice);
+
+// error: standard errors of the choice's terms, from `next` on (FieldFitter::standardErrors), which moves on.
+std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldSearchResult& found,
+  const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next);
+
+// The set as a list for CameraSimulator and ImageSimulator.
+std::vector<CameraEffect> fieldCorrection(
+  const FieldSet& set, const FieldModel& model, const std::vector<std::string>& channels);
+
+} // namespace msi

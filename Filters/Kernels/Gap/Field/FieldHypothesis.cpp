@@ -1,0 +1,130 @@
+#include "Kernels/Gap/Field/FieldHypothesis.h"
+
+#include "Kernels/Gap/Field/FieldGroups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int Iterations = 4;
+constexpr double SmallStep = 0.02; // typical sizes
+constexpr double Radii[] = { 2.0, 4.0, 8.0, 16.0, 32.0 };
+constexpr double Indistinct = 0.5; // standard error over typical size
+}
+
+double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)
+{
+  double n = 0.0;
+  double sum = 0.0;
+  double square = 0.0;
+  for (const double energy : groupSums(data, gain, true))
+  {
+    const double value = std::copysign(std::sqrt(std::fabs(energy)), energy);
+    n += 1.0;
+    sum += value;
+    square += value * value;
+  }
+  return sum / std::sqrt(std::fmax(square - sum * sum / n, 1e-30));
+}
+
+FieldSet joined(FieldSet set, const FieldChoice& choice)
+{
+  set.push_back(&choice);
+  return set;
+}
+
+FieldSet withoutOne(FieldSet set, std::size_t position)
+{
+  set.erase(set.begin() + static_cast<std::ptrdiff_t>(position));
+  return set;
+}
+
+bool contains(const FieldSet& set, const char* effect, const char* form)
+{
+  return std::any_of(set.begin(), set.end(),
+    [&](const FieldChoice* choice)
+    { return choice->effect == effect && (form == nullptr || choice->form == form); });
+}
+
+FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
+  const FieldModel& start, const FieldLoop& loop)
+{
+  FieldModel model = start;
+  FieldHypothesis best;
+  for (int iteration = 0; iteration < Iterations; ++iteration)
+  {
+    const auto statistics =
+      std::make_shared<FieldStatistics>(fieldStatistics(data, model, &weights, loop));
+    FieldFit fit = FieldFitter(data, *statistics).fit(set);
+    const double step = fit.step;
+    const FieldModel next = fit.next;
+    if (!best.statistics || fit.energy < best.fit.energy || step < SmallStep)
+    {
+      best = { set, statistics, std::move(fit) };
+    }
+    if (step < SmallStep)
+    {
+      break;
+    }
+    model = next;
+  }
+  return best;
+}
+
+FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set)
+{
+  const bool tail = contains(set, "local_stray_light", "neighbours");
+  if (!tail || !fitter.statistics().model.isNeutral(FieldParameter::TailFraction))
+  {
+    return fitter.fit(set);
+  }
+  std::optional<FieldFit> best;
+  for (const double radius : Radii)
+  {
+    FieldFit fit = fitter.fit(set, radius);
+    if (!best || fit.energy < best->energy)
+    {
+      best = std::move(fit);
+    }
+  }
+  return *best;
+}
+
+std::vector<std::string> indistinctEffects(
+  const FieldData& data, const FieldFitter& fitter, const std::vector<FieldChoice>& choices)
+{
+  std::vector<std::string> found;
+  for (const FieldChoice& choice : choices)
+  {
+    if (choice.effect != "misregistration" && choice.effect != "defocus" &&
+      choice.effect != "local_stray_light")
+    {
+      continue;
+    }
+    double information = 0.0;
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      const Eigen::VectorXd column = fitter.coefficients(
+        choice.terms.front().parameter, k, neutralValue(FieldParameter::TailRadius));
+      for (std::size_t b = 0; b < data.blocks.size(); ++b)
+      {
+        information += column.dot(
+          fitter.statistics().at(b, k).normal.topLeftCorner(column.size(), column.size()) * column);
+      }
+    }
+    const bool missing =
+      1.0 / std::sqrt(std::fmax(information, 1e-30)) > Indistinct * choice.terms.front().typical;
+    if (missing && std::find(found.begin(), found.end(), choice.effect) == found.end())
+    {
+      found.push_back(choice.effect);
+    }
+  }
+  return found;
+}
+
+} // namespace msi

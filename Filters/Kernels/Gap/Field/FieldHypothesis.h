@@ -1,0 +1,39 @@
+// A set of effects fitted in full, and what it costs.
+#pragma once
+
+#include "Kernels/Gap/Field/FieldFit.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+struct FieldHypothesis
+{
+  FieldSet set;
+  std::shared_ptr<const FieldStatistics> statistics;
+  FieldFit fit;
+};
+
+FieldSet joined(FieldSet set, const FieldChoice& choice);
+FieldSet withoutOne(FieldSet set, std::size_t position);
+bool contains(const FieldSet& set, const char* effect, const char* form = nullptr);
+
+// The mean over groups of training blocks of the signed root of what they gain, over its standard error. The root: energies
+// have tails, and a plane of light gains little in the middle of the field.
+double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain);
+
+// The model after Gauss-Newton from a start.
+FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
+  const FieldModel& start, const FieldLoop& loop);
+
+// One step; the radius of a tail that the model does not have yet is the best of several.
+FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set);
+
+// Effects among `choices` whose parameters this scene does not show.
+std::vector<std::string> indistinctEffects(
+  const FieldData& data, const FieldFitter& fitter, const std::vector<FieldChoice>& choices);
+
+} // namespace msi

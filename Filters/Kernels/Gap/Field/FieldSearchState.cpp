@@ -1,0 +1,139 @@
+#include "Kernels/Gap/Field/FieldSearchState.h"
+
+#include "Kernels/Gap/Field/FieldClip.h"
+#include "Kernels/Gap/Field/FieldShift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double PricePart = 0.0005; // for a parameter
+constexpr double LargestPricePart = 0.001;
+}
+
+FieldSearchState::FieldSearchState(
+  const FieldData& data, const std::vector<FieldChoice>& choices, const FieldLoop& loop)
+  : Data(data)
+  , Choices(choices)
+  , Loop(loop)
+{
+  Result.before = fieldStatistics(data, FieldModel(data.channels()), nullptr, loop);
+  Result.weights = fieldWeights(Result.before, nullptr);
+  // Once more with noise known, and what the tolerance does with it.
+  measureNominal();
+  Shifts = wholePixelShifts(data, loop);
+}
+
+FieldSearchResult FieldSearchState::result() const
+{
+  FieldSearchResult result = Result;
+  result.set = Current.set;
+  result.after = *Current.statistics;
+  return result;
+}
+
+void FieldSearchState::measureNominal()
+{
+  const auto statistics = std::make_shared<FieldStatistics>(
+    fieldStatistics(Data, FieldModel(Data.channels()), &Result.weights, Loop));
+  Result.before = *statistics;
+  const FieldFitter fitter(Data, *statistics);
+  Result.gapEnergy = std::fmax(fitter.energy() - fitter.chance(), 0.0);
+  Current = { {}, statistics, fitter.fit({}) };
+  setPrice(fitter);
+}
+
+void FieldSearchState::setPrice(const FieldFitter& fitter)
+{
+  double blocks = 0.0;
+  for (const FieldBlock& block : Data.blocks)
+  {
+    blocks += block.fold >= 0 ? 1.0 : 0.0;
+  }
+  const double least = 0.5 * std::log(blocks);
+  const double dispersion = fitter.energy() / std::fmax(fitter.chance(), 1e-9) *
+    blockMeanExcess(Data, fitter.statistics(), true);
+  Result.price = std::fmax(std::fmax(least, PricePart * Result.gapEnergy),
+    std::fmin(least * dispersion, LargestPricePart * fitter.energy()));
+}
+
+bool FieldSearchState::available(const FieldSet& set, const FieldChoice& choice) const
+{
+  const FieldModel& model = Current.statistics->model;
+  if (choice.effect == "banding" &&
+    (choice.form == "rows" ? model.rowPeriod : model.columnPeriod) <= 0.0)
+  {
+    return false;
+  }
+  if (choice.effect == "saturation" && model.isNeutral(FieldParameter::ClipLevel))
+  {
+    return false;
+  }
+  return compatible(set, choice);
+}
+
+void FieldSearchState::findStarts()
+{
+  FieldModel model = Current.statistics->model;
+  bool found = false;
+  if (!contains(Current.set, "banding", "rows"))
+  {
+    Result.rows = findPeriod(Data, model, true, Loop);
+    found = found || Result.rows.period != model.rowPeriod;
+    model.rowPeriod = Result.rows.period;
+  }
+  if (!contains(Current.set, "banding", "columns"))
+  {
+    Result.columns = findPeriod(Data, model, false, Loop);
+    found = found || Result.columns.period != model.columnPeriod;
+    model.columnPeriod = Result.columns.period;
+  }
+  if (!contains(Current.set, "saturation"))
+  {
+    const double level = findClipLevel(Data, model, Loop);
+    found = found || level != model.at(FieldParameter::ClipLevel, 0);
+    model[FieldParameter::ClipLevel].setConstant(level);
+  }
+  if (found)
+  {
+    Current.statistics =
+      std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Result.weights, Loop));
+    Current.fit = FieldFitter(Data, *Current.statistics).fit(Current.set);
+  }
+}
+
+void FieldSearchState::accept(const FieldHypothesis& hypothesis)
+{
+  const FieldModel model = hypothesis.fit.next;
+  const Eigen::ArrayXd tolerance = Result.weights.tolerance;
+  const FieldStatistics plain = fieldStatistics(Data, model, &Result.weights, Loop);
+  Result.weights = fieldWeights(plain, &tolerance);
+  Current = refit(hypothesis.set, model);
+  setPrice(FieldFitter(Data, *Current.statistics));
+}
+
+double blockMeanExcess(const FieldData& data, const FieldStatistics& statistics, bool training)
+{
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    for (Eigen::Index k = 0; (data.blocks[b].fold >= 0) == training && k < data.channels(); ++k)
+    {
+      const BlockSums& sums = statistics.at(b, k);
+      if (sums.pixels > 0.0)
+      {
+        sum += sums.mean * sums.mean * sums.pixels * sums.pixels / sums.noise;
+        count += 1.0;
+      }
+    }
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+} // namespace msi

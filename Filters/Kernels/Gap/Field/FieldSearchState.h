@@ -1,0 +1,51 @@
+// Where a search for effects stands, and the steps that it takes.
+#pragma once
+
+#include "Kernels/Gap/Field/FieldAcceptance.h"
+#include "Kernels/Gap/Field/FieldHypothesis.h"
+#include "Kernels/Gap/Field/FieldSearch.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace msi
+{
+
+class FieldSearchState
+{
+public:
+  // Holds references.
+  FieldSearchState(
+    const FieldData& data, const std::vector<FieldChoice>& choices, const FieldLoop& loop);
+
+  FieldSearchResult result() const;
+
+protected:
+  const FieldData& Data;
+  const std::vector<FieldChoice>& Choices;
+  const FieldLoop& Loop;
+  Eigen::MatrixXd Shifts; // of whole pixels
+  FieldHypothesis Current;
+  FieldSearchResult Result;
+
+  FieldAcceptance acceptance() const { return { Data, Result.gapEnergy, Result.price }; }
+  double cost(const FieldFit& fit) const { return acceptance().cost(fit); }
+  bool shifted() const { return Shifts.cwiseAbs().maxCoeff() >= 1.0; }
+  FieldHypothesis refit(const FieldSet& set, const FieldModel& start) const
+  {
+    return refitted(Data, Result.weights, set, start, Loop);
+  }
+  // Beside the effects of `set`, with a start where it needs one.
+  bool available(const FieldSet& set, const FieldChoice& choice) const;
+  // Looks for stripes and clipping in what is left.
+  void findStarts();
+  // Goes on from here, with weights for what is left.
+  void accept(const FieldHypothesis& hypothesis);
+
+private:
+  void measureNominal();
+  void setPrice(const FieldFitter& fitter);
+};
+
+} // namespace msi

@@ -273,7 +273,8 @@ std::vector<EffectEntry> responsivityEffects()
           { "in_light",
             "light x passband(c + (wavelength - c) / factor), c the passband's middle; the light "
             "stays, ln(light) = slope P1(x) + bend P2(x) + twist P3(x), none beyond the grid",
-            { factor(false), slope, bend, twist } } } },
+            { factor(false), slope, bend, twist },
+            { { 1.1, 0.0, 0.0, 0.0 }, { 1.1, 1.0, 0.0, 0.0 }, { 1.1, -1.0, 0.0, 0.0 } } } } },
       makeInLightOr<FilterBandwidth> },
     { { "filter_shift", "Filter shift",
         "Passbands at other wavelengths than nominal: maker's tolerance, oblique incidence, "
@@ -291,7 +292,8 @@ std::vector<EffectEntry> responsivityEffects()
           { "in_light",
             "light x passband(wavelength - shift); the light stays, ln(light) = slope P1(x) + bend "
             "P2(x) + twist P3(x), none beyond the grid",
-            { shift(false), slope, bend, twist } },
+            { shift(false), slope, bend, twist },
+            { { 1.0, 0.0, 0.0, 0.0 }, { 1.0, 1.0, 0.0, 0.0 }, { 1.0, -1.0, 0.0, 0.0 } } },
           { "per_channel", "a shift of its own for each channel", { shift(true) }, {}, true } } },
       makeInLightOr<FilterShift> },
     { { "filter_leak", "Filter leak",

@@ -167,7 +167,9 @@ public:
       const Eigen::ArrayXd row = responsivity.row(k).transpose().array();
       const double center = Factor[k] == 1.0 ? 0.0 : passbandCenter(Grid, row, known);
       const Eigen::ArrayXd at = center + Factor[k] * (wavelength - center) + Shift[k];
-      const Eigen::ArrayXd inside = at.unaryExpr([this](double w) { return insidePart(w); });
+      const double factor = Factor[k];
+      const Eigen::ArrayXd inside =
+        at.unaryExpr([this, factor](double w) { return insidePart(w, factor); });
       const Eigen::ArrayXd lit = Factor[k] * row * inside * (logLight(at) - known).exp();
       responsivity.row(k) = (lit.matrix().transpose() * movedSpectrum(Grid, at)).eval();
     }
@@ -181,12 +183,14 @@ private:
     const Eigen::ArrayXd x = ((wavelength - middle) / half).cwiseMax(-1.2).cwiseMin(1.2);
     return Slope * x + Bend * (1.5 * x.square() - 0.5) + Twist * (2.5 * x.cube() - 1.5 * x);
   }
-  // The light ends with the grid, over one step of it.
-  double insidePart(double wavelength) const
+  // The light ends half a step beyond the grid: the part of a step, `factor` times as wide, that is before that.
+  double insidePart(double wavelength, double factor) const
   {
-    const double below = (wavelength - Grid.front()) / (Grid[1] - Grid[0]);
-    const double above = (Grid.back() - wavelength) / (Grid.back() - Grid[Grid.size() - 2]);
-    return std::clamp(std::fmin(below, above) + 1.0, 0.0, 1.0);
+    const double first = Grid[1] - Grid[0];
+    const double last = Grid.back() - Grid[Grid.size() - 2];
+    const double below = (wavelength - Grid.front() + 0.5 * first) / (factor * first);
+    const double above = (Grid.back() + 0.5 * last - wavelength) / (factor * last);
+    return std::clamp(std::fmin(below, above) + 0.5, 0.0, 1.0);
   }
 
   WavelengthGrid Grid;

@@ -190,7 +190,8 @@ private:
     const double last = Grid.back() - Grid[Grid.size() - 2];
     const double below = (wavelength - Grid.front() + 0.5 * first) / (factor * first);
     const double above = (Grid.back() + 0.5 * last - wavelength) / (factor * last);
-    return std::clamp(std::fmin(below, above) + 0.5, 0.0, 1.0);
+    const double part = std::clamp(std::fmin(below, above) + 0.5, 0.0, 1.0);
+    return part * part * (3.0 - 2.0 * part); // without a kink where nothing moves
   }
 
   WavelengthGrid Grid;

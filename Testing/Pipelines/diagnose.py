@@ -210,7 +210,7 @@ def refused(folder):
     pair = edited(folder, "one-image")
     (pair / "images" / "real").mkdir(parents=True)
     shutil.copy(IMAGE / "channel_400nm.tif", pair / "images" / "real")
-    yield pair, "images: there is no simulated image; expected real* and sim*"
+    yield pair, "images: there is no simulated image; expected sim*"
     yield edited(folder, "one-sample", samples=lambda lines: lines[:2],
                  responses=lambda lines: lines[:3]), "2 samples or more"
 

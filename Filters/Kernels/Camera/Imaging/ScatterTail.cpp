@@ -20,6 +20,7 @@ double deviationAfter(int pass)
 {
   return std::sqrt((std::pow(4.0, pass) - 1.0) / 3.0);
 }
+}
 
 SymmetricKernel splineKernel(int channels, int stride)
 {
@@ -30,7 +31,6 @@ SymmetricKernel splineKernel(int channels, int stride)
   kernel.weights.col(2).setConstant(1.0F / 16.0F);
   kernel.stride = stride;
   return kernel;
-}
 }
 
 ScatterTail::ScatterTail(double radius)

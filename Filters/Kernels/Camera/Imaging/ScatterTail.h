@@ -9,9 +9,12 @@
 namespace msi
 {
 
+// The B3 spline (1, 4, 6, 4, 1) / 16 with its taps `stride` pixels apart, the same in every channel.
+SymmetricKernel splineKernel(int channels, int stride);
+
 // A point spread T of sum one that falls from a few pixels to several radii.
 //
-// A sum of ever wider kernels: the B3 spline (1, 4, 6, 4, 1) / 16 applied with holes of 1, 2, 4, ... pixels
+// A sum of ever wider kernels: splineKernel() applied with strides of 1, 2, 4, ... pixels
 // ("a trous": M. Holschneider et al., in Wavelets, Springer 1989, doi:10.1007/978-3-642-97177-8_28). After n
 // passes the variance along an axis is (4^n - 1) / 3. The kernel of pass n has the weight
 // 2^-n exp(-deviation_n / (2 radius)), scaled to sum one.

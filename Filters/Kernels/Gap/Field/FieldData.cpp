@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldData.h"
 
+#include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldScene.h"
 #include "Kernels/Gap/Field/FieldTail.h"
@@ -170,7 +171,7 @@ void addTails(FieldData& data, const Region& region)
   }
   for (int pass = 0; pass < TailPasses; ++pass)
   {
-    convolve(tailKernel(buffer.channels, pass), buffer);
+    convolve(splineKernel(buffer.channels, 1 << pass), buffer);
     for (FieldBlock& block : data.blocks)
     {
       if (!region.interior.contains(block.window))

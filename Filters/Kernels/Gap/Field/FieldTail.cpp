@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldTail.h"
 
+#include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldColumns.h"
 
 #include <cmath>
@@ -11,17 +12,6 @@ namespace msi
 namespace
 {
 constexpr int RadiusSteps = 48;
-}
-
-SymmetricKernel tailKernel(int channels, int pass)
-{
-  SymmetricKernel kernel;
-  kernel.weights.resize(channels, 3);
-  kernel.weights.col(0).setConstant(6.0F / 16.0F);
-  kernel.weights.col(1).setConstant(4.0F / 16.0F);
-  kernel.weights.col(2).setConstant(1.0F / 16.0F);
-  kernel.stride = 1 << pass;
-  return kernel;
 }
 
 TailForm tailForm(const FieldModel& model)
@@ -64,7 +54,7 @@ void FieldTail::operator()(PixelBuffer& signal, PixelBuffer& wide) const
   PixelBuffer sharp = signal;
   for (int pass = 0; pass < TailPasses; ++pass)
   {
-    convolve(tailKernel(signal.channels, pass), wide);
+    convolve(splineKernel(signal.channels, 1 << pass), wide);
     for (std::size_t i = 0; pass > 0 && i < signal.values.size(); ++i)
     {
       const auto weight =

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "Kernels/Camera/Imaging/ImageWindow.h"
-#include "Kernels/Camera/Imaging/SeparableFilter.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 
 namespace msi
@@ -10,9 +9,6 @@ namespace msi
 
 // Pixels around a window that TailPasses passes depend on.
 inline constexpr int TailReach = 2 * ((1 << TailPasses) - 1);
-
-// The B3 spline with holes (ScatterTail); after pass 0, 1, .. the buffer holds the scene through pass 1, 2, ..
-SymmetricKernel tailKernel(int channels, int pass);
 
 // The fraction and radius of the effect's own form that come nearest to free weights of the passes.
 struct TailForm

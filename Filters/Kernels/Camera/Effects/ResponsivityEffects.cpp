@@ -13,14 +13,25 @@ namespace
 {
 constexpr double MiddleWavelength = 550.0;
 
-// Wavelength mapped to [-1, 1] over the grid.
-Eigen::ArrayXd position(const WavelengthGrid& grid)
+// Wavelengths mapped so that the grid is [-1, 1].
+Eigen::ArrayXd position(const WavelengthGrid& grid, const Eigen::ArrayXd& wavelength)
 {
   if (grid.size() < 2)
   {
-    return Eigen::ArrayXd::Zero(grid.size());
+    return Eigen::ArrayXd::Zero(wavelength.size());
   }
-  return 2.0 * (grid.vector().array() - grid.front()) / (grid.back() - grid.front()) - 1.0;
+  return 2.0 * (wavelength - grid.front()) / (grid.back() - grid.front()) - 1.0;
+}
+
+Eigen::ArrayXd position(const WavelengthGrid& grid)
+{
+  return position(grid, grid.vector().array());
+}
+
+// Sum of the Legendre polynomials P1 to P3.
+Eigen::ArrayXd legendre(const Eigen::ArrayXd& x, double first, double second, double third)
+{
+  return first * x + (second * (1.5 * x.square() - 0.5) + third * (2.5 * x.cube() - 1.5 * x));
 }
 
 // Channel centroids; the middle of the grid where a row has no weight.
@@ -42,13 +53,10 @@ public:
   explicit IlluminantDrift(const BoundEffect& effect)
   {
     const Eigen::ArrayXd x = position(effect.camera().wavelengths());
-    Eigen::ArrayXd logarithm = effect.value("tilt") * x;
-    if (effect.form().name == "smooth")
-    {
-      logarithm += effect.value("curvature") * (1.5 * x.square() - 0.5) +
-        effect.value("twist") * (2.5 * x.cube() - 1.5 * x);
-    }
-    Factor = logarithm.exp();
+    const bool smooth = effect.form().name == "smooth";
+    Factor = legendre(x, effect.value("tilt"), smooth ? effect.value("curvature") : 0.0,
+      smooth ? effect.value("twist") : 0.0)
+               .exp();
   }
   void apply(Eigen::MatrixXd& responsivity) const override
   {
@@ -178,10 +186,7 @@ public:
 private:
   Eigen::ArrayXd logLight(const Eigen::ArrayXd& wavelength) const
   {
-    const double half = 0.5 * (Grid.back() - Grid.front());
-    const double middle = 0.5 * (Grid.back() + Grid.front());
-    const Eigen::ArrayXd x = ((wavelength - middle) / half).cwiseMax(-1.2).cwiseMin(1.2);
-    return Slope * x + Bend * (1.5 * x.square() - 0.5) + Twist * (2.5 * x.cube() - 1.5 * x);
+    return legendre(position(Grid, wavelength).cwiseMax(-1.2).cwiseMin(1.2), Slope, Bend, Twist);
   }
   // The light ends half a step beyond the grid: the part of a step, `factor` times as wide, that is before that.
   double insidePart(double wavelength, double factor) const

@@ -31,8 +31,8 @@ struct EffectFit
 };
 
 // Gauss-Newton with Levenberg damping, bounds by projection, Huber weights at five times the median
-// residual. Each parameter has a prior of ten times its typical size, so that what the data does not determine
-// stays neutral.
+// residual. Each parameter has a normal prior about neutral (FreeParameter::spread), so that what the data does not
+// determine stays neutral.
 //
 // Cross-validation: the estimate without a fold is one Gauss-Newton step from the estimate with it, exact
 // for linear effects and to second order in the step else; so folds cost no further simulation.

@@ -272,13 +272,13 @@ EffectFit withoutMenders(const EffectFitter& fitter, EffectFit fit,
 EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy)
 {
-  EffectSet leading = fit.set;
-  EffectSet set;
-  for (std::size_t e = leading.size(); e-- > 0;)
+  EffectSet leading;
+  leading.level = fit.set.level;
+  for (std::size_t e = 0; e < fit.set.size(); ++e)
   {
-    if (leading.choices[e].smallError())
+    if (!fit.set.choices[e].smallError())
     {
-      leading.remove(e);
+      leading.add(fit.set, e);
     }
   }
   if (leading.size() == 0 || leading.size() == fit.set.size())
@@ -286,18 +286,18 @@ EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
     return fit;
   }
   const EffectFit alone = chooseForms(fitter, fitter.fit(leading, Iterations), choices, gapEnergy);
+  EffectSet set;
   std::size_t next = 0;
   for (const EffectChoice& choice : fit.set.choices)
   {
     if (choice.smallError())
     {
       set.add(choice, fitter.data().camera);
-      continue;
     }
-    set.choices.push_back(alone.set.choices[next]);
-    set.effects.push_back(alone.set.effects[next]);
-    set.secondaryFree.push_back(alone.set.secondaryFree[next]);
-    ++next;
+    else
+    {
+      set.add(alone.set, next++);
+    }
   }
   set.level = alone.set.level;
   EffectFit other = fitter.fit(std::move(set), FinalIterations);

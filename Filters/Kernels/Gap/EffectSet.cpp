@@ -93,6 +93,13 @@ void EffectSet::add(
   }
 }
 
+void EffectSet::add(const EffectSet& from, std::size_t position)
+{
+  choices.push_back(from.choices[position]);
+  effects.push_back(from.effects[position]);
+  secondaryFree.push_back(from.secondaryFree[position]);
+}
+
 void EffectSet::remove(std::size_t position)
 {
   const auto at = static_cast<std::ptrdiff_t>(position);

@@ -69,6 +69,7 @@ struct EffectSet
   // Added at its neutral values, or at `start` (one number a parameter of the form).
   void add(
     const EffectChoice& choice, const CameraModel& camera, const std::vector<double>& start = {});
+  void add(const EffectSet& from, std::size_t position); // with its values
   void remove(std::size_t position);
   std::vector<FreeParameter> freeParameters(const CameraModel& camera) const;
 };

@@ -123,22 +123,25 @@ std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& sh
   return share;
 }
 
+// A change of the response, weighted, element by element.
+Eigen::VectorXd weighted(const EffectFitter& fitter, const Eigen::MatrixXd& change)
+{
+  const Eigen::ArrayXXd whole =
+    (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt() * change.array(), 0.0);
+  return Eigen::Map<const Eigen::VectorXd>(whole.data(), whole.size());
+}
+
 // What each effect does to the response where the others are there too, weighted, one column an effect.
 Eigen::MatrixXd contributions(const EffectFitter& fitter, const EffectFit& fit)
 {
   const GapData& data = fitter.data();
-  const Eigen::ArrayXXd root =
-    (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt(), 0.0);
   Eigen::MatrixXd columns(data.observed.size(), static_cast<Eigen::Index>(fit.set.size()));
   for (std::size_t e = 0; e < fit.set.size(); ++e)
   {
     EffectSet rest = fit.set;
     rest.remove(e);
-    const Eigen::ArrayXXd mine =
-      (root > 0.0)
-        .select(root * (fit.predicted - respond(data.camera, data.scene, rest)).array(), 0.0);
     columns.col(static_cast<Eigen::Index>(e)) =
-      Eigen::Map<const Eigen::VectorXd>(mine.data(), mine.size());
+      weighted(fitter, fit.predicted - respond(data.camera, data.scene, rest));
   }
   return columns;
 }
@@ -147,11 +150,7 @@ Eigen::MatrixXd contributions(const EffectFitter& fitter, const EffectFit& fit)
 std::vector<double> undoneParts(
   const EffectFitter& fitter, const EffectFit& fit, const Eigen::MatrixXd& contribution)
 {
-  const Eigen::ArrayXXd change =
-    (fitter.weight().array() > 0.0)
-      .select(
-        fitter.weight().array().sqrt() * (fit.predicted - fitter.data().simulated).array(), 0.0);
-  const Eigen::Map<const Eigen::VectorXd> all(change.data(), change.size());
+  const Eigen::VectorXd all = weighted(fitter, fit.predicted - fitter.data().simulated);
   std::vector<double> undone;
   for (Eigen::Index e = 0; e < contribution.cols(); ++e)
   {

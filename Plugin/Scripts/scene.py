@@ -24,7 +24,10 @@ def numbers(kind, separator, count, example):
 
 
 def arguments():
-    parser = command.parser("scene", __doc__)
+    parser = command.parser(
+        "scene", __doc__,
+        "chart24 --size 1024x768",
+        "fabric --size 2048x2048 --wavelengths 380:730:5 --seed 2")
     parser.add_argument("subject", choices=SUBJECTS, help="what the image shows")
     parser.add_argument("--size", metavar="WxH", type=numbers(int, "x", 2, "768x512"), default=[768, 512],
                         help="columns and rows in pixels (default: 768x512)")

@@ -78,48 +78,49 @@ std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& b
 }
 
 // The small errors that every camera has in each channel take what the other effects leave: any of them also does, with
-// its many parameters, most of what a single number common to the channels does.
+// its many parameters, most of what a single number common to the channels does. But where the others can only be seen
+// once these errors are out of the way, they get what they do then.
 std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& shrink)
 {
-  std::vector<std::size_t> order; // of the effects, small errors last
-  for (const bool small : { false, true })
+  std::vector<std::size_t> leading;
+  std::vector<std::size_t> small;
+  for (std::size_t e = 0; e < set.size(); ++e)
   {
-    for (std::size_t e = 0; e < set.size(); ++e)
-    {
-      if (set.choices[e].smallError() == small)
-      {
-        order.push_back(e);
-      }
-    }
+    (set.choices[e].smallError() ? small : leading).push_back(e);
   }
-  const auto leading = static_cast<std::size_t>(std::count_if(set.choices.begin(),
-    set.choices.end(), [](const EffectChoice& choice) { return !choice.smallError(); }));
-  std::vector<double> share(set.size(), 0.0);
-  const auto shareAmong = [&](std::size_t first, std::size_t last)
+  const auto together = [](const std::vector<std::size_t>& effects)
   {
-    std::size_t present = 0;
-    for (std::size_t p = 0; p < first; ++p)
+    std::size_t subset = 0;
+    for (const std::size_t e : effects)
     {
-      present |= std::size_t(1) << order[p];
+      subset |= std::size_t(1) << e;
     }
+    return subset;
+  };
+  std::vector<double> share(set.size(), 0.0);
+  const auto shareAmong = [&](const std::vector<std::size_t>& effects, std::size_t present)
+  {
     std::vector<double> value;
-    for (std::size_t subset = 0; subset < std::size_t(1) << (last - first); ++subset)
+    for (std::size_t subset = 0; subset < std::size_t(1) << effects.size(); ++subset)
     {
-      std::size_t effects = present;
-      for (std::size_t p = first; p < last; ++p)
+      std::size_t all = present;
+      for (std::size_t p = 0; p < effects.size(); ++p)
       {
-        effects |= (subset >> (p - first) & 1U) != 0 ? std::size_t(1) << order[p] : 0;
+        all |= (subset >> p & 1U) != 0 ? std::size_t(1) << effects[p] : 0;
       }
-      value.push_back(shrink[effects]);
+      value.push_back(shrink[all]);
     }
-    const std::vector<double> part = shapleyValues(value, last - first);
-    for (std::size_t p = first; p < last; ++p)
+    const std::vector<double> part = shapleyValues(value, effects.size());
+    for (std::size_t p = 0; p < effects.size(); ++p)
     {
-      share[order[p]] = std::fmax(part[p - first], 0.0);
+      share[effects[p]] = std::fmax(part[p], 0.0);
     }
   };
-  shareAmong(0, leading);
-  shareAmong(leading, set.size());
+  const double first = shrink[together(leading)];
+  const double last = shrink.back() - shrink[together(small)];
+  const bool hidden = last > first;
+  shareAmong(leading, hidden ? together(small) : 0);
+  shareAmong(small, hidden ? 0 : together(leading));
   return share;
 }
 
@@ -146,7 +147,8 @@ Eigen::MatrixXd contributions(const EffectFitter& fitter, const EffectFit& fit)
   return columns;
 }
 
-// For each effect the part of what it does that the others undo, 0..1.
+// For each effect the part of what it does, 0..1, that the others undo: as far as they point against it, and are as large
+// as it there. What no other can reach is not undone, however large the others are.
 std::vector<double> undoneParts(
   const EffectFitter& fitter, const EffectFit& fit, const Eigen::MatrixXd& contribution)
 {
@@ -154,9 +156,16 @@ std::vector<double> undoneParts(
   std::vector<double> undone;
   for (Eigen::Index e = 0; e < contribution.cols(); ++e)
   {
-    const double size = contribution.col(e).squaredNorm();
-    const double against = size - contribution.col(e).dot(all);
-    undone.push_back(size > 0.0 ? std::fmin(std::fmax(against / size, 0.0), 1.0) : 0.0);
+    const double size = contribution.col(e).norm();
+    const Eigen::VectorXd others = all - contribution.col(e);
+    const double against = -contribution.col(e).dot(others);
+    if (!(against > 0.0))
+    {
+      undone.push_back(0.0);
+      continue;
+    }
+    const double reached = against / others.norm(); // of `size`, along the others
+    undone.push_back(reached / size * std::fmin(reached, others.norm()) / size);
   }
   return undone;
 }

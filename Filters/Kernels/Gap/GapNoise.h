@@ -9,13 +9,17 @@
 namespace msi
 {
 
+// Larger standard deviations of measured reflectances are an error of their own.
+constexpr double LargestReflectanceNoise = 0.003;
+
 // What was found about the noise of one reading.
 struct NoiseFinding
 {
   ReadingNoise reading;          // the model the diagnosis goes by
   bool fromRepeats = false;      // fitted to the repeats
   bool unknown = false;          // no model and no repeats: set from the gap itself later
-  double excess = 1.0;           // standard deviation of the repeats over the given model's
+  bool unrepeated = false;       // the excess is read off what the effects leave, not off repeats
+  double excess = 1.0;           // standard deviation of the readings over the given model's
   double excessDeviations = 0.0; // (excess^2 - 1) over its standard error
   double degrees = 0.0;          // of freedom in the repeats
 };

@@ -9,6 +9,8 @@ namespace msi
 
 namespace
 {
+constexpr double UnrepeatedShare =
+  0.4; // of scatter beyond the model: an error of its own of each sample looks the same
 constexpr double EqualReadings =
   0.01; // part of all elements at the largest value that speaks of a limit
 
@@ -34,6 +36,13 @@ void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   {
     notes.push_back(text("The noise comes from the repeats: read ", noise.reading.read, ", shot ",
       noise.reading.shot, ", relative to white."));
+  }
+  else if (noise.unrepeated)
+  {
+    notes.push_back(text("One reading a sample, and what is left scatters ", noise.excess,
+      " times as much as the noise model allows: noise, or an error of its own of each sample. A "
+      "second reading of "
+      "each would tell."));
   }
   else if (noise.degrees < 4.0)
   {
@@ -142,7 +151,8 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     {
       report.verdict = GapVerdict::Unexplained;
       report.unexplained = { 1.0,
-        text("scatter between repeats, ", noise.excess, " times what the noise model allows") };
+        text(noise.unrepeated ? "scatter, " : "scatter between repeats, ", noise.excess,
+          " times what the noise model allows") };
     }
     return;
   }
@@ -157,8 +167,9 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
   GapCause cause;
   cause.effect = "excess_noise";
   cause.form = "factor";
-  cause.parameters.push_back(
-    { "factor", noise.excess, "1", noise.excess / std::sqrt(2.0 * noise.degrees) });
+  cause.parameters.push_back({ "factor", noise.excess, "1",
+    noise.excess /
+      std::sqrt(2.0 * (noise.unrepeated ? static_cast<double>(data.elements) : noise.degrees)) });
   if (report.causes.empty() && report.verdict != GapVerdict::Unexplained)
   {
     // The gap is what the given model does not allow; with the effect in the simulator it does.
@@ -172,19 +183,26 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
       : 1.0;
     cause.shrink = report.gap.shrink;
     report.gap.shrinkInterval = { std::fmin(report.gap.shrink, 0.0), 1.0 };
+    if (noise.unrepeated)
+    {
+      cause.share = UnrepeatedShare;
+      report.verdict = GapVerdict::PartlyExplained;
+      report.unexplained = { 1.0 - UnrepeatedShare, "scatter of single readings" };
+    }
   }
   else
   {
     // Sizes, not energies, as the other shares.
     const double size = std::sqrt(std::fmax(excess, 0.0));
     const double gap = std::sqrt(std::fmax(before2 - floor2, 0.0));
-    cause.share = size / (size + gap);
+    const double part = size / (size + gap);
+    cause.share = part * (noise.unrepeated ? UnrepeatedShare : 1.0);
     cause.shrink = 0.0;
     for (GapCause& other : report.causes)
     {
-      other.share *= 1.0 - cause.share;
+      other.share *= 1.0 - part;
     }
-    report.unexplained.share *= 1.0 - cause.share;
+    report.unexplained.share = report.unexplained.share * (1.0 - part) + part - cause.share;
   }
   report.correction.push_back({ "excess_noise", "factor", "", { noise.excess } });
   report.causes.push_back(std::move(cause));

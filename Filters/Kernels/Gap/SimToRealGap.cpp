@@ -1,6 +1,7 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
 #include "Kernels/Gap/EffectSearch.h"
+#include "Kernels/Gap/ExcessScatter.h"
 #include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/GapData.h"
@@ -20,7 +21,6 @@ namespace msi
 
 namespace
 {
-constexpr double LargestReflectanceNoise = 0.003;
 constexpr double ExplainedShrink = 0.85;
 constexpr double DoubtfulRest = 0.05;   // of the gap's size
 constexpr double ExplainedShare = 0.7;  // of the causes together
@@ -252,7 +252,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     }
   }
   GapData data = prepareGapData(capture, options);
-  const NoiseFinding noise = findNoise(data, capture.noise);
+  NoiseFinding noise = findNoise(data, capture.noise);
   if (noise.unknown)
   {
     setUnknownNoise(data);
@@ -328,6 +328,16 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const AxisShares rest = shareOverAxes(data, after, true);
   const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
   const double doubted = limitIntegration(data, integration, unpredicted);
+  if (capture.noise && noise.degrees == 0.0)
+  {
+    noise.excess = excessScatter(
+      data, after, *capture.noise, data.variance - readingVariance(data, *capture.noise));
+    noise.unrepeated = noise.excess > 1.0;
+    const Eigen::MatrixXd modelled = readingVariance(data, noise.reading);
+    noise.reading.read *= noise.excess;
+    noise.reading.shot *= noise.excess;
+    data.variance += readingVariance(data, noise.reading) - modelled;
+  }
   double reflectanceNoise = options.reflectanceNoise.value_or(0.0);
   if (!options.reflectanceNoise && !noise.unknown)
   {

@@ -1,0 +1,101 @@
+#include "Kernels/Gap/ExcessScatter.h"
+
+#include "Kernels/Gap/GapNoise.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double LeastFactor = 1.25;
+constexpr double LargestFactor = 20.0;
+constexpr double FarMoreLikely = 10.0; // natural logarithm of the likelihood ratio
+constexpr double LeastScatter = 1e-5;
+constexpr double Together = 0.15; // correlation of neighbouring channels
+
+// Where a function with one hill between ln(low) and ln(high) is highest: golden section.
+template <typename Function>
+double highest(double low, double high, const Function& function)
+{
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double a = std::log(low);
+  double b = std::log(high);
+  for (int step = 0; step < 30; ++step)
+  {
+    const double left = b - golden * (b - a);
+    const double right = a + golden * (b - a);
+    const bool rises = function(std::exp(left)) < function(std::exp(right));
+    (rises ? a : b) = rises ? left : right;
+  }
+  return std::exp(0.5 * (a + b));
+}
+
+// Normal residuals whose covariance, sample by sample, is diagonal plus `common`.
+double logLikelihood(const GapData& data, const Eigen::MatrixXd& residual,
+  const Eigen::ArrayXXd& variance, const Eigen::MatrixXd& common)
+{
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < data.samples(); ++j)
+  {
+    if (data.usable[static_cast<std::size_t>(j)] == 0)
+    {
+      continue;
+    }
+    const auto measured = data.count.col(j).array() > 0.0;
+    Eigen::MatrixXd covariance = common;
+    covariance.diagonal().array() += variance.col(j);
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      if (!measured[k])
+      {
+        covariance.row(k).setZero();
+        covariance.col(k).setZero();
+        covariance(k, k) = 1.0;
+      }
+    }
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    const Eigen::VectorXd e = measured.select(residual.col(j), 0.0);
+    sum -=
+      root.matrixL().toDenseMatrix().diagonal().array().log().sum() + 0.5 * e.dot(root.solve(e));
+  }
+  return sum;
+}
+}
+
+double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
+  const ReadingNoise& model, const Eigen::MatrixXd& integration)
+{
+  const Eigen::ArrayXXd noise = readingVariance(data, model).array();
+  const Eigen::MatrixXd& m = data.camera.responsivity();
+  const Eigen::MatrixXd through = m * m.transpose();
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(data.channels(), data.channels());
+  const auto noisy = [&](double factor) -> Eigen::ArrayXXd
+  { return factor * factor * noise + integration.array(); };
+  const auto asNoise = [&](double factor)
+  { return logLikelihood(data, residual, noisy(factor), none); };
+  const auto asReflectance = [&](double scatter)
+  { return logLikelihood(data, residual, noisy(1.0), scatter * scatter * through); };
+  const double factor = highest(1.0, LargestFactor, asNoise);
+  if (factor < LeastFactor ||
+    asNoise(factor) <
+      asReflectance(highest(LeastScatter, LargestReflectanceNoise, asReflectance)) + FarMoreLikely)
+  {
+    return 1.0;
+  }
+  const auto measured = data.count.array() > 0.0;
+  const Eigen::ArrayXXd whitened = measured.select(residual.array() / noisy(factor).sqrt(), 0.0);
+  const Eigen::Index pairs = data.channels() - 1;
+  const double products = (whitened.topRows(pairs) * whitened.bottomRows(pairs)).sum();
+  const double size = whitened.square().sum() / static_cast<double>(data.elements);
+  const double correlation =
+    products / (size * static_cast<double>(std::max<Eigen::Index>(pairs, 1) * data.samples()));
+  return std::fabs(correlation) < Together ? factor : 1.0;
+}
+
+} // namespace msi

@@ -1,0 +1,20 @@
+// Scatter beyond the noise model where no repeats show it.
+#pragma once
+
+#include "Kernels/Gap/GapData.h"
+
+#include <Eigen/Core>
+
+namespace msi
+{
+
+// How many times the noise model's standard deviation the residual needs; 1 where it is not noise.
+//
+// residual: K x S, what the effects leave of samples that took no part; 0 where nothing was measured.
+// integration: K x S, variance that is not the readings' noise.
+// Maximum likelihood of normal residuals. It is noise where that is far more likely than reflectances that scatter (whose
+// errors go through the channels), and where neighbouring channels do not err together.
+double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
+  const ReadingNoise& model, const Eigen::MatrixXd& integration);
+
+} // namespace msi

@@ -1,6 +1,8 @@
 #include "Kernels/Gap/EffectSearch.h"
 
-#include "Kernels/Gap/ChannelStructure.h"
+#include "Kernels/Gap/EffectCost.h"
+#include "Kernels/Gap/EffectForms.h"
+#include "Kernels/Gap/SmallErrors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,41 +14,9 @@ namespace
 {
 constexpr int Iterations = 6;
 constexpr int FormsFitted = 2; // of one effect
-constexpr int FinalIterations = 20;
-constexpr double ChanceOfMany =
-  14.0; // dispersions: the best of some fifty useless effects stays below
-constexpr double RelevantPart = 0.004; // of the gap's energy
-constexpr double FormPart = 0.002;     // of the gap's energy, a parameter
-constexpr double RicherFormPart =
-  0.0002; // of the gap's energy, a parameter, once the effect is chosen
-constexpr double UnlikelyForm =
-  2.0; // dispersions: a form is e times less likely than the one before it
-constexpr double FormDeviations = 4.0; // dispersions by which another form must be better
-// What a simpler cause may be worse by: part of the gap's energy, dispersions.
-constexpr double SimplerPart = 0.02;
-constexpr double SimplerDeviations = 9.0;
-
-// What speaks against a set before the data does, in dispersions: late forms, and an effect of a medium where there
-// is but one.
-double improbability(const EffectFitter& fitter, const EffectFit& fit)
-{
-  double sum = 0.0;
-  for (const EffectChoice& choice : fit.set.choices)
-  {
-    sum += UnlikelyForm * static_cast<double>(choice.form - choice.effect->forms.data());
-    const bool onlyMedium = !choice.medium.empty() && fitter.data().scene.media().size() == 1;
-    sum += onlyMedium || choice.whiteAfter ? UnlikelyForm : 0.0;
-  }
-  return sum;
-}
-
-double cost(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy, double dispersion)
-{
-  const double chance = 0.5 * std::log(std::fmax(fitter.trainingElements(), 2.0)) * dispersion;
-  return fit.energy +
-    static_cast<double>(fit.parameters()) * std::fmax(chance, FormPart * gapEnergy) +
-    improbability(fitter, fit) * dispersion;
-}
+constexpr int MostExchanges = 3;
+constexpr int ExchangesFitted = 3; // for each effect that may go
+constexpr double NoiseLeft = 1.1;  // times the noise: nothing is left to do better
 
 bool sameCauses(const EffectSet& a, const EffectSet& b)
 {
@@ -74,178 +44,6 @@ void keepBestForms(
   fits = std::move(kept);
 }
 
-bool hasSecondary(const EffectChoice& choice)
-{
-  return std::any_of(choice.form->parameters.begin(), choice.form->parameters.end(),
-    [](const EffectParameter& parameter) { return parameter.secondary; });
-}
-
-// With the secondary parameters of one effect free, where that predicts better.
-EffectFit withSecondary(
-  const EffectFitter& fitter, EffectFit fit, std::size_t position, int iterations)
-{
-  if (!hasSecondary(fit.set.choices[position]) || fit.set.secondaryFree[position] != 0)
-  {
-    return fit;
-  }
-  EffectSet freed = fit.set;
-  freed.secondaryFree[position] = 1;
-  EffectFit other = fitter.fit(std::move(freed), iterations);
-  return other.energy + FormDeviations * other.dispersion < fit.energy ? other : fit;
-}
-
-bool betterForm(const EffectFit& other, const EffectFit& fit, double gapEnergy)
-{
-  const auto more = static_cast<double>(other.parameters() - fit.parameters());
-  return other.energy + FormDeviations * other.dispersion + more * RicherFormPart * gapEnergy <
-    fit.energy;
-}
-
-// The small errors that every camera has, after the causes: gain, dark and center of each channel, where the
-// cross-validation alone asks for them.
-EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
-  const std::vector<EffectChoice>& choices, double gapEnergy)
-{
-  for (const char* name : { "channel_gain", "filter_shift", "dark_offset" })
-  {
-    const auto small = std::find_if(choices.begin(), choices.end(),
-      [name](const EffectChoice& choice)
-      {
-        return choice.effect->name == name && choice.form->name == "per_channel" &&
-          !choice.whiteAfter;
-      });
-    if (small == choices.end() || fit.set.has(*small))
-    {
-      continue;
-    }
-    EffectSet set = fit.set;
-    set.add(*small, fitter.data().camera);
-    EffectFit other = fitter.fit(std::move(set), Iterations);
-    const double gain = fit.energy - other.energy;
-    if (gain > ChanceOfMany * other.dispersion && gain > RelevantPart * gapEnergy)
-    {
-      fit = std::move(other);
-    }
-  }
-  return fit;
-}
-
-// A passband that keeps its peak while it widens is brighter, and little else on smooth reflectances: where plain
-// exposure does as well, it is that.
-EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
-  const std::vector<EffectChoice>& choices, double gapEnergy)
-{
-  const auto exposure = std::find_if(choices.begin(), choices.end(),
-    [](const EffectChoice& choice) { return choice.effect->name == "exposure_gain"; });
-  for (std::size_t position = 0; position < fit.set.size(); ++position)
-  {
-    if (exposure == choices.end() || fit.set.choices[position].form->name != "fixed_peak" ||
-      fit.set.has(*exposure))
-    {
-      continue;
-    }
-    EffectSet set = fit.set;
-    set.remove(position);
-    set.add(*exposure, fitter.data().camera);
-    EffectFit other = fitter.fit(std::move(set), FinalIterations);
-    if (other.energy <=
-      fit.energy + std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion))
-    {
-      fit = std::move(other);
-      break;
-    }
-  }
-  return fit;
-}
-
-// Gains of single channels also do what exposure and lamp do, and mend the small errors on the way. Where exposure or
-// lamp alone do more of it than chance lets them, they are a cause, and the gains are what is left.
-EffectFit splitGains(
-  const EffectFitter& fitter, EffectFit fit, const std::vector<EffectChoice>& choices)
-{
-  const auto gains = std::find_if(fit.set.choices.begin(), fit.set.choices.end(),
-    [](const EffectChoice& c) { return c.effect->name == "channel_gain" && c.smallError(); });
-  if (gains == fit.set.choices.end())
-  {
-    return fit;
-  }
-  const EffectChoice gain = *gains;
-  EffectSet rest = fit.set;
-  rest.remove(static_cast<std::size_t>(gains - fit.set.choices.begin()));
-  const EffectFit without = rest.size() > 0 ? fitter.fit(rest, Iterations) : fitter.nominal();
-  double least = StructuredChance;
-  EffectSet best;
-  for (const EffectChoice& choice : choices)
-  {
-    const bool common =
-      choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift";
-    if (!common || choice.whiteAfter || rest.has(choice))
-    {
-      continue;
-    }
-    EffectSet set = rest;
-    set.add(choice, fitter.data().camera);
-    const EffectFit special = fitter.fit(set, Iterations);
-    const double fraction = (without.energy - special.energy) / (without.energy - fit.energy);
-    const double chance =
-      chanceOfFraction(fraction, static_cast<int>(special.parameters() - without.parameters()),
-        static_cast<int>(fitter.data().channels()));
-    if (chance < least)
-    {
-      least = chance;
-      best = special.set;
-    }
-  }
-  if (best.size() == 0)
-  {
-    return fit;
-  }
-  best.add(gain, fitter.data().camera);
-  return fitter.fit(std::move(best), FinalIterations);
-}
-
-// Other forms of the effects in the set, and their secondary parameters.
-EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
-  const std::vector<EffectChoice>& choices, double gapEnergy)
-{
-  for (std::size_t position = 0; position < fit.set.size(); ++position)
-  {
-    const EffectChoice mine = fit.set.choices[position];
-    EffectSet rest = fit.set;
-    rest.remove(position);
-    const EffectFit without = rest.size() > 0 ? fitter.fit(rest, 2) : fitter.nominal();
-    std::vector<EffectChoice> forms;
-    std::copy_if(choices.begin(), choices.end(), std::back_inserter(forms),
-      [&mine](const EffectChoice& choice)
-      {
-        return choice.sameCause(mine) &&
-          (choice.form != mine.form || choice.whiteAfter != mine.whiteAfter ||
-            choice.leveled != mine.leveled);
-      });
-    for (const ScreenedEffect& form : screenEffects(fitter, without, forms, 0.0))
-    {
-      EffectSet set = rest;
-      set.add(form.choice, fitter.data().camera, form.start);
-      EffectFit other = fitter.fit(std::move(set), Iterations);
-      const std::size_t last = other.set.size() - 1;
-      other = withSecondary(fitter, std::move(other), last, Iterations);
-      if (betterForm(other, fit, gapEnergy))
-      {
-        // Keep the position: the loop runs over it.
-        std::rotate(other.set.choices.begin() + static_cast<std::ptrdiff_t>(position),
-          other.set.choices.end() - 1, other.set.choices.end());
-        std::rotate(other.set.effects.begin() + static_cast<std::ptrdiff_t>(position),
-          other.set.effects.end() - 1, other.set.effects.end());
-        std::rotate(other.set.secondaryFree.begin() + static_cast<std::ptrdiff_t>(position),
-          other.set.secondaryFree.end() - 1, other.set.secondaryFree.end());
-        fit = fitter.fit(other.set, Iterations);
-      }
-    }
-    fit = withSecondary(fitter, std::move(fit), position, Iterations);
-  }
-  return fit.set.size() > 0 ? fitter.fit(fit.set, FinalIterations) : fit;
-}
-
 // An effect in a form that is not quite right leaves a rest that others mend, numbers of single channels above all, and
 // they then hide the form that is right. Where the rest of the causes in their best forms do as well for the price, an
 // effect goes.
@@ -258,8 +56,8 @@ EffectFit withoutMenders(const EffectFitter& fitter, EffectFit fit,
     rest.remove(position);
     EffectFit other =
       chooseForms(fitter, fitter.fit(std::move(rest), Iterations), choices, gapEnergy);
-    if (cost(fitter, other, gapEnergy, fit.dispersion) <
-      cost(fitter, fit, gapEnergy, fit.dispersion))
+    if (costOf(fitter, other, gapEnergy, fit.dispersion) <
+      costOf(fitter, fit, gapEnergy, fit.dispersion))
     {
       fit = std::move(other);
       position = fit.set.size();
@@ -268,48 +66,94 @@ EffectFit withoutMenders(const EffectFitter& fitter, EffectFit fit,
   return fit;
 }
 
-// Beside numbers of single channels all forms of a cause do equally well. The one is right that does most without them.
-EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
-  const std::vector<EffectChoice>& choices, double gapEnergy)
+// Drops effects again that are not worth their price.
+EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEnergy)
 {
-  EffectSet leading;
-  leading.level = fit.set.level;
-  for (std::size_t e = 0; e < fit.set.size(); ++e)
+  for (std::size_t position = 0; position < fit.set.size() && fit.set.size() > 1;)
   {
-    if (!fit.set.choices[e].smallError())
+    EffectSet rest = fit.set;
+    rest.remove(position);
+    EffectFit other = fitter.fit(std::move(rest), Iterations);
+    const double loss = other.energy - fit.energy;
+    if (costOf(fitter, other, gapEnergy, fit.dispersion) <=
+        costOf(fitter, fit, gapEnergy, fit.dispersion) ||
+      loss < std::fmax(ChanceOfMany * fit.dispersion, RelevantPart * gapEnergy))
     {
-      leading.add(fit.set, e);
-    }
-  }
-  if (leading.size() == 0 || leading.size() == fit.set.size())
-  {
-    return fit;
-  }
-  const EffectFit alone = chooseForms(fitter, fitter.fit(leading, Iterations), choices, gapEnergy);
-  EffectSet set;
-  std::size_t next = 0;
-  for (const EffectChoice& choice : fit.set.choices)
-  {
-    if (choice.smallError())
-    {
-      set.add(choice, fitter.data().camera);
+      fit = std::move(other);
+      position = 0;
     }
     else
     {
-      set.add(alone.set, next++);
+      ++position;
     }
   }
-  set.level = alone.set.level;
-  EffectFit other = fitter.fit(std::move(set), FinalIterations);
-  const double tolerance = std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion);
-  return other.energy <= fit.energy + tolerance ? other : fit;
-}
+  return fit;
 }
 
-double parameterPrice(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy)
+// All but one effect of the set; of three or more also all but two.
+std::vector<EffectSet> partsToKeep(const EffectSet& set)
 {
-  const double chance = 0.5 * std::log(std::fmax(fitter.trainingElements(), 2.0)) * fit.dispersion;
-  return std::fmax(chance, FormPart * gapEnergy);
+  std::vector<EffectSet> parts;
+  for (std::size_t first = 0; first < set.size(); ++first)
+  {
+    EffectSet part = set;
+    part.remove(first);
+    for (std::size_t second = first; second < part.size() && set.size() > 2; ++second)
+    {
+      EffectSet smaller = part;
+      smaller.remove(second);
+      parts.push_back(std::move(smaller));
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+// A set that grew effect by effect holds some that only suited the forms of those before them. Where another effect, the
+// others in the forms that it asks for, costs less in the place of one, or of two, it takes it.
+EffectFit withExchanges(const EffectFitter& fitter, EffectFit fit,
+  const std::vector<EffectChoice>& choices, double gapEnergy, const std::function<bool()>& stop)
+{
+  for (int round = 0;
+       round < MostExchanges && fit.set.size() > 1 && fit.energy > NoiseLeft * fitter.noiseEnergy();
+       ++round)
+  {
+    const double dispersion = fit.dispersion;
+    const auto cost = [&](const EffectFit& one)
+    { return costOf(fitter, one, gapEnergy, dispersion); };
+    const EffectFit before = fit;
+    for (const EffectSet& part : partsToKeep(before.set))
+    {
+      if (stop())
+      {
+        return fit;
+      }
+      std::vector<EffectChoice> fresh;
+      std::copy_if(choices.begin(), choices.end(), std::back_inserter(fresh),
+        [&before](const EffectChoice& choice) { return !before.set.has(choice); });
+      std::vector<EffectFit> others =
+        extendFit(fitter, fitter.fit(part, Iterations), fresh, gapEnergy, ExchangesFitted);
+      std::stable_sort(others.begin(), others.end(),
+        [&](const EffectFit& a, const EffectFit& b) { return cost(a) < cost(b); });
+      // What is kept may be in a form that suits only what went; the fewer are kept, the more that says.
+      others.resize(std::min<std::size_t>(others.size(), part.size() == 1 ? ExchangesFitted : 1));
+      for (EffectFit& other : others)
+      {
+        EffectFit formed = chooseForms(fitter, std::move(other), choices, gapEnergy);
+        if (cost(formed) + dispersion < cost(fit))
+        {
+          fit = std::move(formed);
+        }
+      }
+    }
+    if (sameCauses(fit.set, before.set))
+    {
+      break;
+    }
+    fit = withoutSurplus(fitter, std::move(fit), gapEnergy);
+  }
+  return fit;
+}
 }
 
 std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& current,
@@ -370,7 +214,7 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
       [](const EffectFit& a, const EffectFit& b) { return a.energy < b.energy; });
     const double dispersion = least->dispersion;
     const auto price = [&](const EffectFit& fit)
-    { return cost(fitter, fit, gapEnergy, dispersion); };
+    { return costOf(fitter, fit, gapEnergy, dispersion); };
     keepBestForms(grown, price);
     if (size == 1)
     {
@@ -389,42 +233,25 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
     grown.resize(std::min(grown.size(), static_cast<std::size_t>(limits.width)));
     beam = std::move(grown);
   }
+  if (result.best.set.size() == 0 || stop())
+  {
+    return result;
+  }
   result.best = withoutMenders(fitter, std::move(result.best), choices, gapEnergy);
-  // Backward.
-  bool dropped = true;
-  while (dropped && result.best.set.size() > 1)
+  result.best = withoutSurplus(fitter, std::move(result.best), gapEnergy);
+  result.best = chooseForms(fitter, std::move(result.best), choices, gapEnergy);
+  result.best = withExchanges(fitter, std::move(result.best), choices, gapEnergy, stop);
+  result.best = preferExposure(fitter, std::move(result.best), choices, gapEnergy);
+  if (static_cast<int>(result.best.set.size()) < limits.maximumEffects)
   {
-    dropped = false;
-    for (std::size_t position = 0; position < result.best.set.size() && !dropped; ++position)
-    {
-      EffectSet rest = result.best.set;
-      rest.remove(position);
-      EffectFit without = fitter.fit(std::move(rest), Iterations);
-      const double loss = without.energy - result.best.energy;
-      if (cost(fitter, without, gapEnergy, result.best.dispersion) <=
-          cost(fitter, result.best, gapEnergy, result.best.dispersion) ||
-        loss < std::fmax(ChanceOfMany * result.best.dispersion, RelevantPart * gapEnergy))
-      {
-        result.best = std::move(without);
-        dropped = true;
-      }
-    }
+    result.best = splitGains(fitter, std::move(result.best), choices);
   }
-  if (result.best.set.size() > 0)
+  result.causes = result.best.set.size();
+  if (static_cast<int>(result.causes) < limits.maximumEffects)
   {
-    result.best = chooseForms(fitter, result.best, choices, gapEnergy);
-    result.best = preferExposure(fitter, result.best, choices, gapEnergy);
-    if (static_cast<int>(result.best.set.size()) < limits.maximumEffects)
-    {
-      result.best = splitGains(fitter, result.best, choices);
-    }
-    result.causes = result.best.set.size();
-    if (static_cast<int>(result.causes) < limits.maximumEffects)
-    {
-      result.best = addSmallErrors(fitter, result.best, choices, gapEnergy);
-    }
-    result.best = leadingForms(fitter, std::move(result.best), choices, gapEnergy);
+    result.best = addSmallErrors(fitter, std::move(result.best), choices, gapEnergy);
   }
+  result.best = leadingForms(fitter, std::move(result.best), choices, gapEnergy);
   return result;
 }
 

@@ -26,11 +26,6 @@ struct SearchResult
   double gapEnergy = 0.0;         // weighted, beyond noise, before any effect
 };
 
-// The price of one parameter in cross-validated energy: what chance gives it (half of log n times the
-// dispersion), and not less than a fixed part of the gap, because a form is an approximation and a further
-// parameter mends it a little always.
-double parameterPrice(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy);
-
 // Fits current + choice for the best choices of the screen; secondary parameters are freed where the
 // cross-validation asks for it.
 std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& current,

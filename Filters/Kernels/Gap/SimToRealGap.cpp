@@ -9,7 +9,7 @@
 #include "Kernels/Gap/GapNotes.h"
 #include "Kernels/Gap/OrderBreaks.h"
 #include "Kernels/Gap/SeparatingCapture.h"
-#include "Kernels/Gap/ShrinkInterval.h"
+#include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
 #include <cmath>

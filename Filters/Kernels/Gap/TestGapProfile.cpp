@@ -1,5 +1,5 @@
 #include "Kernels/Gap/GapProfile.h"
-#include "Kernels/Gap/ShrinkInterval.h"
+#include "Kernels/Gap/Shrink.h"
 
 #include <gtest/gtest.h>
 

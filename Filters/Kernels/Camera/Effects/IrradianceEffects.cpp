@@ -30,13 +30,19 @@ public:
   explicit IlluminationGradient(const BoundEffect& effect)
     : Right(effect.value("right"))
     , Down(effect.value("down"))
+    , Bend(effect.form().name == "bent" ? effect.value("bend") : 0.0)
   {
   }
-  double factor(double x, double y) const noexcept { return 1.0 + Right * x + Down * y; }
+  double factor(double x, double y) const noexcept
+  {
+    const double plane = Right * x + Down * y;
+    return 1.0 + plane + Bend * plane * plane;
+  }
 
 private:
   double Right;
   double Down;
+  double Bend;
 };
 
 class Vignetting : public FieldOperator<Vignetting>
@@ -109,6 +115,10 @@ std::vector<EffectEntry> irradianceEffects()
   const std::vector<EffectParameter> center = { { "center_x", "half field", 0.0, -1.0, 1.0, 0.2,
                                                   "optical axis", false, true },
     { "center_y", "half field", 0.0, -1.0, 1.0, 0.2, "optical axis", false, true } };
+  const EffectParameter right{ "right", "1", 0.0, -0.5, 0.5, 0.03,
+    "gain from the middle to the edge in x" };
+  const EffectParameter down{ "down", "1", 0.0, -0.5, 0.5, 0.03,
+    "gain from the middle to the edge in y" };
   const EffectParameter tail{ "fraction", "1", 0.0, -0.1, 0.6, 0.01,
     "share of the light in the tail" };
   const EffectParameter radius{ "radius", "pixels", 8.0, 1.0, 64.0, 4.0,
@@ -118,8 +128,12 @@ std::vector<EffectEntry> irradianceEffects()
         "More light on one side of the field than on the other.", EffectStage::Irradiance,
         EffectNeed::Position,
         { { "plane", "u (1 + right x + down y), x and y from -1 to 1 over the field",
-          { { "right", "1", 0.0, -0.5, 0.5, 0.03, "gain from the middle to the edge in x" },
-            { "down", "1", 0.0, -0.5, 0.5, 0.03, "gain from the middle to the edge in y" } } } } },
+            { right, down } },
+          { "bent", "u (1 + s + bend s^2), s = right x + down y: a lamp that is near",
+            { right, down,
+              { "bend", "1", 0.0, -10.0, 10.0, 1.0,
+                "1 / 2 for an exponential, 3 / 4 for the inverse square of a distance", false,
+                true } } } } },
       nullptr, makeBlockOperator<IlluminationGradient> },
     { { "vignetting", "Vignetting", "The lens passes less light off its axis.",
         EffectStage::Irradiance, EffectNeed::Position,

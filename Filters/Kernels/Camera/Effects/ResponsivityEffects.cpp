@@ -12,6 +12,7 @@ namespace msi
 namespace
 {
 constexpr double MiddleWavelength = 550.0;
+constexpr double LeastFactor = 0.2; // of a width that changes from channel to channel
 
 // Wavelengths mapped so that the grid is [-1, 1].
 Eigen::ArrayXd position(const WavelengthGrid& grid, const Eigen::ArrayXd& wavelength)
@@ -53,6 +54,14 @@ public:
   explicit IlluminantDrift(const BoundEffect& effect)
   {
     const Eigen::ArrayXd x = position(effect.camera().wavelengths());
+    if (effect.form().name == "band")
+    {
+      const Eigen::ArrayXd z =
+        (effect.camera().wavelengths().vector().array() - effect.value("center")) /
+        effect.value("width");
+      Factor = 1.0 + effect.value("change") * (-0.5 * z.square()).exp();
+      return;
+    }
     const bool smooth = effect.form().name == "smooth";
     Factor = legendre(x, effect.value("tilt"), smooth ? effect.value("curvature") : 0.0,
       smooth ? effect.value("twist") : 0.0)
@@ -163,8 +172,18 @@ public:
   {
     const bool widens = effect.definition().name == "filter_bandwidth";
     const Eigen::Index channels = effect.camera().channelCount();
-    Factor = widens ? effect.perChannel("factor") : Eigen::ArrayXd::Ones(channels);
-    Shift = widens ? Eigen::ArrayXd::Zero(channels) : effect.perChannel("shift");
+    const Eigen::ArrayXd growth =
+      1.0 + effect.value("growth") * (centers(effect.camera()) - MiddleWavelength) / 100.0;
+    Factor = Eigen::ArrayXd::Ones(channels);
+    Shift = Eigen::ArrayXd::Zero(channels);
+    if (widens)
+    {
+      Factor = (1.0 + (effect.perChannel("factor") - 1.0) * growth).max(LeastFactor);
+    }
+    else
+    {
+      Shift = effect.perChannel("shift") * growth;
+    }
   }
   void apply(Eigen::MatrixXd& responsivity) const override
   {
@@ -259,6 +278,8 @@ std::vector<EffectEntry> responsivityEffects()
     "curvature of the light's logarithm: weight of P2", false, true };
   const EffectParameter twist{ "twist", "1", 0.0, -4.0, 4.0, 0.5,
     "further curvature of the light's logarithm: weight of P3", false, true };
+  const EffectParameter growth{ "growth", "1 per 100 nm", 0.0, -2.0, 2.0, 0.2,
+    "relative growth of the change with the distance of the centroid from 550 nm", false, true };
   const auto leak = [](bool perChannel)
   {
     return std::vector<EffectParameter>{
@@ -283,8 +304,9 @@ std::vector<EffectEntry> responsivityEffects()
           { "in_light",
             "light x passband(c + (wavelength - c) / factor), c the passband's middle; the light "
             "stays, ln(light) = slope P1(x) + bend P2(x) + twist P3(x), none beyond the grid",
-            { factor(false), slope, bend, twist },
-            { { 1.1, 0.0, 0.0, 0.0 }, { 1.1, 1.0, 0.0, 0.0 }, { 1.1, -1.0, 0.0, 0.0 } } } } },
+            { factor(false), growth, slope, bend, twist },
+            { { 1.1, 0.0, 0.0, 0.0, 0.0 }, { 1.1, 0.0, 1.0, 0.0, 0.0 },
+              { 1.1, 0.0, -1.0, 0.0, 0.0 } } } } },
       makeInLightOr<FilterBandwidth> },
     { { "filter_shift", "Filter shift",
         "Passbands at other wavelengths than nominal: maker's tolerance, oblique incidence, "
@@ -302,8 +324,9 @@ std::vector<EffectEntry> responsivityEffects()
           { "in_light",
             "light x passband(wavelength - shift); the light stays, ln(light) = slope P1(x) + bend "
             "P2(x) + twist P3(x), none beyond the grid",
-            { shift(false), slope, bend, twist },
-            { { 1.0, 0.0, 0.0, 0.0 }, { 1.0, 1.0, 0.0, 0.0 }, { 1.0, -1.0, 0.0, 0.0 } } },
+            { shift(false), growth, slope, bend, twist },
+            { { 1.0, 0.0, 0.0, 0.0, 0.0 }, { 1.0, 0.0, 1.0, 0.0, 0.0 },
+              { 1.0, 0.0, -1.0, 0.0, 0.0 } } },
           { "per_channel", "a shift of its own for each channel", { shift(true) }, {}, true } } },
       makeInLightOr<FilterShift> },
     { { "filter_leak", "Filter leak",
@@ -318,7 +341,14 @@ std::vector<EffectEntry> responsivityEffects()
         { { "tilt", "M exp(tilt x), x = -1..1 over the grid", { tilt } },
           { "smooth", "M exp(tilt P1(x) + curvature P2(x) + twist P3(x)), Legendre polynomials",
             { tilt, { "curvature", "1", 0.0, -2.0, 2.0, 0.1, "weight of P2" },
-              { "twist", "1", 0.0, -2.0, 2.0, 0.1, "weight of P3" } } } } },
+              { "twist", "1", 0.0, -2.0, 2.0, 0.1, "weight of P3" } } },
+          { "band", "M (1 + change exp(-(wavelength - center)^2 / (2 width^2)))",
+            { { "change", "1", 0.0, -0.9, 3.0, 0.1, "change of the lamp at the band's middle" },
+              { "center", "nm", 560.0, 300.0, 1100.0, 60.0, "middle of the band", false, true },
+              { "width", "nm", 50.0, 8.0, 150.0, 15.0, "standard deviation of the band", false,
+                true } },
+            { { 0.05, 440.0, 30.0 }, { 0.05, 500.0, 40.0 }, { 0.05, 560.0, 50.0 },
+              { 0.05, 620.0, 40.0 }, { 0.05, 680.0, 40.0 } } } } },
       makeResponsivityOperator<IlluminantDrift> },
   };
 }

@@ -32,6 +32,20 @@ TEST(IlluminationGradient, IsAPlaneOverTheField)
   EXPECT_NEAR(u(0, 47), 1.0 + 0.10 - 0.04 * 25.0 / 35.0, 1e-14);
 }
 
+// 1 / (1 - s / 2)^2 = 1 + s + 3/4 s^2 + 1/2 s^3 + ..
+TEST(IlluminationGradient, BentItIsTheInverseSquareOfADistance)
+{
+  const double right = 0.08;
+  const Eigen::MatrixXd u =
+    respondTo(White, { "illumination_gradient", "bent", "", { right, 0.0, 0.75 } });
+  for (const double side : { -1.0, 1.0 })
+  {
+    const double s = side * right;
+    EXPECT_NEAR(
+      u(3, side < 0.0 ? 0 : 7), 1.0 / std::pow(1.0 - 0.5 * s, 2), 0.6 * right * right * right);
+  }
+}
+
 TEST(Vignetting, IsTheFourthPowerOfTheCosine)
 {
   const Eigen::MatrixXd u = respondTo(White, { "vignetting", "cos4", "", { 0.4, 0.0, 0.0 } });

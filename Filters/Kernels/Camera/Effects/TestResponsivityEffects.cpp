@@ -143,7 +143,7 @@ TEST_F(FiltersInLight, Widen)
   {
     const Eigen::VectorXd real = expected(factor, 0.0);
     const Eigen::VectorXd error =
-      found({ "filter_bandwidth", "in_light", "", { factor, Slope, Bend, 0.0 } }) - real;
+      found({ "filter_bandwidth", "in_light", "", { factor, 0.0, Slope, Bend, 0.0 } }) - real;
     // A passband that the end cuts is not known beyond it: what comes in from there when it narrows is missing.
     const Eigen::Index first = factor < 1.0 ? 1 : 0;
     const Eigen::Index count = factor < 1.0 ? 2 : 4;
@@ -161,16 +161,41 @@ TEST_F(FiltersInLight, Shift)
   for (const double shift : { -6.0, -1.0, 3.0 })
   {
     const Eigen::VectorXd error =
-      found({ "filter_shift", "in_light", "", { shift, Slope, Bend, 0.0 } }) - expected(1.0, shift);
+      found({ "filter_shift", "in_light", "", { shift, 0.0, Slope, Bend, 0.0 } }) -
+      expected(1.0, shift);
     EXPECT_LT(error.segment(1, 2).cwiseAbs().maxCoeff(), 2e-5) << shift;
   }
+}
+
+TEST_F(FiltersInLight, ChangeMoreWhereTheWavesAreLong)
+{
+  const Eigen::ArrayXd z = (msi::designCamera(Grid, Parts).centroids().array() - 550.0) / 100.0;
+  const double growth = 0.4;
+  msi::CameraParts widened = Parts;
+  msi::CameraParts moved = Parts;
+  for (std::size_t k = 0; k < Parts.filters.size(); ++k)
+  {
+    const double more = 1.0 + growth * z[static_cast<Eigen::Index>(k)];
+    widened.filters[k].width *= 1.0 + 0.3 * more;
+    moved.filters[k].center += 3.0 * more;
+  }
+  const auto real = [this](const msi::CameraParts& parts) -> Eigen::VectorXd
+  { return msi::designCamera(Grid, parts).responsivity() * Samples.reflectance.col(0); };
+  const auto error = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b)
+  { return (a - b).segment(1, 2).cwiseAbs().maxCoeff(); };
+  EXPECT_LT(error(found({ "filter_bandwidth", "in_light", "", { 1.3, growth, Slope, Bend, 0.0 } }),
+              real(widened)),
+    2e-5);
+  EXPECT_LT(error(found({ "filter_shift", "in_light", "", { 3.0, growth, Slope, Bend, 0.0 } }),
+              real(moved)),
+    2e-5);
 }
 
 TEST_F(FiltersInLight, ShiftedTheyAreAsBrightAsTheLightThere)
 {
   Samples.reflectance.setOnes();
   const Eigen::VectorXd white = CameraSimulator(msi::designCamera(Grid, Parts),
-    { { "filter_shift", "in_light", "", { 4.0, Slope, 0.0, 0.0 } } })
+    { { "filter_shift", "in_light", "", { 4.0, 0.0, Slope, 0.0, 0.0 } } })
                                   .respond({ Grid, Samples });
   EXPECT_NEAR(white[1], std::exp(Slope * 4.0 / 150.0), 1e-12);
   EXPECT_NEAR(white[2], std::exp(Slope * 4.0 / 150.0), 1e-12);
@@ -219,6 +244,22 @@ TEST(IlluminantDrift, IsTheCameraUnderTheOtherLamp)
   const msi::CameraModel real = msi::designCamera(grid, parts);
   const CameraSimulator simulator(
     nominal, { { "illuminant_drift", "smooth", "", { 0.2, -0.1, 0.05 } } }, { true });
+  EXPECT_LT((simulator.effectiveResponsivity() - real.responsivity()).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(IlluminantDrift, IsABandMoreOfTheLamp)
+{
+  const WavelengthGrid grid = fineGrid();
+  msi::CameraParts parts;
+  parts.detector = msi::siliconDetector(grid);
+  parts.light = msi::planckianLight(grid, 2850.0);
+  parts.filters = { { 470.0, 30.0 }, { 560.0, 50.0 }, { 640.0, 30.0 } };
+  const msi::CameraModel nominal = msi::designCamera(grid, parts);
+  const Eigen::ArrayXd z = (grid.vector().array() - 530.0) / 25.0;
+  parts.light = parts.light.array() * (1.0 - 0.15 * (-0.5 * z.square()).exp());
+  const msi::CameraModel real = msi::designCamera(grid, parts);
+  const CameraSimulator simulator(
+    nominal, { { "illuminant_drift", "band", "", { -0.15, 530.0, 25.0 } } }, { true });
   EXPECT_LT((simulator.effectiveResponsivity() - real.responsivity()).cwiseAbs().maxCoeff(), 1e-15);
 }
 

@@ -5,9 +5,8 @@
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
-#include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/SeparatingCapture.h"
-#include "Kernels/Gap/ShrinkInterval.h"
+#include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,8 @@
 
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
-#include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/Shapley.h"
-#include "Kernels/Gap/ShrinkInterval.h"
+#include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
 #include <cmath>

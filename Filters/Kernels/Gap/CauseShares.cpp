@@ -1,0 +1,267 @@
+#include "Kernels/Gap/CauseShares.h"
+
+#include "Kernels/Gap/ChannelStructure.h"
+#include "Kernels/Gap/Shapley.h"
+#include "Kernels/Gap/Shrink.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int Iterations = 6;
+constexpr double AlikeDoubt = 0.5;
+constexpr double RefutedDeviations = 4.0; // dispersions
+
+EffectSet subsetOf(const EffectSet& set, std::size_t subset)
+{
+  EffectSet part = set;
+  for (std::size_t e = set.size(); e-- > 0;)
+  {
+    if ((subset >> e & 1U) == 0)
+    {
+      part.remove(e);
+    }
+  }
+  return part;
+}
+
+EffectSet atStart(const EffectSet& set, const EffectFitter& fitter)
+{
+  EffectSet fresh;
+  for (std::size_t e = 0; e < set.size(); ++e)
+  {
+    const auto& starts = set.choices[e].form->starts;
+    fresh.add(set.choices[e], fitter.data().camera,
+      starts.empty() ? std::vector<double>() : starts.front());
+    fresh.secondaryFree[e] = 1;
+  }
+  return fresh;
+}
+
+// Shrink of every subset of the effects.
+std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& best)
+{
+  const std::size_t subsets = std::size_t(1) << best.set.size();
+  std::vector<double> shrink{ 0.0 };
+  for (std::size_t subset = 1; subset < subsets; ++subset)
+  {
+    double reached = 0.0;
+    if (subset + 1 == subsets)
+    {
+      reached = shrinkOf(fitter, best);
+    }
+    else
+    {
+      const EffectSet part = subsetOf(best.set, subset);
+      reached = shrinkOf(fitter, fitter.fit(part, Iterations));
+      // Without the others an effect may be far from where it is with them, and needs the freedom that they gave it.
+      if (part.steps() == 0)
+      {
+        reached =
+          std::fmax(reached, shrinkOf(fitter, fitter.fit(atStart(part, fitter), Iterations)));
+      }
+    }
+    shrink.push_back(std::fmax(reached, 0.0));
+  }
+  return shrink;
+}
+
+// The small errors that every camera has in each channel take what the other effects leave: any of them also does, with
+// its many parameters, most of what a single number common to the channels does. But where the others can only be seen
+// once these errors are out of the way, they get what they do then.
+std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& shrink)
+{
+  std::vector<std::size_t> leading;
+  std::vector<std::size_t> small;
+  for (std::size_t e = 0; e < set.size(); ++e)
+  {
+    (set.choices[e].smallError() ? small : leading).push_back(e);
+  }
+  const auto together = [](const std::vector<std::size_t>& effects)
+  {
+    std::size_t subset = 0;
+    for (const std::size_t e : effects)
+    {
+      subset |= std::size_t(1) << e;
+    }
+    return subset;
+  };
+  std::vector<double> share(set.size(), 0.0);
+  const auto shareAmong = [&](const std::vector<std::size_t>& effects, std::size_t present)
+  {
+    std::vector<double> value;
+    for (std::size_t subset = 0; subset < std::size_t(1) << effects.size(); ++subset)
+    {
+      std::size_t all = present;
+      for (std::size_t p = 0; p < effects.size(); ++p)
+      {
+        all |= (subset >> p & 1U) != 0 ? std::size_t(1) << effects[p] : 0;
+      }
+      value.push_back(shrink[all]);
+    }
+    const std::vector<double> part = shapleyValues(value, effects.size());
+    for (std::size_t p = 0; p < effects.size(); ++p)
+    {
+      share[effects[p]] = std::fmax(part[p], 0.0);
+    }
+  };
+  const double first = shrink[together(leading)];
+  const double last = shrink.back() - shrink[together(small)];
+  const bool hidden = last > first;
+  shareAmong(leading, hidden ? together(small) : 0);
+  shareAmong(small, hidden ? 0 : together(leading));
+  return share;
+}
+
+// A change of the response, weighted, element by element.
+Eigen::VectorXd weighted(const EffectFitter& fitter, const Eigen::MatrixXd& change)
+{
+  const Eigen::ArrayXXd whole =
+    (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt() * change.array(), 0.0);
+  return Eigen::Map<const Eigen::VectorXd>(whole.data(), whole.size());
+}
+
+// What each effect does to the response where the others are there too, weighted, one column an effect.
+Eigen::MatrixXd contributions(const EffectFitter& fitter, const EffectFit& fit)
+{
+  const GapData& data = fitter.data();
+  Eigen::MatrixXd columns(data.observed.size(), static_cast<Eigen::Index>(fit.set.size()));
+  for (std::size_t e = 0; e < fit.set.size(); ++e)
+  {
+    EffectSet rest = fit.set;
+    rest.remove(e);
+    columns.col(static_cast<Eigen::Index>(e)) =
+      weighted(fitter, fit.predicted - respond(data.camera, data.scene, rest));
+  }
+  return columns;
+}
+
+// For each effect the part of what it does, 0..1, that the others undo: as far as they point against it, and are as large
+// as it there. What no other can reach is not undone, however large the others are.
+std::vector<double> undoneParts(
+  const EffectFitter& fitter, const EffectFit& fit, const Eigen::MatrixXd& contribution)
+{
+  const Eigen::VectorXd all = weighted(fitter, fit.predicted - fitter.data().simulated);
+  std::vector<double> undone;
+  for (Eigen::Index e = 0; e < contribution.cols(); ++e)
+  {
+    const double size = contribution.col(e).norm();
+    const Eigen::VectorXd others = all - contribution.col(e);
+    const double against = -contribution.col(e).dot(others);
+    if (!(against > 0.0))
+    {
+      undone.push_back(0.0);
+      continue;
+    }
+    const double reached = against / others.norm(); // of `size`, along the others
+    undone.push_back(reached / size * std::fmin(reached, others.norm()) / size);
+  }
+  return undone;
+}
+
+// For each effect the part of what it does, 0..1, that other effects on the same medium do alike. Two that are that
+// similar and are both needed may be one that the library has not got.
+std::vector<double> alikeParts(const EffectSet& set, const Eigen::MatrixXd& contribution)
+{
+  std::vector<double> alike(set.size(), 0.0);
+  for (std::size_t e = 0; e < set.size(); ++e)
+  {
+    std::vector<Eigen::Index> others;
+    for (std::size_t o = 0; o < set.size(); ++o)
+    {
+      if (o != e && !set.choices[e].medium.empty() &&
+        set.choices[o].medium == set.choices[e].medium)
+      {
+        others.push_back(static_cast<Eigen::Index>(o));
+      }
+    }
+    if (others.empty())
+    {
+      continue;
+    }
+    Eigen::MatrixXd columns(contribution.rows(), static_cast<Eigen::Index>(others.size()));
+    for (std::size_t o = 0; o < others.size(); ++o)
+    {
+      columns.col(static_cast<Eigen::Index>(o)) = contribution.col(others[o]);
+    }
+    const Eigen::VectorXd mine = contribution.col(static_cast<Eigen::Index>(e));
+    const Eigen::VectorXd rest = mine - columns * columns.colPivHouseholderQr().solve(mine);
+    const double size = mine.squaredNorm();
+    alike[e] = size > 0.0 ? std::fmax(1.0 - rest.squaredNorm() / size, 0.0) : 0.0;
+  }
+  return alike;
+}
+
+// The part of an effect's share that its own parameters do not belie: gains of single channels that follow one curve
+// over the channels are not errors of single channels, unless what is common to them has a cause of its own.
+double gainsCredible(const EffectSet& set, std::size_t position)
+{
+  const auto common = [](const EffectChoice& choice)
+  { return choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift"; };
+  const EffectChoice& choice = set.choices[position];
+  if (choice.effect->name != "channel_gain" || !choice.smallError() ||
+    std::any_of(set.choices.begin(), set.choices.end(), common))
+  {
+    return 1.0;
+  }
+  const std::vector<double>& gain = set.effects[position].parameters;
+  const auto channels = static_cast<Eigen::Index>(gain.size());
+  const Eigen::VectorXd deviation =
+    Eigen::Map<const Eigen::VectorXd>(gain.data(), channels).array() - 1.0;
+  const double fraction = commonFraction(deviation);
+  const double chance = chanceOfFraction(fraction, CommonDirections, static_cast<int>(channels));
+  return chance < StructuredChance ? std::sqrt(1.0 - fraction) : 1.0;
+}
+
+// A change over the session that a plain gain does better is none.
+bool refuted(const EffectFitter& fitter, const EffectFit& fit, std::size_t position)
+{
+  const EffectChoice& choice = fit.set.choices[position];
+  const bool offset = choice.form->name.rfind("offset", 0) == 0;
+  if (choice.effect->name != "session_drift" || offset)
+  {
+    return false;
+  }
+  const bool perChannel = choice.form->parameters.front().perChannel;
+  const EffectDefinition* gain = findEffect(perChannel ? "channel_gain" : "exposure_gain");
+  const EffectChoice plain{ gain, &gain->forms.front(), "" };
+  if (fit.set.has(plain))
+  {
+    return false;
+  }
+  EffectSet set = fit.set;
+  set.remove(position);
+  set.add(plain, fitter.data().camera);
+  const EffectFit other = fitter.fit(std::move(set), Iterations);
+  return other.energy + RefutedDeviations * other.dispersion < fit.energy;
+}
+}
+
+std::vector<CauseShare> causeShares(
+  const EffectFitter& fitter, const EffectFit& fit, double total, double doubt)
+{
+  const std::vector<double> alone = subsetShrinks(fitter, fit);
+  const std::vector<double> share = sharesOf(fit.set, alone);
+  const double sum = std::accumulate(share.begin(), share.end(), 0.0);
+  const Eigen::MatrixXd contribution = contributions(fitter, fit);
+  const std::vector<double> undone = undoneParts(fitter, fit, contribution);
+  const std::vector<double> alike = alikeParts(fit.set, contribution);
+  std::vector<CauseShare> shares;
+  for (std::size_t e = 0; e < fit.set.size(); ++e)
+  {
+    double credit = sum > 0.0 ? std::fmax(total, 0.0) * share[e] / sum : 0.0;
+    credit *= (1.0 - doubt * undone[e]) * (1.0 - AlikeDoubt * alike[e]) *
+      gainsCredible(fit.set, e) * (refuted(fitter, fit, e) ? 0.0 : 1.0);
+    shares.push_back({ credit, alone[std::size_t(1) << e], undone[e] });
+  }
+  return shares;
+}
+
+} // namespace msi

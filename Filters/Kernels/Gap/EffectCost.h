@@ -1,0 +1,26 @@
+// What a set of effects costs: its cross-validated error, and what its parameters and forms are worth.
+#pragma once
+
+#include "Kernels/Gap/EffectFit.h"
+
+namespace msi
+{
+
+// Cross-validated energy that the best of some fifty useless effects stays below, in dispersions.
+constexpr double ChanceOfMany = 14.0;
+// Part of the gap's energy below which nothing is worth a cause.
+constexpr double RelevantPart = 0.004;
+// Part of the gap's energy that a parameter must be worth.
+constexpr double FormPart = 0.002;
+
+// The price of one parameter in cross-validated energy: what chance gives it (half of log n times the
+// dispersion), and not less than FormPart of the gap, because a form is an approximation and a further
+// parameter mends it a little always.
+double parameterPrice(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy);
+
+// Energy, price of the parameters, and what speaks against the set before the data does: late forms, and an effect of
+// a medium where there is but one. `dispersion`: the same for all sets that are compared.
+double costOf(
+  const EffectFitter& fitter, const EffectFit& fit, double gapEnergy, double dispersion);
+
+} // namespace msi

@@ -1,0 +1,152 @@
+#include "Kernels/Gap/EffectForms.h"
+
+#include "Kernels/Gap/EffectScreen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int Iterations = 6;
+constexpr int FinalIterations = 20;
+constexpr double RicherFormPart = 0.0002; // of the gap's energy, a parameter
+constexpr double FormDeviations = 4.0;    // dispersions by which another form must be better
+// What a simpler cause may be worse by: part of the gap's energy, dispersions.
+constexpr double SimplerPart = 0.02;
+constexpr double SimplerDeviations = 9.0;
+
+bool betterForm(const EffectFit& other, const EffectFit& fit, double gapEnergy)
+{
+  const auto more = static_cast<double>(other.parameters() - fit.parameters());
+  return other.energy + FormDeviations * other.dispersion + more * RicherFormPart * gapEnergy <
+    fit.energy;
+}
+
+}
+
+bool hasSecondary(const EffectChoice& choice)
+{
+  return std::any_of(choice.form->parameters.begin(), choice.form->parameters.end(),
+    [](const EffectParameter& parameter) { return parameter.secondary; });
+}
+
+EffectFit withSecondary(
+  const EffectFitter& fitter, EffectFit fit, std::size_t position, int iterations)
+{
+  if (!hasSecondary(fit.set.choices[position]) || fit.set.secondaryFree[position] != 0)
+  {
+    return fit;
+  }
+  EffectSet freed = fit.set;
+  freed.secondaryFree[position] = 1;
+  EffectFit other = fitter.fit(std::move(freed), iterations);
+  return other.energy + FormDeviations * other.dispersion < fit.energy ? other : fit;
+}
+
+EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
+  const std::vector<EffectChoice>& choices, double gapEnergy)
+{
+  for (std::size_t position = 0; position < fit.set.size(); ++position)
+  {
+    const EffectChoice mine = fit.set.choices[position];
+    EffectSet rest = fit.set;
+    rest.remove(position);
+    const EffectFit without = rest.size() > 0 ? fitter.fit(rest, 2) : fitter.nominal();
+    std::vector<EffectChoice> forms;
+    std::copy_if(choices.begin(), choices.end(), std::back_inserter(forms),
+      [&mine](const EffectChoice& choice)
+      {
+        return choice.sameCause(mine) &&
+          (choice.form != mine.form || choice.whiteAfter != mine.whiteAfter ||
+            choice.leveled != mine.leveled);
+      });
+    for (const ScreenedEffect& form : screenEffects(fitter, without, forms, 0.0))
+    {
+      EffectSet set = rest;
+      set.add(form.choice, fitter.data().camera, form.start);
+      EffectFit other = fitter.fit(std::move(set), Iterations);
+      const std::size_t last = other.set.size() - 1;
+      other = withSecondary(fitter, std::move(other), last, Iterations);
+      if (betterForm(other, fit, gapEnergy))
+      {
+        // Keep the position: the loop runs over it.
+        std::rotate(other.set.choices.begin() + static_cast<std::ptrdiff_t>(position),
+          other.set.choices.end() - 1, other.set.choices.end());
+        std::rotate(other.set.effects.begin() + static_cast<std::ptrdiff_t>(position),
+          other.set.effects.end() - 1, other.set.effects.end());
+        std::rotate(other.set.secondaryFree.begin() + static_cast<std::ptrdiff_t>(position),
+          other.set.secondaryFree.end() - 1, other.set.secondaryFree.end());
+        fit = fitter.fit(other.set, Iterations);
+      }
+    }
+    fit = withSecondary(fitter, std::move(fit), position, Iterations);
+  }
+  return fit.set.size() > 0 ? fitter.fit(fit.set, FinalIterations) : fit;
+}
+
+EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
+  const std::vector<EffectChoice>& choices, double gapEnergy)
+{
+  EffectSet leading;
+  leading.level = fit.set.level;
+  for (std::size_t e = 0; e < fit.set.size(); ++e)
+  {
+    if (!fit.set.choices[e].smallError())
+    {
+      leading.add(fit.set, e);
+    }
+  }
+  if (leading.size() == 0 || leading.size() == fit.set.size())
+  {
+    return fit;
+  }
+  const EffectFit alone = chooseForms(fitter, fitter.fit(leading, Iterations), choices, gapEnergy);
+  EffectSet set;
+  std::size_t next = 0;
+  for (const EffectChoice& choice : fit.set.choices)
+  {
+    if (choice.smallError())
+    {
+      set.add(choice, fitter.data().camera);
+    }
+    else
+    {
+      set.add(alone.set, next++);
+    }
+  }
+  set.level = alone.set.level;
+  EffectFit other = fitter.fit(std::move(set), FinalIterations);
+  const double tolerance = std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion);
+  return other.energy <= fit.energy + tolerance ? other : fit;
+}
+
+EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
+  const std::vector<EffectChoice>& choices, double gapEnergy)
+{
+  const auto exposure = std::find_if(choices.begin(), choices.end(),
+    [](const EffectChoice& choice) { return choice.effect->name == "exposure_gain"; });
+  for (std::size_t position = 0; position < fit.set.size(); ++position)
+  {
+    if (exposure == choices.end() || fit.set.choices[position].form->name != "fixed_peak" ||
+      fit.set.has(*exposure))
+    {
+      continue;
+    }
+    EffectSet set = fit.set;
+    set.remove(position);
+    set.add(*exposure, fitter.data().camera);
+    EffectFit other = fitter.fit(std::move(set), FinalIterations);
+    if (other.energy <=
+      fit.energy + std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion))
+    {
+      fit = std::move(other);
+      break;
+    }
+  }
+  return fit;
+}
+
+} // namespace msi

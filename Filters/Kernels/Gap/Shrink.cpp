@@ -1,0 +1,91 @@
+#include "Kernels/Gap/Shrink.h"
+
+#include "Kernels/Camera/CounterRandom.h"
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int Resamplings = 400;
+constexpr std::uint32_t Stream = 72;
+}
+
+SampleEnergies energiesOf(const EffectFitter& fitter, const EffectFit& fit)
+{
+  const GapData& data = fitter.data();
+  SampleEnergies energies;
+  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  {
+    double before = 0.0;
+    double after = 0.0;
+    double noise = 0.0;
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      if (fitter.weight()(k, i) > 0.0)
+      {
+        const double gap = data.observed(k, i) - data.simulated(k, i);
+        before += gap * gap;
+        after += fit.heldOut(k, i) * fit.heldOut(k, i);
+        noise += data.variance(k, i);
+      }
+    }
+    energies.before.push_back(before);
+    energies.after.push_back(after);
+    energies.noise.push_back(noise);
+  }
+  return energies;
+}
+
+double shrinkOf(double before, double after, double noise) noexcept
+{
+  const double excess = before - noise;
+  if (!(excess > 0.0))
+  {
+    return 0.0;
+  }
+  return std::fmax(1.0 - std::sqrt(std::fmax(after - noise, 0.0) / excess), -1.0);
+}
+
+double shrinkOf(const EffectFitter& fitter, const EffectFit& fit)
+{
+  const SampleEnergies energies = energiesOf(fitter, fit);
+  const auto sum = [](const std::vector<double>& values)
+  { return std::accumulate(values.begin(), values.end(), 0.0); };
+  return shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
+}
+
+std::array<double, 2> shrinkInterval(const SampleEnergies& energies, std::uint64_t seed)
+{
+  const std::size_t count = energies.before.size();
+  if (count == 0)
+  {
+    return { 0.0, 0.0 };
+  }
+  const CounterRandom random(seed, Stream);
+  std::vector<double> shrinks;
+  for (int draw = 0; draw < Resamplings; ++draw)
+  {
+    double before = 0.0;
+    double after = 0.0;
+    double noise = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto index = static_cast<std::uint64_t>(draw) * count + i;
+      const auto pick = std::min(
+        count - 1, static_cast<std::size_t>(random.uniform(index) * static_cast<double>(count)));
+      before += energies.before[pick];
+      after += energies.after[pick];
+      noise += energies.noise[pick];
+    }
+    shrinks.push_back(shrinkOf(before, after, noise));
+  }
+  std::sort(shrinks.begin(), shrinks.end());
+  return { shrinks[Resamplings / 40], shrinks[Resamplings - 1 - Resamplings / 40] };
+}
+
+} // namespace msi

@@ -1,0 +1,88 @@
+#include "Kernels/Gap/SmallErrors.h"
+
+#include "Kernels/Gap/ChannelStructure.h"
+#include "Kernels/Gap/EffectCost.h"
+
+#include <algorithm>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int Iterations = 6;
+constexpr int FinalIterations = 20;
+}
+
+EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
+  const std::vector<EffectChoice>& choices, double gapEnergy)
+{
+  for (const char* name : { "channel_gain", "filter_shift", "dark_offset" })
+  {
+    const auto small = std::find_if(choices.begin(), choices.end(),
+      [name](const EffectChoice& choice)
+      {
+        return choice.effect->name == name && choice.form->name == "per_channel" &&
+          !choice.whiteAfter;
+      });
+    if (small == choices.end() || fit.set.has(*small))
+    {
+      continue;
+    }
+    EffectSet set = fit.set;
+    set.add(*small, fitter.data().camera);
+    EffectFit other = fitter.fit(std::move(set), Iterations);
+    const double gain = fit.energy - other.energy;
+    if (gain > ChanceOfMany * other.dispersion && gain > RelevantPart * gapEnergy)
+    {
+      fit = std::move(other);
+    }
+  }
+  return fit;
+}
+
+EffectFit splitGains(
+  const EffectFitter& fitter, EffectFit fit, const std::vector<EffectChoice>& choices)
+{
+  const auto gains = std::find_if(fit.set.choices.begin(), fit.set.choices.end(),
+    [](const EffectChoice& c) { return c.effect->name == "channel_gain" && c.smallError(); });
+  if (gains == fit.set.choices.end())
+  {
+    return fit;
+  }
+  const EffectChoice gain = *gains;
+  EffectSet rest = fit.set;
+  rest.remove(static_cast<std::size_t>(gains - fit.set.choices.begin()));
+  const EffectFit without = rest.size() > 0 ? fitter.fit(rest, Iterations) : fitter.nominal();
+  double least = StructuredChance;
+  EffectSet best;
+  for (const EffectChoice& choice : choices)
+  {
+    const bool common =
+      choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift";
+    if (!common || choice.whiteAfter || rest.has(choice))
+    {
+      continue;
+    }
+    EffectSet set = rest;
+    set.add(choice, fitter.data().camera);
+    const EffectFit special = fitter.fit(set, Iterations);
+    const double fraction = (without.energy - special.energy) / (without.energy - fit.energy);
+    const double chance =
+      chanceOfFraction(fraction, static_cast<int>(special.parameters() - without.parameters()),
+        static_cast<int>(fitter.data().channels()));
+    if (chance < least)
+    {
+      least = chance;
+      best = special.set;
+    }
+  }
+  if (best.size() == 0)
+  {
+    return fit;
+  }
+  best.add(gain, fitter.data().camera);
+  return fitter.fit(std::move(best), FinalIterations);
+}
+
+} // namespace msi

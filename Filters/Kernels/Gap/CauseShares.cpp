@@ -74,8 +74,9 @@ std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& b
 }
 
 // The small errors that every camera has in each channel take what the other effects leave: any of them also does, with
-// its many parameters, most of what a single number common to the channels does. But where the others can only be seen
-// once these errors are out of the way, they get what they do then.
+// its many parameters, most of what a single number common to the channels does. But where the others do more once these
+// errors are out of the way, they get what they do then. The two groups share by energy: by size what comes last would
+// weigh too much.
 std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& shrink)
 {
   std::vector<std::size_t> leading;
@@ -94,7 +95,8 @@ std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& sh
     return subset;
   };
   std::vector<double> share(set.size(), 0.0);
-  const auto shareAmong = [&](const std::vector<std::size_t>& effects, std::size_t present)
+  const auto shareAmong =
+    [&](const std::vector<std::size_t>& effects, std::size_t present, double part)
   {
     std::vector<double> value;
     for (std::size_t subset = 0; subset < std::size_t(1) << effects.size(); ++subset)
@@ -106,17 +108,26 @@ std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& sh
       }
       value.push_back(shrink[all]);
     }
-    const std::vector<double> part = shapleyValues(value, effects.size());
-    for (std::size_t p = 0; p < effects.size(); ++p)
+    std::vector<double> worth = shapleyValues(value, effects.size());
+    double sum = 0.0;
+    for (double& one : worth)
     {
-      share[effects[p]] = std::fmax(part[p], 0.0);
+      one = std::fmax(one, 0.0);
+      sum += one;
+    }
+    for (std::size_t p = 0; p < effects.size() && sum > 0.0; ++p)
+    {
+      share[effects[p]] = part * worth[p] / sum;
     }
   };
-  const double first = shrink[together(leading)];
-  const double last = shrink.back() - shrink[together(small)];
-  const bool hidden = last > first;
-  shareAmong(leading, hidden ? together(small) : 0);
-  shareAmong(small, hidden ? 0 : together(leading));
+  const auto energy = [&shrink](std::size_t subset)
+  { return 1.0 - std::pow(1.0 - shrink[subset], 2); };
+  const double all = energy(shrink.size() - 1);
+  const double before = energy(together(leading));
+  const double beside = all - energy(together(small));
+  const double part = all > 0.0 ? std::clamp(std::fmax(before, beside) / all, 0.0, 1.0) : 0.0;
+  shareAmong(leading, beside > before ? together(small) : 0, part);
+  shareAmong(small, beside > before ? 0 : together(leading), 1.0 - part);
   return share;
 }
 

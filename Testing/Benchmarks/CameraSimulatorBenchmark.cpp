@@ -87,7 +87,7 @@ std::vector<msi::CameraEffect> pixelEffects()
     { "filter_leak", "", "", { 0.01, 0.2 } }, { "illuminant_drift", "", "", { 0.05 } },
     { "illumination_gradient", "", "", { 0.05, -0.02 } },
     { "vignetting", "", "", { 0.1, 0.0, 0.0 } }, { "exposure_gain", "", "", { 1.02 } },
-    perChannel("channel_gain", "", 0.98, 0.002), { "channel_crosstalk", "", "", { 0.01 } },
+    perChannel("channel_gain", "", 0.98, 0.002), { "channel_crosstalk", "", "", { 0.01, 0.0 } },
     { "detector_nonlinearity", "", "", { -0.05 } }, { "dark_offset", "", "", { 0.003 } },
     { "saturation", "", "", { 0.95, 0.01 } }, { "lag", "", "", { 0.02 } },
     { "banding", "", "", { 0.01, 64.0, 0.25 } } };

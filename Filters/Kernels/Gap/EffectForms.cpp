@@ -130,8 +130,10 @@ EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
     [](const EffectChoice& choice) { return choice.effect->name == "exposure_gain"; });
   for (std::size_t position = 0; position < fit.set.size(); ++position)
   {
-    if (exposure == choices.end() || fit.set.choices[position].form->name != "fixed_peak" ||
-      fit.set.has(*exposure))
+    const EffectChoice& mine = fit.set.choices[position];
+    const bool brightens =
+      mine.effect->name == "filter_bandwidth" && !mine.whiteAfter && !mine.form->keepsWhite;
+    if (exposure == choices.end() || !brightens || fit.set.has(*exposure))
     {
       continue;
     }

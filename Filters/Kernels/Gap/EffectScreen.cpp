@@ -68,7 +68,7 @@ std::vector<std::vector<double>> startsOf(
   std::vector<std::vector<double>> starts = choice.form->starts;
   if (choice.effect->name == "saturation")
   {
-    starts.push_back({ 0.98 * data.observed.maxCoeff(), 0.01 });
+    starts.push_back({ 0.98 * data.observed.maxCoeff(), starts.front()[1] });
   }
   return starts;
 }

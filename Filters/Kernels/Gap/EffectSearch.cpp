@@ -14,6 +14,8 @@ namespace
 {
 constexpr int Iterations = 6;
 constexpr int FormsFitted = 2; // of one effect
+constexpr int FinalIterations = 20;
+constexpr double IdlePart = 0.001; // of the gap's energy
 constexpr int MostExchanges = 3;
 constexpr int ExchangesFitted = 3; // for each effect that may go
 constexpr double NoiseLeft = 1.1;  // times the noise: nothing is left to do better
@@ -88,6 +90,26 @@ EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEn
     }
   }
   return fit;
+}
+
+// Beside effects that came later some do nothing any more.
+void dropIdle(const EffectFitter& fitter, SearchResult& result)
+{
+  const GapData& data = fitter.data();
+  for (std::size_t position = result.best.set.size(); position-- > 0;)
+  {
+    EffectSet rest = result.best.set;
+    rest.remove(position);
+    const Eigen::MatrixXd change = result.best.predicted - respond(data.camera, data.scene, rest);
+    const double energy = (fitter.weight().array() > 0.0)
+                            .select(fitter.weight().array() * change.array().square(), 0.0)
+                            .sum();
+    if (energy < IdlePart * result.gapEnergy)
+    {
+      result.best = fitter.fit(std::move(rest), FinalIterations);
+      result.causes -= position < result.causes ? 1 : 0;
+    }
+  }
 }
 
 // All but one effect of the set; of three or more also all but two.
@@ -252,6 +274,7 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
     result.best = addSmallErrors(fitter, std::move(result.best), choices, gapEnergy);
   }
   result.best = leadingForms(fitter, std::move(result.best), choices, gapEnergy);
+  dropIdle(fitter, result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace msi
 {
@@ -16,6 +17,7 @@ namespace
 constexpr int Iterations = 6;
 constexpr int AlternativesFitted = 8;
 constexpr std::size_t EquivalentNamed = 2;
+constexpr double LeastShare = 0.01;
 constexpr double EquivalentPart = 0.02;      // of the gap's energy
 constexpr double EquivalentDeviations = 9.0; // dispersions
 
@@ -123,6 +125,17 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
   std::stable_sort(causes.begin(), causes.end(),
     [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
   return causes;
+}
+
+std::vector<std::string> takeUncredited(std::vector<GapCause>& causes)
+{
+  const auto first = std::stable_partition(
+    causes.begin(), causes.end(), [](const GapCause& cause) { return cause.share >= LeastShare; });
+  std::vector<std::string> names;
+  std::transform(
+    first, causes.end(), std::back_inserter(names), [](const GapCause& c) { return c.effect; });
+  causes.erase(first, causes.end());
+  return names;
 }
 
 std::vector<GapCandidate> describeCandidates(

@@ -5,6 +5,7 @@
 #include "Kernels/Gap/GapReport.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace msi
@@ -13,6 +14,9 @@ namespace msi
 // One cause for each effect of the fit, the largest share first. total, doubt: as causeShares.
 std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchResult& found,
   const std::vector<EffectChoice>& choices, double total, double doubt);
+
+// Takes causes of less than 1 % of the gap out of the list; their effects' names.
+std::vector<std::string> takeUncredited(std::vector<GapCause>& causes);
 
 // The single effects by what each alone would do. seed: of the intervals.
 std::vector<GapCandidate> describeCandidates(

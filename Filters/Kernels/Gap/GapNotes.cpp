@@ -121,6 +121,21 @@ void noteSamples(std::vector<std::string>& notes, const GapData& data, const Gap
   }
 }
 
+void noteUncredited(std::vector<std::string>& notes, const GapReport& report)
+{
+  if (report.uncredited.empty())
+  {
+    return;
+  }
+  std::string names;
+  for (const std::string& name : report.uncredited)
+  {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  notes.push_back("The corrected simulator also has " + names +
+    ": with it the readings are predicted better, but it is not believed to be a cause.");
+}
+
 void noteSaturation(std::vector<std::string>& notes, const GapData& data)
 {
   const double top = data.observed.maxCoeff();
@@ -218,6 +233,7 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   noteScene(notes, data);
   noteSamples(notes, data, report);
   noteSaturation(notes, data);
+  noteUncredited(notes, report);
   return notes;
 }
 

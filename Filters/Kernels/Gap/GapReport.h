@@ -107,7 +107,9 @@ struct GapReport
   GapFigures gap;
   std::vector<GapAxis> where; // the largest share first
   std::vector<GapChangePoint> changePoints;
-  std::vector<GapCause> causes;         // the largest share first
+  std::vector<GapCause> causes; // the largest share first
+  std::vector<std::string>
+    uncredited; // effects of the correction that help it but get less than 1 % of the gap
   std::vector<GapCandidate> candidates; // the largest shrink first
   GapRemainder unexplained;
   std::optional<GapNextCapture> nextCapture;

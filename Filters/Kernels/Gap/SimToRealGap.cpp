@@ -1,13 +1,14 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
 #include "Kernels/Gap/EffectSearch.h"
-#include "Kernels/Gap/ExcessScatter.h"
 #include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/GapData.h"
 #include "Kernels/Gap/GapNoise.h"
 #include "Kernels/Gap/GapNotes.h"
+#include "Kernels/Gap/HeldOut.h"
 #include "Kernels/Gap/OrderBreaks.h"
+#include "Kernels/Gap/ResidualScatter.h"
 #include "Kernels/Gap/SeparatingCapture.h"
 #include "Kernels/Gap/Shrink.h"
 
@@ -299,12 +300,12 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     limits.width = 2;
     limits.fullFits = 7;
     const SearchResult result = searchEffects(fold, choices, limits, stop);
+    const Eigen::MatrixXd left = leftOfHeldOut(data, result.best, training);
     for (Eigen::Index i = 0; i < data.samples(); ++i)
     {
       if (data.fold[static_cast<std::size_t>(i)] == number - 1)
       {
-        after.col(i) = (data.count.col(i).array() > 0.0)
-                         .select(data.observed.col(i) - result.best.predicted.col(i), 0.0);
+        after.col(i) = left.col(i);
       }
     }
     progress.step("checked on samples left out");
@@ -341,12 +342,9 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   double reflectanceNoise = options.reflectanceNoise.value_or(0.0);
   if (!options.reflectanceNoise && !noise.unknown)
   {
-    const Eigen::VectorXd gain = reflectanceErrorGain(data.camera);
-    const double beyond = unpredicted - measuredOnly(data, data.variance).sum();
-    const double perUnit = measuredOnly(data, gain.replicate(1, data.samples())).sum();
-    reflectanceNoise =
-      std::fmin(std::sqrt(std::fmax(beyond, 0.0) / perUnit), LargestReflectanceNoise);
-    data.variance.colwise() += reflectanceNoise * reflectanceNoise * gain;
+    reflectanceNoise = reflectanceScatter(data, after, unpredicted);
+    data.variance.colwise() +=
+      reflectanceNoise * reflectanceNoise * reflectanceErrorGain(data.camera);
   }
   report.gap = figuresOf(data, energiesOf(data, before, after), options.seed);
   const AxisShares where = shareOverAxes(data, before, true);
@@ -370,6 +368,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     const double left = 1.0 - report.gap.shrinkInterval[1];
     const double doubt = std::fmin(std::fmax(left / DoubtfulRest, 0.0), 1.0);
     report.causes = describeCauses(fitter, found, choices, certain, doubt);
+    report.uncredited = takeUncredited(report.causes);
     report.correction = found.best.set.simulated();
     report.whiteAfterEffects = found.best.set.whiteAfterEffects();
     double share = 0.0;
@@ -379,8 +378,8 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     }
     report.unexplained.share = std::fmin(std::fmax(1.0 - share, 0.0), 1.0);
     report.verdict = shrink >= ExplainedShrink && share >= ExplainedShare ? GapVerdict::Explained
-      : shrink >= PartlyShrink ? GapVerdict::PartlyExplained
-                               : GapVerdict::Unexplained;
+      : shrink >= PartlyShrink && !report.causes.empty() ? GapVerdict::PartlyExplained
+                                                         : GapVerdict::Unexplained;
     report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
   }
   else if ((predictable(data, before, where) &&

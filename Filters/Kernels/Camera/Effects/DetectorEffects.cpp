@@ -86,18 +86,30 @@ private:
   ChannelValues Offset;
 };
 
-// The lower branch of a hyperbola around the corner of min(u, level).
+// The lower branch of a hyperbola around the corner of min(u, level), or the p-norm of both.
 class Saturation : public BlockOperatorOf<Saturation>
 {
 public:
   explicit Saturation(const BoundEffect& effect)
     : Level(effect.value("level"))
-    , Softness(effect.value("softness"))
+    , Gradual(effect.form().name == "gradual")
+    , Softness(Gradual ? 0.0 : effect.value("softness"))
+    , Sharpness(Gradual ? effect.value("sharpness") : 0.0)
   {
   }
   template <typename Scalar>
   void run(Block<Scalar> response, const ColumnContext&) const noexcept
   {
+    if (Gradual)
+    {
+      response = response.unaryExpr(
+        [level = static_cast<Scalar>(Level), p = static_cast<Scalar>(Sharpness)](Scalar u)
+        {
+          const Scalar over = u > Scalar(0) ? std::pow(u / level, p) : Scalar(0);
+          return u / std::pow(Scalar(1) + over, Scalar(1) / p);
+        });
+      return;
+    }
     if constexpr (std::is_same_v<Scalar, float>)
     {
       for (Eigen::Index j = 0; j < response.cols(); j += columnsTogether(response))
@@ -127,7 +139,9 @@ private:
   }
 
   double Level;
+  bool Gradual;
   double Softness;
+  double Sharpness;
 };
 
 EffectParameter offset(bool perChannel)
@@ -162,10 +176,15 @@ std::vector<EffectEntry> detectorEffects()
     { { "saturation", "Saturation", "Full wells or the end of the converter.",
         EffectStage::Detector, EffectNeed::Nothing,
         { { "soft", "(u + level - sqrt((u - level)^2 + softness^2)) / 2, a rounded min(u, level)",
-          { { "level", "white", 8.0, 0.1, 8.0, 0.1, "largest response" },
-            { "softness", "white", 0.01, 0.001, 0.2, 0.02, "width of the rounded corner", false,
-              true } },
-          { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } } } },
+            { { "level", "white", 8.0, 0.1, 8.0, 0.1, "largest response" },
+              { "softness", "white", 0.01, 0.001, 0.2, 0.02, "width of the rounded corner", false,
+                true } },
+            { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } },
+          { "gradual", "u / (1 + (u / level)^sharpness)^(1 / sharpness)",
+            { { "level", "white", 8.0, 0.1, 8.0, 0.1, "largest response" },
+              { "sharpness", "1", 10.0, 2.0, 60.0, 4.0, "the larger, the sharper is the bend",
+                false, true } },
+            { { 1.2, 10.0 }, { 0.9, 10.0 }, { 0.7, 10.0 } } } } },
       nullptr, makeBlockOperator<Saturation>, nullptr, true },
   };
 }

@@ -23,20 +23,20 @@ private:
   ChannelValues Gain;
 };
 
-// u_k + before (u_k-1 - u_k) + after (u_k+1 - u_k); at the ends the neighbour that is missing gives nothing.
+// u_k + before_k (u_k-1 - u_k) + after_k (u_k+1 - u_k); at the ends the neighbour that is missing gives nothing.
 class ChannelCrosstalk : public BlockOperatorOf<ChannelCrosstalk>
 {
 public:
   explicit ChannelCrosstalk(const BoundEffect& effect)
-    : Before(effect.value(effect.form().name == "one_sided" ? "from_previous" : "coupling"))
-    , After(effect.value(effect.form().name == "one_sided" ? "from_next" : "coupling"))
+    : Before(share(effect, "from_previous"))
+    , After(share(effect, "from_next"))
   {
   }
   template <typename Scalar>
   void run(Block<Scalar> signal, const ColumnContext&) const noexcept
   {
-    const auto before = static_cast<Scalar>(Before);
-    const auto after = static_cast<Scalar>(After);
+    const auto& before = Before.as<Scalar>();
+    const auto& after = After.as<Scalar>();
     const Eigen::Index last = signal.rows() - 1;
     for (Eigen::Index j = 0; j < signal.cols(); ++j)
     {
@@ -44,10 +44,10 @@ public:
       for (Eigen::Index k = 0; k <= last; ++k)
       {
         const Scalar self = signal(k, j);
-        Scalar change = before * (previous - self);
+        Scalar change = before[k] * (previous - self);
         if (k < last)
         {
-          change += after * (signal(k + 1, j) - self);
+          change += after[k] * (signal(k + 1, j) - self);
         }
         signal(k, j) = self + change;
         previous = self;
@@ -56,8 +56,19 @@ public:
   }
 
 private:
-  double Before;
-  double After;
+  static ChannelValues share(const BoundEffect& effect, const char* side)
+  {
+    const Eigen::Index channels = effect.camera().channelCount();
+    const Eigen::ArrayXd all = Eigen::ArrayXd::Ones(channels);
+    if (effect.form().name == "one_sided")
+    {
+      return ChannelValues(effect.value(side) * all);
+    }
+    const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(channels, -1.0, 1.0);
+    return ChannelValues(effect.value("coupling") * (all + effect.value("growth") * place));
+  }
+  ChannelValues Before;
+  ChannelValues After;
 };
 }
 
@@ -88,7 +99,12 @@ std::vector<EffectEntry> gainEffects()
         "A part of the neighbouring channels' signal: charge, lag between exposures, a mosaic's "
         "leak.",
         EffectStage::Detector, EffectNeed::Nothing,
-        { { "symmetric", "u_k + coupling (u_k-1 - u_k) + coupling (u_k+1 - u_k)", { coupling } },
+        { { "symmetric",
+            "u_k + c_k (u_k-1 - u_k) + c_k (u_k+1 - u_k), c_k = coupling (1 + growth x), x = -1..1 "
+            "from the first channel to the last",
+            { coupling,
+              { "growth", "1", 0.0, -1.0, 1.0, 0.3,
+                "relative growth of the coupling over the channels", false, true } } },
           { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
             { previous, next } } } },
       nullptr, makeBlockOperator<ChannelCrosstalk> },

@@ -48,7 +48,7 @@ TEST(ChannelCrosstalk, ExchangesLightBetweenNeighbours)
 {
   Eigen::MatrixXd impulse = Eigen::MatrixXd::Zero(5, 1);
   impulse(2, 0) = 1.0;
-  const Eigen::MatrixXd u = respondTo(impulse, { "channel_crosstalk", "", "", { 0.1 } });
+  const Eigen::MatrixXd u = respondTo(impulse, { "channel_crosstalk", "", "", { 0.1, 0.0 } });
   EXPECT_LT((u - (Eigen::MatrixXd(5, 1) << 0.0, 0.1, 0.8, 0.1, 0.0).finished()).norm(), 1e-15);
   const Eigen::MatrixXd sided =
     respondTo(impulse, { "channel_crosstalk", "one_sided", "", { 0.1, 0.05 } });
@@ -56,7 +56,18 @@ TEST(ChannelCrosstalk, ExchangesLightBetweenNeighbours)
     (sided - (Eigen::MatrixXd(5, 1) << 0.0, 0.05, 0.85, 0.1, 0.0).finished()).norm(), 1e-15);
   // What one channel loses its neighbours gain, at the ends too.
   const Eigen::MatrixXd ramp = Eigen::VectorXd::LinSpaced(5, 0.1, 0.9);
-  EXPECT_NEAR(respondTo(ramp, { "channel_crosstalk", "", "", { 0.1 } }).sum(), ramp.sum(), 1e-14);
+  EXPECT_NEAR(
+    respondTo(ramp, { "channel_crosstalk", "", "", { 0.1, 0.0 } }).sum(), ramp.sum(), 1e-14);
+}
+
+// Channels 0 to 4 stand at -1, -1/2, 0, 1/2, 1.
+TEST(ChannelCrosstalk, GrowsOverTheChannels)
+{
+  const Eigen::MatrixXd ramp = Eigen::VectorXd::LinSpaced(5, 0.1, 0.9);
+  const Eigen::MatrixXd u = respondTo(ramp, { "channel_crosstalk", "", "", { 0.1, 0.6 } });
+  EXPECT_NEAR(u(0, 0), 0.1 + 0.1 * (1.0 - 0.6) * 0.2, 1e-15);
+  EXPECT_NEAR(u(2, 0), 0.5, 1e-15);
+  EXPECT_NEAR(u(4, 0), 0.9 - 0.1 * (1.0 + 0.6) * 0.2, 1e-15);
 }
 
 TEST(DetectorNonlinearity, FollowsItsFormula)
@@ -89,6 +100,17 @@ TEST(Saturation, RoundsTheCornerOfTheMinimum)
   // A hyperbola: softness^2 / 4 over the distance from the corner.
   EXPECT_NEAR(respondToFlat(0.4, effect), 0.4 - 0.0001 / 4.0 / 0.4, 1e-7);
   EXPECT_NEAR(respondToFlat(1.6, effect), 0.8 - 0.0001 / 4.0 / 0.8, 1e-7);
+}
+
+// With two it is a hypotenuse; at the level itself any sharpness p leaves 2^(-1/p).
+TEST(Saturation, GraduallyItIsAPNorm)
+{
+  const double u = 0.5 / 0.8;
+  EXPECT_NEAR(respondToFlat(0.5, { "saturation", "gradual", "", { 0.8, 2.0 } }),
+    0.5 / std::hypot(1.0, u), 1e-15);
+  EXPECT_NEAR(respondToFlat(0.8, { "saturation", "gradual", "", { 0.8, 10.0 } }),
+    0.8 * std::pow(2.0, -0.1), 1e-15);
+  EXPECT_EQ(respondToFlat(-0.01, { "saturation", "gradual", "", { 0.8, 10.0 } }), -0.01);
 }
 
 TEST(SessionDrift, FollowsItsCourse)

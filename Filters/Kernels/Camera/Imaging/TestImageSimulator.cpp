@@ -120,7 +120,7 @@ std::vector<CameraEffect> everything()
     { "illuminant_drift", "", "", { 0.05 } }, { "illumination_gradient", "", "", { 0.05, -0.02 } },
     { "vignetting", "", "", { 0.1, 0.0, 0.0 } }, { "veiling_glare", "", "", { 0.02 } },
     { "local_stray_light", "", "", { 0.1, 2.0 } }, { "exposure_gain", "", "", { 1.02 } },
-    perChannel("channel_gain", "", 0.98, 0.01), { "channel_crosstalk", "", "", { 0.01 } },
+    perChannel("channel_gain", "", 0.98, 0.01), { "channel_crosstalk", "", "", { 0.01, 0.0 } },
     { "detector_nonlinearity", "gamma", "", { 1.05 } }, { "dark_offset", "", "", { 0.003 } },
     { "saturation", "", "", { 0.9, 0.02 } }, { "excess_noise", "", "", { 1.5 } }, misregistration(),
     perChannel("defocus", "per_channel", 0.0, 0.2), { "lag", "", "", { 0.02 } },

@@ -1,5 +1,5 @@
-#include "Kernels/Gap/ExcessScatter.h"
 #include "Kernels/Gap/GapTestData.h"
+#include "Kernels/Gap/ResidualScatter.h"
 
 #include <gtest/gtest.h>
 
@@ -69,6 +69,40 @@ TEST(ExcessScatter, WithoutRepeatsItIsNamedAndOnlyHalfBelieved)
   EXPECT_EQ(report.verdict, msi::GapVerdict::PartlyExplained);
   EXPECT_NEAR(report.causes.front().share + report.unexplained.share, 1.0, 1e-9);
   EXPECT_TRUE(says(report.notes, "A second reading of each would tell"));
+}
+
+double scatterOf(const msi::GapCapture& capture)
+{
+  const msi::GapData data = dataOf(capture);
+  const Eigen::MatrixXd residual = data.observed - data.simulated;
+  return msi::reflectanceScatter(data, residual, residual.squaredNorm());
+}
+
+TEST(ReflectanceScatter, IsThatOfTheMeasurement)
+{
+  msi::GapCapture capture = captureWith({}, 400);
+  EXPECT_LT(scatterOf(capture), 0.0003);
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> error(0.0, 0.002);
+  for (double& value : capture.samples.reflectance.reshaped())
+  {
+    value += error(random);
+  }
+  // Five medians of 400 differences each, 4 % apart by chance.
+  EXPECT_NEAR(scatterOf(capture), 0.002, 0.0003);
+}
+
+// Exposure, or a few readings that are wrong altogether, are no scatter of the reflectances.
+TEST(ReflectanceScatter, ErrorsOfTheModelAreNone)
+{
+  // All that stands out would be the largest that is allowed, 0.003.
+  EXPECT_LT(scatterOf(captureWith({ { "exposure_gain", "", "", { 1.02 } } }, 400)), 0.002);
+  msi::GapCapture capture = captureWith({}, 400);
+  for (Eigen::Index j = 0; j < 60; ++j)
+  {
+    capture.readings(j % 7, j * 7) += 0.05;
+  }
+  EXPECT_LT(scatterOf(capture), 0.0006);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "Kernels/Gap/ExcessScatter.h"
+#include "Kernels/Gap/ResidualScatter.h"
 
 #include "Kernels/Gap/GapNoise.h"
 
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <vector>
 
 namespace msi
 {
@@ -17,7 +17,9 @@ constexpr double LeastFactor = 1.25;
 constexpr double LargestFactor = 20.0;
 constexpr double FarMoreLikely = 10.0; // natural logarithm of the likelihood ratio
 constexpr double LeastScatter = 1e-5;
-constexpr double Together = 0.15; // correlation of neighbouring channels
+constexpr std::size_t FewestDifferences = 8;
+constexpr double MedianOfSquares = 0.4549; // of a standard normal
+constexpr double Together = 0.15;          // correlation of neighbouring channels
 
 // Where a function with one hill between ln(low) and ln(high) is highest: golden section.
 template <typename Function>
@@ -66,6 +68,44 @@ double logLikelihood(const GapData& data, const Eigen::MatrixXd& residual,
   }
   return sum;
 }
+}
+
+double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, double unpredicted)
+{
+  const auto measured = data.count.array() > 0.0;
+  const Eigen::VectorXd gain = reflectanceErrorGain(data.camera);
+  const double noise = measured.select(data.variance.array(), 0.0).sum();
+  const double perUnit = measured.select(gain.replicate(1, data.samples()).array(), 0.0).sum();
+  double variance = std::fmax(unpredicted - noise, 0.0) / perUnit;
+  double excess = 0.0;
+  double through = 0.0;
+  for (Eigen::Index k = 1; k + 1 < data.channels(); ++k)
+  {
+    std::vector<double> square;
+    double allowed = 0.0;
+    for (Eigen::Index j = 0; j < data.samples(); ++j)
+    {
+      if (measured(k - 1, j) && measured(k, j) && measured(k + 1, j))
+      {
+        square.push_back(
+          std::pow(residual(k - 1, j) - 2.0 * residual(k, j) + residual(k + 1, j), 2));
+        allowed += data.variance(k - 1, j) + 4.0 * data.variance(k, j) + data.variance(k + 1, j);
+      }
+    }
+    if (square.size() >= FewestDifferences)
+    {
+      const auto middle = square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2);
+      std::nth_element(square.begin(), middle, square.end());
+      excess += *middle / MedianOfSquares - allowed / static_cast<double>(square.size());
+      const auto& m = data.camera.responsivity();
+      through += (m.row(k - 1) - 2.0 * m.row(k) + m.row(k + 1)).squaredNorm();
+    }
+  }
+  if (through > 0.0)
+  {
+    variance = std::fmin(variance, std::fmax(excess, 0.0) / through);
+  }
+  return std::fmin(std::sqrt(variance), LargestReflectanceNoise);
 }
 
 double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,

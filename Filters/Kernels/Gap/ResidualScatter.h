@@ -1,4 +1,4 @@
-// Scatter beyond the noise model where no repeats show it.
+// What the scatter of a residual says: noise beyond its model, reflectances that were not measured exactly.
 #pragma once
 
 #include "Kernels/Gap/GapData.h"
@@ -16,5 +16,11 @@ namespace msi
 // errors go through the channels), and where neighbouring channels do not err together.
 double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
   const ReadingNoise& model, const Eigen::MatrixXd& integration);
+
+// Standard deviation of the measured reflectance, independent from wavelength to wavelength, that the residual allows:
+// what stands out of data.variance, but not more than the second differences between neighbouring channels show in the
+// middle of the samples. Errors of the model are smooth over the channels, or large in few samples; scatter is neither.
+// At most LargestReflectanceNoise.
+double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, double unpredicted);
 
 } // namespace msi

@@ -23,7 +23,7 @@ EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
 EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy);
 
-// A passband that widens and is not balanced again is brighter, and little else on smooth reflectances: where plain
+// A passband that widens and is not balanced again is brighter, and so is a lamp with a level of its own: where plain
 // exposure does as well, it is that.
 EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy);

@@ -38,6 +38,13 @@ def fail_on_error():
         _noted.add(line)
 
 
+def forget_messages():
+    """After a failure that was dealt with: another pipeline starts without its errors."""
+    global _messages
+    _messages = vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(_messages)
+
+
 def create(name, **properties):
     """A proxy of the plugin by its name without spaces, watched for progress."""
     proxy = getattr(simple, name)(registrationName=name, **properties)

@@ -131,8 +131,8 @@ EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
   for (std::size_t position = 0; position < fit.set.size(); ++position)
   {
     const EffectChoice& mine = fit.set.choices[position];
-    const bool brightens =
-      mine.effect->name == "filter_bandwidth" && !mine.whiteAfter && !mine.form->keepsWhite;
+    const bool widens = mine.effect->name == "filter_bandwidth";
+    const bool brightens = mine.leveled || (widens && !mine.whiteAfter && !mine.form->keepsWhite);
     if (exposure == choices.end() || !brightens || fit.set.has(*exposure))
     {
       continue;

@@ -278,11 +278,11 @@ std::vector<EffectChoice> choicesFor(
       for (const EffectForm& form : effect.forms)
       {
         // Without exposure_gain nothing else may carry a gain of all channels in disguise.
-        if (form.name == "fixed_peak" && barred("exposure_gain"))
+        const bool brightens = effect.name == "filter_bandwidth" && !form.keepsWhite;
+        if (!brightens || !barred("exposure_gain"))
         {
-          continue;
+          choices.push_back({ &effect, &form, medium });
         }
-        choices.push_back({ &effect, &form, medium });
         if (effect.stage == EffectStage::Responsivity && !form.keepsWhite)
         {
           choices.push_back({ &effect, &form, medium, true });

@@ -345,7 +345,7 @@ std::vector<EffectEntry> responsivityEffects()
           { "band", "M (1 + change exp(-(wavelength - center)^2 / (2 width^2)))",
             { { "change", "1", 0.0, -0.9, 3.0, 0.1, "change of the lamp at the band's middle" },
               { "center", "nm", 560.0, 300.0, 1100.0, 60.0, "middle of the band", false, true },
-              { "width", "nm", 50.0, 8.0, 150.0, 15.0, "standard deviation of the band", false,
+              { "width", "nm", 50.0, 25.0, 150.0, 15.0, "standard deviation of the band", false,
                 true } },
             { { 0.05, 440.0, 30.0 }, { 0.05, 500.0, 40.0 }, { 0.05, 560.0, 50.0 },
               { 0.05, 620.0, 40.0 }, { 0.05, 680.0, 40.0 } } } } },

@@ -8,20 +8,31 @@ namespace msi
 
 namespace
 {
-constexpr Eigen::Index SlopePoints = 5;
 constexpr double RestLength = 20.0; // nm
+}
 
-// row += weight x (slope at node), through the polynomial of the nearest nodes.
-void addSlope(
-  Eigen::Ref<Eigen::RowVectorXd> row, double weight, const WavelengthGrid& grid, Eigen::Index node)
+MovedSpectrum::MovedSpectrum(const WavelengthGrid& grid)
+  : Grid(grid)
+  , Points(std::min(SlopePoints, grid.size()))
 {
-  const Eigen::Index count = std::min(SlopePoints, grid.size());
-  const Eigen::Index first =
-    std::clamp<Eigen::Index>(node - SlopePoints / 2, 0, grid.size() - count);
-  for (Eigen::Index q = first; q < first + count; ++q)
+  const Eigen::Index half = SlopePoints / 2;
+  for (Eigen::Index node = 0; node < grid.size(); ++node)
   {
-    double slope = q == node ? 0.0 : 1.0 / (grid[q] - grid[node]);
-    for (Eigen::Index s = first; s < first + count; ++s)
+    // Away from the ends of an even grid all are the same.
+    const bool likeTheLast = grid.step() && node > half && node + half < grid.size();
+    Slopes.push_back(likeTheLast ? Slopes.back() : slopeAt(node));
+    Slopes.back().first = std::clamp<Eigen::Index>(node - half, 0, grid.size() - Points);
+  }
+}
+
+// Of the polynomial through the nearest nodes.
+MovedSpectrum::Slope MovedSpectrum::slopeAt(Eigen::Index node) const
+{
+  Slope slope{ std::clamp<Eigen::Index>(node - SlopePoints / 2, 0, Grid.size() - Points), {} };
+  for (Eigen::Index q = slope.first; q < slope.first + Points; ++q)
+  {
+    double weight = q == node ? 0.0 : 1.0 / (Grid[q] - Grid[node]);
+    for (Eigen::Index s = slope.first; s < slope.first + Points; ++s)
     {
       if (s == node || s == q)
       {
@@ -29,59 +40,87 @@ void addSlope(
       }
       if (q == node)
       {
-        slope += 1.0 / (grid[node] - grid[s]);
+        weight += 1.0 / (Grid[node] - Grid[s]);
       }
       else
       {
-        slope *= (grid[node] - grid[s]) / (grid[q] - grid[s]);
+        weight *= (Grid[node] - Grid[s]) / (Grid[q] - Grid[s]);
       }
     }
-    row[q] += weight * slope;
+    slope.weight[static_cast<std::size_t>(q - slope.first)] = weight;
+  }
+  return slope;
+}
+
+template <typename Row>
+void MovedSpectrum::addSlope(double weight, Eigen::Index node, Row&& out) const
+{
+  const Slope& slope = Slopes[static_cast<std::size_t>(node)];
+  for (Eigen::Index q = 0; q < Points; ++q)
+  {
+    out[slope.first + q] += weight * slope.weight[static_cast<std::size_t>(q)];
   }
 }
 
-void addBeyond(
-  Eigen::Ref<Eigen::RowVectorXd> row, const WavelengthGrid& grid, Eigen::Index end, double distance)
+template <typename Row>
+void MovedSpectrum::addBeyond(double weight, Eigen::Index end, double distance, Row&& out) const
 {
-  row[end] += 1.0;
-  addSlope(row, distance / (1.0 + std::abs(distance) / RestLength), grid, end);
-}
+  out[end] += weight;
+  addSlope(weight * distance / (1.0 + std::abs(distance) / RestLength), end, out);
 }
 
-Eigen::MatrixXd movedSpectrum(const WavelengthGrid& grid, const Eigen::ArrayXd& at)
+template <typename Row>
+void MovedSpectrum::add(double weight, double at, Row&& out) const
 {
-  Eigen::MatrixXd operation = Eigen::MatrixXd::Zero(at.size(), grid.size());
-  const Eigen::Index last = grid.size() - 1;
+  const Eigen::Index last = Grid.size() - 1;
+  if (last == 0)
+  {
+    out[0] += weight;
+  }
+  else if (at <= Grid.front())
+  {
+    addBeyond(weight, 0, at - Grid.front(), out);
+  }
+  else if (at >= Grid.back())
+  {
+    addBeyond(weight, last, at - Grid.back(), out);
+  }
+  else
+  {
+    const auto above = std::upper_bound(Grid.values().begin(), Grid.values().end(), at);
+    const auto j = static_cast<Eigen::Index>(above - Grid.values().begin()) - 1;
+    const double width = Grid[j + 1] - Grid[j];
+    const double t = (at - Grid[j]) / width;
+    const double blend = t * t * (3.0 - 2.0 * t);
+    out[j] += weight * (1.0 - blend);
+    out[j + 1] += weight * blend;
+    addSlope(weight * width * t * (1.0 - t) * (1.0 - t), j, out);
+    addSlope(-weight * width * t * t * (1.0 - t), j + 1, out);
+  }
+}
+
+Eigen::MatrixXd MovedSpectrum::operation(const Eigen::ArrayXd& at) const
+{
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(at.size(), Grid.size());
   for (Eigen::Index i = 0; i < at.size(); ++i)
   {
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(grid.size());
-    if (last == 0)
-    {
-      row[0] = 1.0;
-    }
-    else if (at[i] <= grid.front())
-    {
-      addBeyond(row, grid, 0, at[i] - grid.front());
-    }
-    else if (at[i] >= grid.back())
-    {
-      addBeyond(row, grid, last, at[i] - grid.back());
-    }
-    else
-    {
-      const auto above = std::upper_bound(grid.values().begin(), grid.values().end(), at[i]);
-      const auto j = static_cast<Eigen::Index>(above - grid.values().begin()) - 1;
-      const double width = grid[j + 1] - grid[j];
-      const double t = (at[i] - grid[j]) / width;
-      const double blend = t * t * (3.0 - 2.0 * t);
-      row[j] += 1.0 - blend;
-      row[j + 1] += blend;
-      addSlope(row, width * t * (1.0 - t) * (1.0 - t), grid, j);
-      addSlope(row, -width * t * t * (1.0 - t), grid, j + 1);
-    }
-    operation.row(i) = row;
+    add(1.0, at[i], rows.row(i));
   }
-  return operation;
+  return rows;
+}
+
+Eigen::RowVectorXd MovedSpectrum::weighted(
+  const Eigen::ArrayXd& weights, const Eigen::ArrayXd& at) const
+{
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(Grid.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i)
+  {
+    if (weights[i] != 0.0)
+    {
+      add(weights[i], at[i], sum);
+    }
+  }
+  return sum;
 }
 
 } // namespace msi

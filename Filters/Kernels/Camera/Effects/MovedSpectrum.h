@@ -5,6 +5,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <vector>
+
 namespace msi
 {
 
@@ -13,9 +16,37 @@ namespace msi
 //
 // Cubic Hermite pieces; the slopes are those of the polynomial through the five nearest values. d nm beyond an
 // end the spectrum is s_end + slope d / (1 + d / 20 nm): it goes on and comes to rest.
-// Shape:  at.size() x grid.size(); every row sums to one. at: any wavelengths, in any order.
-// Exact:  for cubics within a grid of five wavelengths or more.
-// Cost:   O(at.size() + grid.size()) beside clearing the matrix.
-Eigen::MatrixXd movedSpectrum(const WavelengthGrid& grid, const Eigen::ArrayXd& at);
+// at: any wavelengths, in any order. Every row of T sums to one. Exact for cubics within a grid of five wavelengths or
+// more.
+class MovedSpectrum
+{
+public:
+  explicit MovedSpectrum(const WavelengthGrid& grid);
+
+  // T; at.size() x grid.size().
+  Eigen::MatrixXd operation(const Eigen::ArrayXd& at) const;
+  // weights^T T without T: one row, grid.size(). Cost: O(at.size() + grid.size()).
+  Eigen::RowVectorXd weighted(const Eigen::ArrayXd& weights, const Eigen::ArrayXd& at) const;
+
+private:
+  static constexpr Eigen::Index SlopePoints = 5;
+  struct Slope
+  {
+    Eigen::Index first;
+    std::array<double, SlopePoints> weight;
+  };
+  Slope slopeAt(Eigen::Index node) const;
+  // out(j) += weight x T(row, j) of one wavelength.
+  template <typename Row>
+  void add(double weight, double at, Row&& out) const;
+  template <typename Row>
+  void addSlope(double weight, Eigen::Index node, Row&& out) const;
+  template <typename Row>
+  void addBeyond(double weight, Eigen::Index end, double distance, Row&& out) const;
+
+  WavelengthGrid Grid;
+  Eigen::Index Points;
+  std::vector<Slope> Slopes; // one a wavelength of the grid
+};
 
 } // namespace msi

@@ -83,6 +83,7 @@ class FilterShift : public ResponsivityOperator
 public:
   explicit FilterShift(const BoundEffect& effect)
     : Grid(effect.camera().wavelengths())
+    , Moved(Grid)
     , Shift(effect.perChannel("shift"))
     , Sampled(effect.form().name == "sampled")
   {
@@ -103,12 +104,16 @@ public:
       auto rows = responsivity.middleRows(k, count);
       if (Sampled)
       {
-        const Eigen::MatrixXd moved = movedSpectrum(Grid, Grid.vector().array() - Shift[k]);
+        const Eigen::MatrixXd moved = Moved.operation(Grid.vector().array() - Shift[k]);
         rows = (rows * moved.transpose()).eval();
       }
       else
       {
-        rows = (rows * movedSpectrum(Grid, Grid.vector().array() + Shift[k])).eval();
+        const Eigen::ArrayXd at = Grid.vector().array() + Shift[k];
+        for (Eigen::Index i = 0; i < count; ++i)
+        {
+          rows.row(i) = Moved.weighted(rows.row(i).transpose().array(), at);
+        }
       }
     }
   }
@@ -125,6 +130,7 @@ private:
   }
 
   WavelengthGrid Grid;
+  MovedSpectrum Moved;
   Eigen::ArrayXd Shift;
   bool Sampled;
 };
@@ -134,6 +140,7 @@ class FilterBandwidth : public ResponsivityOperator
 public:
   explicit FilterBandwidth(const BoundEffect& effect)
     : Grid(effect.camera().wavelengths())
+    , Moved(Grid)
     , Factor(effect.perChannel("factor"))
     , Center(centers(effect.camera()))
     , FixedPeak(effect.form().name == "fixed_peak")
@@ -146,12 +153,13 @@ public:
     {
       const Eigen::ArrayXd at = Center[k] + Factor[k] * (wavelength - Center[k]);
       const double gain = FixedPeak ? Factor[k] : 1.0;
-      responsivity.row(k) = (gain * responsivity.row(k) * movedSpectrum(Grid, at)).eval();
+      responsivity.row(k) = Moved.weighted(gain * responsivity.row(k).transpose().array(), at);
     }
   }
 
 private:
   WavelengthGrid Grid;
+  MovedSpectrum Moved;
   Eigen::ArrayXd Factor;
   Eigen::ArrayXd Center;
   bool FixedPeak;
@@ -166,6 +174,7 @@ class PassbandsInLight : public ResponsivityOperator
 public:
   explicit PassbandsInLight(const BoundEffect& effect)
     : Grid(effect.camera().wavelengths())
+    , Moved(Grid)
     , Slope(effect.value("slope"))
     , Bend(effect.value("bend"))
     , Twist(effect.value("twist"))
@@ -198,7 +207,7 @@ public:
       const Eigen::ArrayXd inside =
         at.unaryExpr([this, factor](double w) { return insidePart(w, factor); });
       const Eigen::ArrayXd lit = Factor[k] * row * inside * (logLight(at) - known).exp();
-      responsivity.row(k) = (lit.matrix().transpose() * movedSpectrum(Grid, at)).eval();
+      responsivity.row(k) = Moved.weighted(lit, at);
     }
   }
 
@@ -219,6 +228,7 @@ private:
   }
 
   WavelengthGrid Grid;
+  MovedSpectrum Moved;
   Eigen::ArrayXd Factor;
   Eigen::ArrayXd Shift;
   double Slope;

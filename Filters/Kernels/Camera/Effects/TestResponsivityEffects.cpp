@@ -274,14 +274,19 @@ TEST(MovedSpectrum, IsExactForCubicsAndComesToRestOutside)
   const Eigen::VectorXd values = grid.vector().unaryExpr(cubic);
   Eigen::ArrayXd at(4);
   at << 403.0, 425.0, 436.0, 465.5;
-  const Eigen::VectorXd moved = msi::movedSpectrum(grid, at) * values;
+  const Eigen::VectorXd moved = msi::MovedSpectrum(grid).operation(at) * values;
   for (Eigen::Index i = 0; i < at.size(); ++i)
   {
     EXPECT_NEAR(moved[i], cubic(at[i]), 1e-14) << at[i];
   }
+  const Eigen::ArrayXd weights = Eigen::ArrayXd::LinSpaced(4, -1.0, 2.0);
+  EXPECT_LT((msi::MovedSpectrum(grid).weighted(weights, at) -
+              weights.matrix().transpose() * msi::MovedSpectrum(grid).operation(at))
+              .norm(),
+    1e-14);
   Eigen::ArrayXd outside(3);
   outside << 399.9, 300.0, 480.0;
-  const Eigen::MatrixXd operation = msi::movedSpectrum(grid, outside);
+  const Eigen::MatrixXd operation = msi::MovedSpectrum(grid).operation(outside);
   EXPECT_LT((operation.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
   const double slope = (0.2 + 0.2 * 1.0 + 0.15 * 1.0) / 30.0; // of the cubic at 400 nm, t = -1
   EXPECT_NEAR((operation * values)[0], cubic(400.0) - slope * 0.1 / 1.005, 1e-12);

@@ -98,7 +98,7 @@ CameraEffect perChannel(const char* name, const char* form, double first, double
   return effect;
 }
 
-CameraEffect misregistration()
+CameraEffect misregistration(bool turned = false)
 {
   CameraEffect effect = msi::neutralEffect("misregistration", sevenChannels().channels());
   for (std::size_t k = 0; k < Channels; ++k)
@@ -106,6 +106,7 @@ CameraEffect misregistration()
     effect.parameters[k] = 0.3 * static_cast<double>(k) - 0.8;
     effect.parameters[Channels + k] = 0.5 - 0.2 * static_cast<double>(k);
     effect.parameters[2 * Channels + k] = 0.002 * static_cast<double>(k);
+    effect.parameters[3 * Channels + k] = turned ? 0.2 * static_cast<double>(k) - 0.5 : 0.0;
   }
   return effect;
 }

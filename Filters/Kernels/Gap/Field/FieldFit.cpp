@@ -52,7 +52,8 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
 // channels are eliminated one by one, then the common ones are solved for.
 // Returns the change of the columns, K; `values` gets the parameters.
 std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixXd>& normal,
-  const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values, double radius) const
+  const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values,
+  const FieldShape& shape) const
 {
   const auto K = static_cast<Eigen::Index>(normal.size());
   std::vector<std::size_t> common;
@@ -74,12 +75,12 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
     for (Eigen::Index c = 0; c < C; ++c)
     {
       A.back().col(c) =
-        coefficients(terms[common[static_cast<std::size_t>(c)]].term.parameter, k, radius);
+        coefficients(terms[common[static_cast<std::size_t>(c)]].term.parameter, k, shape);
     }
     for (Eigen::Index o = 0; o < O; ++o)
     {
       B.back().col(o) =
-        coefficients(terms[own[static_cast<std::size_t>(o)]].term.parameter, k, radius);
+        coefficients(terms[own[static_cast<std::size_t>(o)]].term.parameter, k, shape);
     }
     const auto local = normal[static_cast<std::size_t>(k)].topLeftCorner(Columns, Columns);
     H += A.back().transpose() * local * A.back();
@@ -144,18 +145,34 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
   return columns;
 }
 
-FieldFit FieldFitter::fit(const FieldSet& set, double start) const
+FieldShape FieldFitter::shape() const
+{
+  const FieldModel& model = Statistics.model;
+  return { model.at(FieldParameter::TailRadius, 0), model.at(FieldParameter::CenterX, 0),
+    model.at(FieldParameter::CenterY, 0) };
+}
+
+FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
 {
   const FieldModel& model = Statistics.model;
   const auto K = static_cast<std::size_t>(Data.channels());
-  const double radius = start > 0.0 && model.isNeutral(FieldParameter::TailFraction)
-    ? start
-    : model.at(FieldParameter::TailRadius, 0);
+  FieldShape shape = this->shape();
+  if (start.radius > 0.0 && model.isNeutral(FieldParameter::TailFraction))
+  {
+    shape.radius = start.radius;
+  }
+  if (!model.hasVignetting())
+  {
+    shape.centerX = start.centerX;
+    shape.centerY = start.centerY;
+  }
   std::vector<Bound> terms;
   std::vector<char> known(FieldParameters, 0);
   const auto add = [&](const FieldTerm& term, bool held)
   {
-    const double neutral = term.parameter == FieldParameter::TailRadius ? radius
+    const double neutral = term.parameter == FieldParameter::TailRadius ? shape.radius
+      : term.parameter == FieldParameter::CenterX && !held               ? shape.centerX
+      : term.parameter == FieldParameter::CenterY && !held               ? shape.centerY
       : isShape(term.parameter) ? model.at(term.parameter, 0)
                                 : neutralValue(term.parameter);
     terms.push_back({ term, Eigen::ArrayXd::Constant(Data.channels(), neutral),
@@ -188,7 +205,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, double start) const
   std::vector<Eigen::ArrayXd> values;
   for (int round = 0; round < Rounds; ++round)
   {
-    solve(Total, terms, values, radius);
+    solve(Total, terms, values, shape);
     bool beyond = false;
     for (std::size_t t = 0; t < terms.size(); ++t)
     {
@@ -210,7 +227,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, double start) const
       break;
     }
   }
-  fit.next[FieldParameter::TailRadius].setConstant(radius);
+  fit.next[FieldParameter::TailRadius].setConstant(shape.radius);
   std::vector<char> seen(FieldParameters, 0);
   for (std::size_t t = 0; t < terms.size(); ++t)
   {
@@ -238,7 +255,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, double start) const
     {
       others[k] -= Fold[static_cast<std::size_t>(fold)][k];
     }
-    const std::vector<Eigen::VectorXd> change = solve(others, terms, values, radius);
+    const std::vector<Eigen::VectorXd> change = solve(others, terms, values, shape);
     for (std::size_t b = 0; b < Data.blocks.size(); ++b)
     {
       for (std::size_t k = 0; Data.blocks[b].fold == fold && k < K; ++k)
@@ -269,7 +286,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
     }
   }
   const auto p = static_cast<Eigen::Index>(single.size());
-  const double radius = Statistics.model.at(FieldParameter::TailRadius, 0);
+  const FieldShape shape = this->shape();
   std::vector<Eigen::MatrixXd> design(
     static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(Columns, p));
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(p, p);
@@ -281,7 +298,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
       const auto& [term, channel] = single[static_cast<std::size_t>(i)];
       if (channel < 0 || channel == k)
       {
-        columns.col(i) = coefficients(term.parameter, k, radius);
+        columns.col(i) = coefficients(term.parameter, k, shape);
       }
     }
     information += columns.transpose() *

@@ -25,6 +25,7 @@ public:
   {
     while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow(maximumEffects))
     {
+      chooseForm();
     }
     for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
     {
@@ -101,12 +102,20 @@ private:
     }
     for (const FieldChoice& choice : Choices)
     {
-      if (shifted() && choice.effect == "misregistration" && compatible(Current.set, choice))
+      if (choice.effect == "misregistration" && compatible(Current.set, choice))
       {
+        const FieldSet set = joined(Current.set, choice);
+        const bool similar = hasTerm(set, FieldParameter::Rotation);
+        const Eigen::MatrixXd& place = similar ? Start.similarity : Start.shift;
         FieldModel start = Current.statistics->model;
-        start[FieldParameter::Right] = Shifts.col(0);
-        start[FieldParameter::Down] = Shifts.col(1);
-        tryOut(joined(Current.set, choice), start);
+        start[FieldParameter::Right] = place.col(0);
+        start[FieldParameter::Down] = place.col(1);
+        start[FieldParameter::Magnification] = place.col(2);
+        start[FieldParameter::Rotation] = place.col(3);
+        if (!place.isZero() && (!similar || place.rightCols(2).any()))
+        {
+          tryOut(set, start);
+        }
       }
     }
     const FieldHypothesis* best = nullptr;
@@ -125,6 +134,35 @@ private:
     }
     accept(*best);
     return true;
+  }
+
+  // Another form of the effect that came last: what a form leaves over is not to be taken for another effect.
+  void chooseForm()
+  {
+    const FieldFitter fitter(Data, *Current.statistics);
+    const FieldSet rest = withoutOne(Current.set, Current.set.size() - 1);
+    const FieldChoice* last = Current.set.back();
+    std::optional<FieldFit> best;
+    for (const FieldChoice& choice : Choices)
+    {
+      if (&choice == last || choice.effect != last->effect || !available(rest, choice))
+      {
+        continue;
+      }
+      FieldFit fit = linearFit(fitter, joined(rest, choice));
+      if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+      {
+        best = std::move(fit);
+      }
+    }
+    if (best)
+    {
+      const FieldHypothesis other = refit(best->set, best->next);
+      if (cost(other.fit) < cost(Current.fit) - Result.price)
+      {
+        accept(other);
+      }
+    }
   }
 
   // Where no effect counts alone: each with a gain or an offset beside it. Light that falls off, seen against a white in the

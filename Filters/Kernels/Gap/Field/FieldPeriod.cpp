@@ -83,7 +83,7 @@ FieldPeriod findPeriod(
   {
     return {};
   }
-  detrend(profile);
+  detrend(profile, 3);
   const double span = static_cast<double>(lines);
   const auto count = static_cast<int>(Oversampling * (0.5 * span - 2.0)) + 1;
   const auto frequencyOf = [&](int i) { return (2.0 + i / Oversampling) / span; };

@@ -68,7 +68,7 @@ void cutDefects(Eigen::ArrayXXd& values)
 }
 
 Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t without,
-  LineValues LineSums::*kind)
+  LineValues LineSums::*kind, bool keepTrend)
 {
   LineValues lines = noLines((folds[0].*kind).value.rows(), (folds[0].*kind).value.cols());
   for (std::size_t fold = 0; fold < folds.size(); ++fold)
@@ -79,7 +79,7 @@ Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t w
     }
   }
   lines.value /= lines.weight.max(1e-12);
-  detrend(lines);
+  detrend(lines, keepTrend ? 1 : 3);
   lines.value = (lines.weight > 0.0).select(lines.value, 0.0);
   cutDefects(lines.value);
   return lines.value;
@@ -117,14 +117,15 @@ std::vector<LineSums> lineSums(const FieldData& data, const FieldModel& model, b
   return folds;
 }
 
-void detrend(LineValues& lines)
+void detrend(LineValues& lines, Eigen::Index terms)
 {
   const Eigen::Index count = lines.value.rows();
   const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(count, -1.0, 1.0);
-  Eigen::MatrixXd basis(count, 3);
-  basis.col(0).setOnes();
-  basis.col(1) = t;
-  basis.col(2) = t.square();
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Ones(count, terms);
+  for (Eigen::Index power = 1; power < terms; ++power)
+  {
+    basis.col(power) = basis.col(power - 1).array() * t;
+  }
   for (Eigen::Index k = 0; k < lines.value.cols(); ++k)
   {
     const Eigen::MatrixXd weighted = lines.weight.col(k).matrix().asDiagonal() * basis;
@@ -135,14 +136,14 @@ void detrend(LineValues& lines)
 }
 
 FieldProfile findProfile(const FieldData& data, const FieldModel& model, bool alongRows,
-  const Eigen::ArrayXd& limit, const FieldLoop& loop)
+  bool keepTrend, const Eigen::ArrayXd& limit, const FieldLoop& loop)
 {
   const std::vector<LineSums> folds = lineSums(data, model, alongRows, limit, loop);
   FieldProfile profile;
   for (std::size_t without = 0; without <= folds.size(); ++without)
   {
-    profile.gain.push_back(profileWithout(folds, without, &LineSums::gain));
-    profile.offset.push_back(profileWithout(folds, without, &LineSums::offset));
+    profile.gain.push_back(profileWithout(folds, without, &LineSums::gain, keepTrend));
+    profile.offset.push_back(profileWithout(folds, without, &LineSums::offset, keepTrend));
   }
   return profile;
 }

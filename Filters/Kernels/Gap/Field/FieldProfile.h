@@ -27,12 +27,13 @@ struct LineSums
 std::vector<LineSums> lineSums(const FieldData& data, const FieldModel& model, bool alongRows,
   const Eigen::ArrayXd& limit, const FieldLoop& loop);
 
-// Takes a quadratic off each channel.
-void detrend(LineValues& lines);
+// Takes a polynomial off each channel: 1 term is the mean, 3 a quadratic.
+void detrend(LineValues& lines, Eigen::Index terms);
 
-// Gain and offset of each line as the residual of the model shows them, without trend. The strongest fiftieth of the lines
-// are cut to the next: a line that is defect is no stripe.
+// Gain and offset of each line as the residual of the model shows them, without their mean and, but for keepTrend, without
+// the quadratic that may as well be light. The strongest fiftieth of the lines are cut to the next: a line that is defect
+// is no stripe.
 FieldProfile findProfile(const FieldData& data, const FieldModel& model, bool alongRows,
-  const Eigen::ArrayXd& limit, const FieldLoop& loop);
+  bool keepTrend, const Eigen::ArrayXd& limit, const FieldLoop& loop);
 
 } // namespace msi

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace msi
@@ -12,6 +13,7 @@ namespace msi
 namespace
 {
 constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
+constexpr double TrendPart = 0.005; // of the gap's energy, that a trend of stripes must be worth
 constexpr double LeastClip = 0.7;
 constexpr int BackwardRounds = 4;
 constexpr std::size_t FullFits = 2;
@@ -30,6 +32,7 @@ public:
     for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
     {
     }
+    tryTrend();
     return result();
   }
 
@@ -134,6 +137,34 @@ private:
     }
     accept(*best);
     return true;
+  }
+
+  // Stripes of any shape may have a trend, which was taken for light up to here, and mended as such.
+  void tryTrend()
+  {
+    FieldSet set;
+    std::copy_if(Current.set.begin(), Current.set.end(), std::back_inserter(set),
+      [](const FieldChoice* choice)
+      { return choice->effect != "vignetting" && choice->effect != "illumination_gradient"; });
+    if (std::none_of(set.begin(), set.end(), [](const FieldChoice* c) { return isProfile(*c); }))
+    {
+      return;
+    }
+    const FieldHypothesis before = Current;
+    const FieldWeights weights = Result.weights;
+    const double price = Result.price;
+    KeepTrend = true;
+    accept(refit(set, FieldFitter(Data, *Current.statistics).fit(set).next));
+    const FieldHypothesis with = refitted(Data, weights, set, Current.fit.next, Loop);
+    if (with.fit.energy + price * static_cast<double>(parameterCount(set, Data.channels())) >
+      before.fit.energy + price * static_cast<double>(parameterCount(before.set, Data.channels())) -
+        TrendPart * Result.gapEnergy)
+    {
+      KeepTrend = false;
+      Current = before;
+      Result.weights = weights;
+      Result.price = price;
+    }
   }
 
   // Another form of the effect that came last: what a form leaves over is not to be taken for another effect.

@@ -41,6 +41,7 @@ FieldSearchState::FieldSearchState(
   Result.weights = fieldWeights(Result.before, nullptr);
   // Once more with noise known, and what the tolerance does with it.
   measureNominal();
+  Limit = Result.weights.limit;
   Start = registrationStart(data, loop);
 }
 
@@ -138,7 +139,7 @@ void FieldSearchState::findProfiles(FieldModel& model, const FieldSet& set) cons
   const auto find = [&](bool rows)
   {
     return std::make_shared<const FieldProfile>(
-      findProfile(Data, model, rows, Result.weights.limit, Loop));
+      findProfile(Data, model, rows, KeepTrend, Limit, Loop));
   };
   if (!hasProfile(set, true))
   {

@@ -28,6 +28,7 @@ protected:
   const FieldLoop& Loop;
   FieldStart Start; // of misregistration
   FieldHypothesis Current;
+  bool KeepTrend = false; // of the profiles of stripes
   FieldSearchResult Result;
 
   FieldAcceptance acceptance() const { return { Data, Result.gapEnergy, Result.price }; }
@@ -44,6 +45,8 @@ protected:
   void accept(const FieldHypothesis& hypothesis);
 
 private:
+  Eigen::ArrayXd Limit; // of residuals, at the nominal model
+
   void findProfiles(FieldModel& model, const FieldSet& set) const;
   void measureNominal();
   void setPrice(const FieldFitter& fitter);

@@ -1,9 +1,8 @@
 #include "Kernels/Gap/Field/FieldColumns.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
+#include "Kernels/Gap/Field/FieldBlockLight.h"
 #include "Kernels/Gap/Field/FieldDetector.h"
-#include "Kernels/Gap/Field/FieldDisplacement.h"
-#include "Kernels/Gap/Field/FieldNeighbourhood.h"
 
 #include <algorithm>
 #include <array>
@@ -17,91 +16,6 @@ namespace
 constexpr double TwoPi = 6.283185307179586;
 constexpr double Degree = TwoPi / 360.0;
 constexpr double LeastFactor = 0.05; // of the field, where its derivatives are asked for
-
-using Surround = Eigen::Array<double, TailPasses, 1>;
-
-// What happens to the scene before the detector, in one block and channel.
-class BlockLight
-{
-public:
-  BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-    const FieldBlock& block, Eigen::Index channel, bool derivatives)
-    : Block(block)
-    , K(static_cast<std::size_t>(data.channels()))
-    , Channel(static_cast<std::size_t>(channel))
-    , Where(data.pair, model, channel)
-    , Near(near(data, model, block.window, channel, Where, derivatives))
-    , Weights(model.at(FieldParameter::TailFraction, channel) *
-        tailWeights(model.at(FieldParameter::TailRadius, channel)).head<TailPasses>())
-    , Added((model.at(FieldParameter::Glare, channel) +
-              model.at(FieldParameter::ConservingGlare, channel)) *
-        glare[channel])
-    , Lost(1.0 - model.at(FieldParameter::ConservingGlare, channel))
-  {
-    for (int i = 0; i < FreePasses; ++i)
-    {
-      Weights[i + 1] += model.at(surroundWeight(i), channel);
-    }
-    Fraction = Weights.sum();
-  }
-
-  const FieldNeighbourhood& scene() const noexcept { return Near; }
-  double fraction() const noexcept { return Fraction; }
-  double lost() const noexcept { return Lost; }
-
-  Surround surround(int pixel) const
-  {
-    const std::size_t pixels = Block.window.pixels();
-    Surround values;
-    for (std::size_t pass = 0; pass < TailPasses; ++pass)
-    {
-      values[static_cast<Eigen::Index>(pass)] = static_cast<double>(
-        Block.tail[(pass * pixels + static_cast<std::size_t>(pixel)) * K + Channel]);
-    }
-    return values;
-  }
-  double self(int pixel) const
-  {
-    const int x = pixel % Block.window.width;
-    const int y = pixel / Block.window.width;
-    double value = Near.value(x, y);
-    if (Where.varies())
-    {
-      const FieldDisplacement::Place more =
-        Where.beyondMiddle(Block.window, Block.window.x + x, Block.window.y + y);
-      value += more.right * Near.right(x, y) + more.down * Near.down(x, y);
-    }
-    return value;
-  }
-  // Behind lens and stray light.
-  double light(int pixel, double field) const
-  {
-    const double own = self(pixel);
-    return field * (own + (Weights * (surround(pixel) - own)).sum());
-  }
-  double signal(int pixel, double field) const { return Lost * light(pixel, field) + Added; }
-
-private:
-  const FieldBlock& Block;
-  std::size_t K;
-  std::size_t Channel;
-  FieldDisplacement Where;
-  FieldNeighbourhood Near;
-  Surround Weights;
-  double Added;
-  double Lost;
-  double Fraction = 0.0;
-
-  static FieldNeighbourhood near(const FieldData& data, const FieldModel& model,
-    const ImageWindow& window, Eigen::Index channel, const FieldDisplacement& where,
-    bool derivatives)
-  {
-    const double variance = std::max(model.at(FieldParameter::BlurVariance, channel), 0.0);
-    const FieldDisplacement::Place middle = where.atMiddle(window);
-    return { data, window, channel, AxisKernels(middle.right, variance),
-      AxisKernels(middle.down, variance), derivatives || where.varies() };
-  }
-};
 
 // The sines of the lines of a block.
 struct Stripes
@@ -133,21 +47,6 @@ struct Stripes
 const double* linesOf(const Eigen::ArrayXXd* profile, int first, Eigen::Index channel)
 {
   return profile == nullptr ? nullptr : &(*profile)(first, channel);
-}
-
-// The field's factor at each pixel of a window.
-std::vector<double> fieldFactors(
-  const FieldData& data, const FieldModel& model, const ImageWindow& window)
-{
-  std::vector<double> factors;
-  for (int y = window.y; y < window.y + window.height; ++y)
-  {
-    for (int x = window.x; x < window.x + window.width; ++x)
-    {
-      factors.push_back(model.fieldFactor(data.pair.fieldX(x), data.pair.fieldY(y)));
-    }
-  }
-  return factors;
 }
 
 // The channel before, for the lag; that of the last call where it was this one.
@@ -290,10 +189,10 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     out[FieldColumn::Down] = down;
     out[FieldColumn::Magnification] =
       data.pair.offX(window.x + column) * right + data.pair.offY(window.y + row) * down;
-    out[FieldColumn::Rotation] = Degree *
-      (data.pair.offX(window.x + column) * down - data.pair.offY(window.y + row) * right);
+    out[FieldColumn::Rotation] =
+      Degree * (data.pair.offX(window.x + column) * down - data.pair.offY(window.y + row) * right);
     out[FieldColumn::BlurVariance] = sharp * light.scene().blur(column, row);
-    const Surround surround = light.surround(i) - light.self(i);
+    const TailSurround surround = light.surround(i) - light.self(i);
     for (int pass = 0; pass < TailPasses; ++pass)
     {
       out[FieldColumn::Tail + pass] = local * surround[pass];

@@ -1,10 +1,9 @@
 #include "Kernels/Gap/Field/FieldSearch.h"
 
-#include "Kernels/Gap/Field/FieldSearchState.h"
+#include "Kernels/Gap/Field/FieldRevision.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 namespace msi
@@ -12,16 +11,14 @@ namespace msi
 
 namespace
 {
-constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
-constexpr double TrendPart = 0.005; // of the gap's energy, that a trend of stripes must be worth
 constexpr double LeastClip = 0.7;
 constexpr int BackwardRounds = 4;
 constexpr std::size_t FullFits = 2;
 
-class Search : public FieldSearchState
+class Search : public FieldRevision
 {
 public:
-  using FieldSearchState::FieldSearchState;
+  using FieldRevision::FieldRevision;
 
   FieldSearchResult run(int maximumEffects, const std::function<bool()>& stop)
   {
@@ -139,63 +136,6 @@ private:
     return true;
   }
 
-  // Stripes of any shape may have a trend, which was taken for light up to here, and mended as such.
-  void tryTrend()
-  {
-    FieldSet set;
-    std::copy_if(Current.set.begin(), Current.set.end(), std::back_inserter(set),
-      [](const FieldChoice* choice)
-      { return choice->effect != "vignetting" && choice->effect != "illumination_gradient"; });
-    if (std::none_of(set.begin(), set.end(), [](const FieldChoice* c) { return isProfile(*c); }))
-    {
-      return;
-    }
-    const FieldHypothesis before = Current;
-    const FieldWeights weights = Result.weights;
-    const double price = Result.price;
-    KeepTrend = true;
-    accept(refit(set, FieldFitter(Data, *Current.statistics).fit(set).next));
-    const FieldHypothesis with = refitted(Data, weights, set, Current.fit.next, Loop);
-    if (with.fit.energy + price * static_cast<double>(parameterCount(set, Data.channels())) >
-      before.fit.energy + price * static_cast<double>(parameterCount(before.set, Data.channels())) -
-        TrendPart * Result.gapEnergy)
-    {
-      KeepTrend = false;
-      Current = before;
-      Result.weights = weights;
-      Result.price = price;
-    }
-  }
-
-  // Another form of the effect that came last: what a form leaves over is not to be taken for another effect.
-  void chooseForm()
-  {
-    const FieldFitter fitter(Data, *Current.statistics);
-    const FieldSet rest = withoutOne(Current.set, Current.set.size() - 1);
-    const FieldChoice* last = Current.set.back();
-    std::optional<FieldFit> best;
-    for (const FieldChoice& choice : Choices)
-    {
-      if (&choice == last || choice.effect != last->effect || !available(rest, choice))
-      {
-        continue;
-      }
-      FieldFit fit = linearFit(fitter, joined(rest, choice));
-      if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
-      {
-        best = std::move(fit);
-      }
-    }
-    if (best)
-    {
-      const FieldHypothesis other = refit(best->set, best->next);
-      if (cost(other.fit) < cost(Current.fit) - Result.price)
-      {
-        accept(other);
-      }
-    }
-  }
-
   // Where no effect counts alone: each with a gain or an offset beside it. Light that falls off, seen against a white in the
   // same light, is too bright in the middle and too dark at the border: no single effect.
   void rankWithGain(const FieldFitter& fitter, std::vector<FieldFit>& ranked)
@@ -238,87 +178,6 @@ private:
         single = { hypothesis.set.back(), hypothesis.fit.energy, hypothesis.fit.blockEnergy };
       }
     }
-  }
-
-  // Puts another effect or form in the place of each, and a simpler form in the place of one more.
-  bool exchange()
-  {
-    const FieldFitter fitter(Data, *Current.statistics);
-    std::optional<FieldFit> best;
-    const auto consider = [&](FieldFit fit)
-    {
-      if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
-      {
-        best = std::move(fit);
-      }
-    };
-    for (std::size_t e = 0; e < Current.set.size(); ++e)
-    {
-      const FieldSet rest = withoutOne(Current.set, e);
-      for (const FieldChoice& choice : Choices)
-      {
-        if (&choice == Current.set[e] || !available(rest, choice))
-        {
-          continue;
-        }
-        const FieldSet other = joined(rest, choice);
-        FieldFit fit = linearFit(fitter, other);
-        if (fit.energy < Current.fit.energy + Tolerated * Result.gapEnergy)
-        {
-          for (const FieldSet& simple : simpler(other))
-          {
-            consider(linearFit(fitter, simple));
-          }
-        }
-        consider(std::move(fit));
-      }
-    }
-    if (!best)
-    {
-      return false;
-    }
-    const FieldHypothesis other = refit(best->set, best->next);
-    if (cost(other.fit) >= cost(Current.fit) - Result.price)
-    {
-      return false;
-    }
-    accept(other);
-    return true;
-  }
-
-  // The set with a form of fewer parameters in the place of one.
-  std::vector<FieldSet> simpler(const FieldSet& set) const
-  {
-    std::vector<FieldSet> sets;
-    for (std::size_t e = 0; e < set.size(); ++e)
-    {
-      for (const FieldChoice& choice : Choices)
-      {
-        if (choice.effect == set[e]->effect &&
-          parameterCount({ &choice }, Data.channels()) <
-            parameterCount({ set[e] }, Data.channels()) &&
-          available(withoutOne(set, e), choice))
-        {
-          sets.push_back(joined(withoutOne(set, e), choice));
-        }
-      }
-    }
-    return sets;
-  }
-
-  bool drop()
-  {
-    const FieldFitter fitter(Data, *Current.statistics);
-    for (std::size_t e = Current.set.size(); e-- > 0;)
-    {
-      const FieldFit fit = fitter.fit(withoutOne(Current.set, e));
-      if (!acceptance().mayStay(Current.fit, fit, fitter.chance()))
-      {
-        accept(refit(fit.set, fit.next));
-        return true;
-      }
-    }
-    return false;
   }
 };
 }

@@ -162,9 +162,9 @@ void centerPosition(std::vector<Eigen::MatrixXd>& training, std::vector<Eigen::M
   {
     Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(FieldColumn::Count, FieldColumn::Count);
     const double square = training[k](FieldColumn::Gain, FieldColumn::Gain);
-    for (const int column : { FieldColumn::GradientRight, FieldColumn::GradientDown,
-           FieldColumn::RadiusSquared, FieldColumn::RadiusFourth, FieldColumn::Diagonal,
-           FieldColumn::Saddle })
+    for (const int column :
+      { FieldColumn::GradientRight, FieldColumn::GradientDown, FieldColumn::RadiusSquared,
+        FieldColumn::RadiusFourth, FieldColumn::Diagonal, FieldColumn::Saddle })
     {
       mix(FieldColumn::Gain, column) =
         -training[k](FieldColumn::Gain, column) / std::fmax(square, 1e-12);

@@ -19,8 +19,7 @@ constexpr Eigen::Index Oversampling = 6;
 Eigen::MatrixXd basisOf(Eigen::Index lines, double period)
 {
   Eigen::MatrixXd basis(lines, 2 * BandingHarmonics);
-  const Eigen::ArrayXd line =
-    Eigen::ArrayXd::LinSpaced(lines, 0.0, static_cast<double>(lines - 1));
+  const Eigen::ArrayXd line = Eigen::ArrayXd::LinSpaced(lines, 0.0, static_cast<double>(lines - 1));
   for (Eigen::Index n = 0; n < BandingHarmonics; ++n)
   {
     const Eigen::ArrayXd angle = TwoPi * static_cast<double>(n + 1) / period * line;
@@ -87,8 +86,8 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
       best = i;
     }
   }
-  sines.period =
-    static_cast<double>(Oversampling * lines) / static_cast<double>(std::max<Eigen::Index>(best, 1));
+  sines.period = static_cast<double>(Oversampling * lines) /
+    static_cast<double>(std::max<Eigen::Index>(best, 1));
   sines.period = std::fmax(sines.period, 2.0);
   Eigen::MatrixXd basis = basisOf(lines, sines.period);
   Eigen::MatrixXd normal = basis.transpose() * basis;
@@ -118,8 +117,8 @@ BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model)
     const P strength = choice.terms.front().parameter;
     const FieldProfile& profile = *(rows ? model.rows : model.columns);
     const bool gain = strength == P::RowGain || strength == P::ColumnGain;
-    return nearestSines((gain ? profile.gain : profile.offset).back().rowwise() *
-      model[strength].transpose());
+    return nearestSines(
+      (gain ? profile.gain : profile.offset).back().rowwise() * model[strength].transpose());
   }
   BandingSines sines = noSines(K, 1);
   sines.period = rows ? model.rowPeriod : model.columnPeriod;

@@ -21,8 +21,9 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
   const FieldTerm magnification{ P::Magnification, true, -0.02, 0.02, 0.001 };
   const FieldTerm rotation{ P::Rotation, true, -5.0, 5.0, 0.1 };
   const FieldTerm falloff{ P::Falloff, false, -0.45, 0.45, 0.03 };
-  const FieldTerm fourth{ P::Fourth, false, -0.6, 0.6, 0.03 };
-  const FieldTerm sixth{ P::Sixth, false, -0.6, 0.6, 0.03 };
+  const FieldTerm steep{ P::Falloff, false, -1.5, 1.5, 0.03 }; // beside higher orders
+  const FieldTerm fourth{ P::Fourth, false, -1.5, 1.5, 0.03 };
+  const FieldTerm sixth{ P::Sixth, false, -1.5, 1.5, 0.03 };
   const FieldTerm centerX{ P::CenterX, false, -1.0, 1.0, 0.1 };
   const FieldTerm centerY{ P::CenterY, false, -1.0, 1.0, 0.1 };
   std::vector<FieldTerm> surround;
@@ -51,8 +52,8 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
     { "local_stray_light", "free", surround },
     { "vignetting", "quadratic", { falloff } },
     { "vignetting", "quadratic", { falloff, centerX, centerY } },
-    { "vignetting", "polynomial", { falloff, fourth, sixth } },
-    { "vignetting", "polynomial", { falloff, fourth, sixth, centerX, centerY } },
+    { "vignetting", "polynomial", { steep, fourth, sixth } },
+    { "vignetting", "polynomial", { steep, fourth, sixth, centerX, centerY } },
     { "illumination_gradient", "plane",
       { { P::GradientRight, false, -0.5, 0.5, 0.03 },
         { P::GradientDown, false, -0.5, 0.5, 0.03 } } },

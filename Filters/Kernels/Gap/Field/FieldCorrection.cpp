@@ -102,9 +102,9 @@ void FieldCorrection::operator()(
       {
         const auto channel = static_cast<Eigen::Index>(k);
         const double before = k > 0 ? light[k - 1] : 0.0;
-        const double u = ((light[k] + Model.at(P::Retained, channel) * before) *
-                             Model.bandFactor(channel, x, y) +
-                           Model.bandOffset(channel, x, y)) *
+        const double u =
+          ((light[k] + Model.at(P::Retained, channel) * before) * Model.bandFactor(channel, x, y) +
+            Model.bandOffset(channel, x, y)) *
           Model.at(P::Gain, channel);
         *corrected++ = std::isfinite(simulated[k]) ? static_cast<float>(Detector[k](u).value)
                                                    : std::numeric_limits<float>::quiet_NaN();

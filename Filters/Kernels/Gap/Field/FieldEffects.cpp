@@ -105,8 +105,7 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice,
       const double amplitude = sines.amplitude(k, n);
       // The strength of a profile scales all of its sines.
       const double deviation = profile
-        ? error[next + k] * amplitude /
-          std::fmax(model.at(choice.terms.front().parameter, k), 1e-3)
+        ? error[next + k] * amplitude / std::fmax(model.at(choice.terms.front().parameter, k), 1e-3)
         : std::hypot(error[next + k], error[next + K + k]) / std::sqrt(2.0);
       parameters.push_back({ withChannel("amplitude" + harmonicName(n), channel), amplitude,
         offset ? "white" : "1", deviation });

@@ -15,7 +15,7 @@ constexpr int Iterations = 4;
 constexpr double SmallStep = 0.02; // typical sizes
 constexpr double Radii[] = { 2.0, 4.0, 8.0, 16.0, 32.0 };
 constexpr double Centers[] = { -0.3, 0.0, 0.3 }; // half fields
-constexpr double Indistinct = 0.5; // standard error over typical size
+constexpr double Indistinct = 0.5;               // standard error over typical size
 }
 
 double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)

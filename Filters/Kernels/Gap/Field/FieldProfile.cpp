@@ -101,8 +101,8 @@ std::vector<LineSums> lineSums(const FieldData& data, const FieldModel& model, b
         parts[static_cast<std::size_t>(b)] = sumsOf(data, model, glare, block, alongRows, limit);
       }
     });
-  std::vector<LineSums> folds(FieldFolds,
-    { noLines(lines, data.channels()), noLines(lines, data.channels()) });
+  std::vector<LineSums> folds(
+    FieldFolds, { noLines(lines, data.channels()), noLines(lines, data.channels()) });
   for (std::size_t b = 0; b < parts.size(); ++b)
   {
     const FieldBlock& block = data.blocks[b];

@@ -159,9 +159,8 @@ std::vector<GapAxis> fieldAxes(
       : name == "level"                                  ? fifths(level, "level").worst()
       : name == "position"                               ? position.worst()
       : name == "edges" ? fifths(gradient, "change over two pixels").worst()
-      : name == "rows"
-      ? stripeCells(plain.model.rowPeriod, "rows")
-      : stripeCells(plain.model.columnPeriod, "columns");
+      : name == "rows"  ? stripeCells(plain.model.rowPeriod, "rows")
+                        : stripeCells(plain.model.columnPeriod, "columns");
     found.push_back({ name, share[a], cells });
   }
   // What goes with labels, or with blocks, of what is left.

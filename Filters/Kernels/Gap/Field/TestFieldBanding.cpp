@@ -92,12 +92,14 @@ TEST(FieldGap, OffsetsOfRows)
 {
   const TestScene scene(45);
   const msi::CounterRandom random(7, 3);
-  const TestPair pair = changed(scene, 56,
-    [&](double u, int k, int, int y, double)
-    {
-      return u +
-        0.02 * random.normal(static_cast<std::uint64_t>(4 * y) + static_cast<std::uint64_t>(k));
-    });
+  Eigen::ArrayXXd offset(scene.height(), scene.channels());
+  for (Eigen::Index i = 0; i < offset.size(); ++i)
+  {
+    offset(i) = 0.02 * random.normal(static_cast<std::uint64_t>(i));
+  }
+  offset.rowwise() -= offset.colwise().mean().eval(); // that would be a dark offset
+  const TestPair pair =
+    changed(scene, 56, [&](double u, int k, int, int y, double) { return u + offset(y, k); });
   const GapReport report = diagnose(pair);
   expectFirst(report, "banding", "rows");
   EXPECT_EQ(report.causes.front().form, "row_offsets");

@@ -25,9 +25,9 @@ enum Index : int
   RadiusSixth,
   CenterX,
   CenterY,
-  Square,        // u^2
-  Exponent,      // u ln u
-  Clip,          // u above the level of clipping
+  Square,   // u^2
+  Exponent, // u ln u
+  Clip,     // u above the level of clipping
   ClipLevel,
   Before, // the channel before
   Mean,   // of the scene, what glare adds

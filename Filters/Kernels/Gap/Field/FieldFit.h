@@ -44,7 +44,7 @@ Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels);
 // Where a fit starts from what the normal equations do not have yet, and what they are taken to be there.
 struct FieldShape
 {
-  double radius = 0.0; // of the tail; 0: the model's
+  double radius = 0.0;  // of the tail; 0: the model's
   double centerX = 0.0; // of vignetting
   double centerY = 0.0;
 };

@@ -24,8 +24,6 @@ constexpr double UnexplainedRms = 1.1;    // of the noise floor
 constexpr double UnexplainedBlocks = 2.0; // squared block means over what noise allows
 constexpr double ExplainedBlocks = 1.5;
 constexpr double FewUsable = 0.5;
-constexpr double Doubt =
-  4.0; // power of what of the shrink is certain where a part stays unexplained
 
 struct TestEnergies
 {
@@ -151,7 +149,8 @@ std::vector<std::string> notesOn(
       notes.push_back(text.str());
     }
   }
-  if (has(set, "vignetting") && has(set, "illumination_gradient"))
+  if ((has(set, "vignetting") && has(set, "illumination_gradient")) ||
+    hasTerm(set, FieldParameter::CenterX))
   {
     notes.emplace_back("vignetting about a center off the middle looks like vignetting with "
                        "illumination_gradient; the chart rotated by 180 degrees separates them");
@@ -225,7 +224,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     // What is left has a cause that is not known and may overlap with those found.
     const double certain = report.verdict == GapVerdict::Explained
       ? shrink
-      : shrink * std::pow(std::fmin(shrink / ExplainedShrink, 1.0), Doubt);
+      : shrink * std::fmin(shrink / ExplainedShrink, 1.0);
     report.causes = fieldCauses(data, found, choices, certain);
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
     report.unexplained.share = std::clamp(1.0 - certain, 0.0, 1.0);

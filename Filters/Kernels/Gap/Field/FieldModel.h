@@ -101,7 +101,10 @@ struct FieldModel
   double gradient(double x, double y) const noexcept;
   // 1 - falloff rho^2 - fourth rho^4 - sixth rho^6, not below zero
   double vignetting(double x, double y) const noexcept;
-  double fieldFactor(double x, double y) const noexcept { return gradient(x, y) * vignetting(x, y); }
+  double fieldFactor(double x, double y) const noexcept
+  {
+    return gradient(x, y) * vignetting(x, y);
+  }
   // 1 + what stripes of rows and columns do; and what they add.
   double bandFactor(Eigen::Index channel, int x, int y) const noexcept;
   double bandOffset(Eigen::Index channel, int x, int y) const noexcept;

@@ -9,8 +9,7 @@ namespace msi
 
 namespace
 {
-constexpr double Tolerated = 0.01;  // of the gap's energy, on the way to a simpler form
-constexpr double TrendPart = 0.005; // of the gap's energy, that a trend of stripes must be worth
+constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
 }
 
 void FieldRevision::chooseForm()
@@ -57,9 +56,7 @@ void FieldRevision::tryTrend()
   KeepTrend = true;
   accept(refit(set, FieldFitter(Data, *Current.statistics).fit(set).next));
   const FieldHypothesis with = refitted(Data, weights, set, Current.fit.next, Loop);
-  if (with.fit.energy + price * static_cast<double>(parameterCount(set, Data.channels())) >
-    before.fit.energy + price * static_cast<double>(parameterCount(before.set, Data.channels())) -
-      TrendPart * Result.gapEnergy)
+  if (with.fit.energy > before.fit.energy - price)
   {
     KeepTrend = false;
     Current = before;

@@ -3,6 +3,7 @@
 #include "Kernels/Gap/Field/FieldBanding.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
+#include "Kernels/Gap/Field/FieldHypothesis.h"
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"

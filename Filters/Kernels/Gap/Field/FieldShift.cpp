@@ -135,6 +135,7 @@ FieldStart registrationStart(const FieldData& data, const FieldLoop& loop)
     [&](int channel)
     {
       std::vector<Match> matches;
+      matches.reserve(blocks.size());
       for (const FieldBlock* block : blocks)
       {
         matches.push_back(matchOf(data, *block, channel));

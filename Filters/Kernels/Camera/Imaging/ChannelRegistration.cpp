@@ -100,8 +100,8 @@ ChannelRegistration::ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd do
   const double corner = 0.5 * std::hypot(extent.width, extent.height);
   for (Eigen::Index k = 0; k < Right.size(); ++k)
   {
-    const double largest =
-      std::max(std::abs(Right[k]), std::abs(Down[k])) + std::abs(Magnification[k]) * half +
+    const double largest = std::max(std::abs(Right[k]), std::abs(Down[k])) +
+      std::abs(Magnification[k]) * half +
       std::abs(Rotation[k]) * (corner + std::hypot(Right[k], Down[k]));
     Reach = std::max(Reach, static_cast<int>(std::ceil(largest / (1.0 + Magnification[k]))) + 2);
   }

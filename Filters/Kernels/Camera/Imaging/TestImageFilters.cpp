@@ -153,7 +153,8 @@ TEST(ChannelRegistration, MovesAQuadraticExactly)
   const auto surface = [](double x, double y)
   { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y; };
   const msi::ChannelRegistration move(Eigen::Array3d(0.0, 2.0, -0.37),
-    Eigen::Array3d(0.0, -1.0, 1.62), Eigen::Array3d(0.0, 0.0, 0.01), Eigen::Array3d::Zero(), Extent);
+    Eigen::Array3d(0.0, -1.0, 1.62), Eigen::Array3d(0.0, 0.0, 0.01), Eigen::Array3d::Zero(),
+    Extent);
   PixelBuffer picture = pictureOf(3, [&](int x, int y, int) { return surface(x, y); });
   const PixelBuffer before = picture;
   PixelBuffer scratch;

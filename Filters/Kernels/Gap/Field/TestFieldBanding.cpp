@@ -1,5 +1,5 @@
 #include "Kernels/Gap/Field/FieldBanding.h"
-#include "Kernels/Gap/Field/FieldTestReport.h"
+#include "Kernels/Gap/Field/TestFieldReport.h"
 
 #include <gtest/gtest.h>
 

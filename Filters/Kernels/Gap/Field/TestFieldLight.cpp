@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Field/FieldTestReport.h"
+#include "Kernels/Gap/Field/TestFieldReport.h"
 
 #include <gtest/gtest.h>
 

@@ -23,15 +23,15 @@ NEXT = {
               "others than simulated. Diagnose the patches as a table (samples.csv and responses.csv in the capture): that "
               "knows the effects of light and filters.",
     "region": "What is left stands in single regions: look for reflections, shadows and dirt there on the map.",
-    "edges": "What is left stands along edges: rotation, distortion or a point spread that is not round. Register the images "
+    "edges": "What is left stands along edges: distortion or a point spread that is not round. Register the images "
              "first, or capture a grid target through each filter.",
-    "position": "What is left changes smoothly over the field, but neither as a plane of light nor as a lens falls off about the "
-                "middle: capture a flat field.",
+    "position": "What is left changes smoothly over the field, but neither as a plane of light nor as a lens falls off: "
+                "capture a flat field.",
     "channel": "What is left differs from channel to channel: capture a grey ramp, which tells gains from offsets and from the "
                "spectrum of the lamp.",
     "level": "What is left goes with the signal: capture an exposure series of one patch.",
-    "rows": "What is left changes from row to row, but not as a sine: capture a flat field at two exposure times.",
-    "columns": "What is left changes from column to column, but not as a sine: capture a flat field at two exposure times.",
+    "rows": "What is left changes from row to row, but not alike along a row: capture a flat field at two exposure times.",
+    "columns": "What is left changes from column to column, but not alike along a column: capture a flat field at two exposure times.",
 }
 _CAMERAS = ("camera.json", "camera.csv")
 

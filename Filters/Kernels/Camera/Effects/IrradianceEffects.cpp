@@ -50,7 +50,10 @@ class Vignetting : public FieldOperator<Vignetting>
 public:
   explicit Vignetting(const BoundEffect& effect)
     : CosineFourth(effect.form().name == "cos4")
+    , Polynomial(effect.form().name == "polynomial")
     , Strength(CosineFourth ? std::pow(effect.value("tangent"), 2) : effect.value("falloff"))
+    , Fourth(Polynomial ? effect.value("fourth") : 0.0)
+    , Sixth(Polynomial ? effect.value("sixth") : 0.0)
     , CenterX(effect.value("center_x"))
     , CenterY(effect.value("center_y"))
   {
@@ -63,12 +66,20 @@ public:
       const double secant2 = 1.0 + Strength * radius2;
       return 1.0 / (secant2 * secant2);
     }
+    if (Polynomial)
+    {
+      const double factor = 1.0 - radius2 * (Strength + radius2 * (Fourth + radius2 * Sixth));
+      return std::fmax(factor, 0.0);
+    }
     return 1.0 - Strength * radius2;
   }
 
 private:
   bool CosineFourth;
+  bool Polynomial;
   double Strength;
+  double Fourth;
+  double Sixth;
   double CenterX;
   double CenterY;
 };
@@ -143,7 +154,12 @@ std::vector<EffectEntry> irradianceEffects()
           { "cos4", "u / (1 + tangent^2 rho^2)^2, the cosine-fourth law",
             { { "tangent", "1", 0.0, 0.0, 1.0, 0.1, "tangent of the field angle at rho = 1" },
               center[0], center[1] },
-            { { 0.2, 0.0, 0.0 } } } } },
+            { { 0.2, 0.0, 0.0 } } },
+          { "polynomial", "u (1 - falloff rho^2 - fourth rho^4 - sixth rho^6), not below zero",
+            { { "falloff", "1", 0.0, -1.5, 1.5, 0.03, "loss at rho = 1 that grows with rho^2" },
+              { "fourth", "1", 0.0, -1.5, 1.5, 0.03, "loss at rho = 1 that grows with rho^4" },
+              { "sixth", "1", 0.0, -1.5, 1.5, 0.03, "loss at rho = 1 that grows with rho^6" },
+              center[0], center[1] } } } },
       nullptr, makeBlockOperator<Vignetting> },
     { { "veiling_glare", "Veiling glare",
         "Light scattered in the lens covers the whole field in proportion to the scene's mean.",

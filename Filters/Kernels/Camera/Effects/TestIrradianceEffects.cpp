@@ -60,6 +60,18 @@ TEST(Vignetting, QuadraticFalloffIsAboutItsCenter)
   EXPECT_NEAR(u(2, 7), 1.0 - 0.2 * 4.0, 1e-14);
 }
 
+TEST(Vignetting, PolynomialHasTheFourthAndTheSixthPowerAndIsNeverNegative)
+{
+  const Eigen::MatrixXd u =
+    respondTo(White, { "vignetting", "polynomial", "", { 0.1, 0.05, -0.02, 0.5, 0.0 } });
+  const double square = 0.25 + 625.0 / 1225.0;
+  EXPECT_NEAR(
+    u(2, 7), 1.0 - 0.1 * square - 0.05 * square * square + 0.02 * square * square * square, 1e-14);
+  const Eigen::MatrixXd dark =
+    respondTo(White, { "vignetting", "polynomial", "", { 0.45, 0.6, 0.6, 0.0, 0.0 } });
+  EXPECT_EQ(dark(2, 7), 0.0);
+}
+
 TEST(VeilingGlare, ShowsTheSceneMeanInABlackSample)
 {
   // Scene a is the left half: one sample of 0.6 among 24.

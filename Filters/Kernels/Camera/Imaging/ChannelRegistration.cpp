@@ -16,6 +16,7 @@ namespace
 {
 // A row's weights are repeated over so many pixels that a loop over them is worth its start.
 constexpr std::size_t TilePixels = 32;
+constexpr double Pi = 3.141592653589793;
 
 // Cubic convolution around a place on an axis: weights of the pixels from `first` on.
 struct Cubic
@@ -78,26 +79,30 @@ Cubic sourceOf(int position, int extent, double displacement, double magnificati
 }
 
 ChannelRegistration::ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd down,
-  Eigen::ArrayXd magnification, const ImageExtent& extent)
+  Eigen::ArrayXd magnification, Eigen::ArrayXd rotation, const ImageExtent& extent)
   : Right(std::move(right))
   , Down(std::move(down))
   , Magnification(std::move(magnification))
+  , Rotation(rotation * (Pi / 180.0))
   , Extent(extent)
   , Reach(0)
 {
-  if (Right.size() != Down.size() || Right.size() != Magnification.size())
+  if (Right.size() != Down.size() || Right.size() != Magnification.size() ||
+    Right.size() != Rotation.size())
   {
     std::ostringstream message;
     message << "a registration has " << Right.size() << " displacements to the right, "
-            << Down.size() << " down and " << Magnification.size()
-            << " magnifications; expected one of each for every channel";
+            << Down.size() << " down, " << Magnification.size() << " magnifications and "
+            << Rotation.size() << " rotations; expected one of each for every channel";
     throw std::invalid_argument(message.str());
   }
   const double half = 0.5 * std::max(extent.width, extent.height);
+  const double corner = 0.5 * std::hypot(extent.width, extent.height);
   for (Eigen::Index k = 0; k < Right.size(); ++k)
   {
-    const double largest =
-      std::max(std::abs(Right[k]), std::abs(Down[k])) + std::abs(Magnification[k]) * half;
+    const double largest = std::max(std::abs(Right[k]), std::abs(Down[k])) +
+      std::abs(Magnification[k]) * half +
+      std::abs(Rotation[k]) * (corner + std::hypot(Right[k], Down[k]));
     Reach = std::max(Reach, static_cast<int>(std::ceil(largest / (1.0 + Magnification[k]))) + 2);
   }
 }
@@ -123,8 +128,11 @@ void RegistrationRows::begin(const ChannelRegistration& registration, const Imag
 {
   Window = window;
   Extent = registration.Extent;
+  Right = registration.Right;
   Down = registration.Down;
   Magnification = registration.Magnification;
+  Rotation = registration.Rotation;
+  Turned = (Rotation != 0.0).any();
   Reach = registration.Reach;
   Channels = static_cast<std::size_t>(Down.size());
   Count = static_cast<std::size_t>(window.width) * Channels;
@@ -132,7 +140,15 @@ void RegistrationRows::begin(const ChannelRegistration& registration, const Imag
   Given = 0;
   Ring.begin(std::min(2 * Reach + 1, window.height), Count);
   Out.resize(Count);
+  if (!Turned)
+  {
+    beginAlongAxes(registration);
+  }
+}
 
+void RegistrationRows::beginAlongAxes(const ChannelRegistration& registration)
+{
+  const ImageWindow& window = Window;
   std::vector<Cubic> cubics(Count);
   Runs.clear();
   int most = 0;
@@ -164,6 +180,11 @@ void RegistrationRows::begin(const ChannelRegistration& registration, const Imag
 
 void RegistrationRows::take(const float* row)
 {
+  if (Turned)
+  {
+    std::copy_n(row, Count, Ring.row(Taken++));
+    return;
+  }
   padRow(row, Count / Channels, Channels, Margin, Padded);
   float* out = Ring.row(Taken);
   Sources.resize(Taps);
@@ -185,8 +206,46 @@ void RegistrationRows::take(const float* row)
   ++Taken;
 }
 
+void RegistrationRows::turnRow(int y)
+{
+  const double middleX = 0.5 * (Extent.width - 1);
+  const double middleY = 0.5 * (Extent.height - 1);
+  const auto channels = static_cast<std::ptrdiff_t>(Channels);
+  for (Eigen::Index k = 0; k < Down.size(); ++k)
+  {
+    const double cosine = std::cos(Rotation[k]) / (1.0 + Magnification[k]);
+    const double sine = std::sin(Rotation[k]) / (1.0 + Magnification[k]);
+    const double offY = y - middleY - Down[k];
+    for (int i = 0; i < Window.width; ++i)
+    {
+      const double offX = Window.x + i - middleX - Right[k];
+      const Cubic across = cubicAt(middleX + cosine * offX + sine * offY);
+      const Cubic down = cubicAt(middleY + cosine * offY - sine * offX);
+      float sum = 0.0F;
+      for (int v = 0; v < 4; ++v)
+      {
+        const float* row = Ring.row(std::clamp(down.first + v - Window.y, 0, Window.height - 1));
+        float along = 0.0F;
+        for (int u = 0; u < 4; ++u)
+        {
+          const int at = std::clamp(across.first + u - Window.x, 0, Window.width - 1);
+          along += across.weight[static_cast<std::size_t>(u)] * row[at * channels + k];
+        }
+        sum += down.weight[static_cast<std::size_t>(v)] * along;
+      }
+      Out[static_cast<std::size_t>(i * channels + k)] = sum;
+    }
+  }
+}
+
 const float* RegistrationRows::next()
 {
+  if (Turned)
+  {
+    turnRow(Window.y + Given);
+    ++Given;
+    return Out.data();
+  }
   std::vector<Cubic> cubics(Channels);
   for (Eigen::Index k = 0; k < Down.size(); ++k)
   {

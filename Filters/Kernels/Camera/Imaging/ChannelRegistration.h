@@ -1,4 +1,4 @@
-// Displacement and magnification of each channel's image.
+// Displacement, magnification and rotation of each channel's image.
 #pragma once
 
 #include "Kernels/Camera/Imaging/ImageWindow.h"
@@ -12,19 +12,19 @@
 namespace msi
 {
 
-// Moves the image of channel k by (right_k, down_k) pixels and magnifies it by 1 + magnification_k about the
-// middle of the image.
+// Turns the image of channel k by rotation_k degrees (from right to down) and magnifies it by 1 + magnification_k, both
+// about the middle of the image, then moves it by (right_k, down_k) pixels.
 //
 // Interpolation: cubic convolution, R. G. Keys, IEEE Trans. ASSP 29 (1981) 1153,
 //   doi:10.1109/TASSP.1981.1163711 (a = -1/2): exact for quadratics, the identity for whole pixels.
-// NaN:    spreads over the pixels that all channels together read.
+// NaN:    spreads over the pixels that all channels together read; with a rotation over those that its channel reads.
 // Edges: the image's edge repeats; near a cut edge of a buffer the result is provisional (see reach()).
 // Errors: std::invalid_argument for arrays of different length.
 class ChannelRegistration
 {
 public:
   ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd down, Eigen::ArrayXd magnification,
-    const ImageExtent& extent);
+    Eigen::ArrayXd rotation, const ImageExtent& extent);
 
   // Pixels around a window that its result depends on.
   int reach() const noexcept { return Reach; }
@@ -38,6 +38,7 @@ private:
   Eigen::ArrayXd Right;
   Eigen::ArrayXd Down;
   Eigen::ArrayXd Magnification;
+  Eigen::ArrayXd Rotation; // radians
   ImageExtent Extent;
   int Reach;
 };
@@ -69,17 +70,23 @@ private:
     int offset;
   };
 
+  void beginAlongAxes(const ChannelRegistration& registration);
   void take(const float* row);
   bool hasNext() const noexcept
   {
     return Given < Window.height && (Taken == Window.height || Given + Reach < Taken);
   }
   const float* next();
+  // A row of turned channels: each pixel reads 4 x 4 of its channel.
+  void turnRow(int y);
 
   ImageWindow Window;
   ImageExtent Extent;
+  Eigen::ArrayXd Right;
   Eigen::ArrayXd Down;
   Eigen::ArrayXd Magnification;
+  Eigen::ArrayXd Rotation;
+  bool Turned = false;
   int Reach = 0;
   std::size_t Channels = 0;
   std::size_t Count = 0; // values of a row
@@ -91,7 +98,7 @@ private:
   std::vector<float> RowWeights; // as Weights, for a tile of pixels in one row
   int Taken = 0;                 // rows
   int Given = 0;
-  RowRing Ring; // rows moved along x
+  RowRing Ring; // rows moved along x; as they came where a channel is turned
   std::vector<float> Padded, Out;
   std::vector<const float*> Sources;
 };

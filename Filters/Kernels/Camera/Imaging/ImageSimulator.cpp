@@ -37,54 +37,76 @@ Eigen::Map<Eigen::MatrixXf> blockOf(float* values, int rows, int columns)
   return { values, rows, columns };
 }
 
-// u_k (1 + amplitude_k sin(2 pi (position / period + start_k)))
+// s_k = sum over n of amplitude_n,k sin(2 pi (n position / period + start_n,k)): u_k (1 + s_k), or u_k + s_k
 struct Banding
 {
   bool alongRows;
+  bool offset;
   double period;
-  Eigen::ArrayXd amplitude;
-  Eigen::ArrayXd start;
+  std::vector<Eigen::ArrayXd> amplitude; // of each harmonic
+  std::vector<Eigen::ArrayXd> start;
 
   explicit Banding(const BoundEffect& effect)
-    : alongRows(effect.form().name != "columns")
+    : alongRows(effect.form().name.rfind("column", 0) != 0)
+    , offset(effect.form().name == "row_offsets" || effect.form().name == "column_offsets")
     , period(effect.value("period"))
-    , amplitude(effect.perChannel("amplitude"))
+    , amplitude{ effect.perChannel("amplitude") }
   {
     if (effect.form().name == "sine")
     {
-      start = effect.value("phase") *
-        Eigen::ArrayXd::LinSpaced(amplitude.size(), 0.0, static_cast<double>(amplitude.size() - 1));
+      start = { effect.value("phase") *
+        Eigen::ArrayXd::LinSpaced(
+          amplitude[0].size(), 0.0, static_cast<double>(amplitude[0].size() - 1)) };
+      return;
     }
-    else
+    start = { effect.perChannel("start") };
+    if (effect.form().name != "rows" && effect.form().name != "columns")
     {
-      start = effect.perChannel("start");
+      for (const char* harmonic : { "_2", "_3" })
+      {
+        amplitude.push_back(effect.perChannel(std::string("amplitude") + harmonic));
+        start.push_back(effect.perChannel(std::string("start") + harmonic));
+      }
     }
   }
   // A run of pixels from (x, y) to the right.
   void apply(Eigen::Map<Eigen::MatrixXf> block, int x, int y) const
   {
-    Eigen::ArrayXf factor = factors(alongRows ? y : x);
+    Eigen::ArrayXf change = changes(alongRows ? y : x);
     for (Eigen::Index j = 0; j < block.cols(); ++j)
     {
       if (!alongRows && j > 0)
       {
-        factor = factors(x + static_cast<int>(j));
+        change = changes(x + static_cast<int>(j));
       }
-      block.col(j).array() *= factor;
+      if (offset)
+      {
+        block.col(j).array() += change;
+      }
+      else
+      {
+        block.col(j).array() *= change;
+      }
     }
   }
 
 private:
-  Eigen::ArrayXf factors(int place) const
+  // Factors, or what is added.
+  Eigen::ArrayXf changes(int place) const
   {
     constexpr double TwoPi = 6.283185307179586;
-    Eigen::ArrayXf factors(amplitude.size());
-    for (Eigen::Index k = 0; k < factors.size(); ++k)
+    Eigen::ArrayXf changes(amplitude[0].size());
+    for (Eigen::Index k = 0; k < changes.size(); ++k)
     {
-      const double cycles = place / period + start[k];
-      factors[k] = static_cast<float>(1.0 + amplitude[k] * std::sin(TwoPi * cycles));
+      double sum = offset ? 0.0 : 1.0;
+      for (std::size_t n = 0; n < amplitude.size(); ++n)
+      {
+        const double cycles = static_cast<double>(n + 1) * place / period + start[n][k];
+        sum += amplitude[n][k] * std::sin(TwoPi * cycles);
+      }
+      changes[k] = static_cast<float>(sum);
     }
-    return factors;
+    return changes;
   }
 };
 }
@@ -126,7 +148,7 @@ struct ImageSimulator::Implementation
     if (const auto effect = Chain.active("misregistration"))
     {
       Registration.emplace(effect->perChannel("right"), effect->perChannel("down"),
-        effect->perChannel("magnification"), extent);
+        effect->perChannel("magnification"), effect->perChannel("rotation"), extent);
     }
     if (const auto effect = Chain.active("defocus"))
     {

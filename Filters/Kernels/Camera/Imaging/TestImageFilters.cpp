@@ -153,7 +153,8 @@ TEST(ChannelRegistration, MovesAQuadraticExactly)
   const auto surface = [](double x, double y)
   { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y; };
   const msi::ChannelRegistration move(Eigen::Array3d(0.0, 2.0, -0.37),
-    Eigen::Array3d(0.0, -1.0, 1.62), Eigen::Array3d(0.0, 0.0, 0.01), Extent);
+    Eigen::Array3d(0.0, -1.0, 1.62), Eigen::Array3d(0.0, 0.0, 0.01), Eigen::Array3d::Zero(),
+    Extent);
   PixelBuffer picture = pictureOf(3, [&](int x, int y, int) { return surface(x, y); });
   const PixelBuffer before = picture;
   PixelBuffer scratch;
@@ -171,17 +172,44 @@ TEST(ChannelRegistration, MovesAQuadraticExactly)
   }
 }
 
+// A point at (1, 0) from the middle comes to (cos, sin): right turns towards down. Interpolation is exact for quadratics.
+TEST(ChannelRegistration, TurnsAQuadraticAboutTheMiddle)
+{
+  const auto surface = [](double x, double y)
+  { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y + 0.0001 * x * y; };
+  constexpr double Degrees = 2.5;
+  const double angle = Degrees * 3.141592653589793 / 180.0;
+  const msi::ChannelRegistration turn(Eigen::Array2d(0.0, 0.6), Eigen::Array2d(0.0, -1.3),
+    Eigen::Array2d(0.0, -0.01), Eigen::Array2d(0.0, Degrees), Extent);
+  PixelBuffer picture = pictureOf(2, [&](int x, int y, int) { return surface(x, y); });
+  const PixelBuffer before = picture;
+  PixelBuffer scratch;
+  turn(picture, scratch);
+  for (int y = 10; y < Extent.height - 10; ++y)
+  {
+    for (int x = 10; x < Extent.width - 10; ++x)
+    {
+      ASSERT_EQ(picture.pixel(x, y)[0], before.pixel(x, y)[0]);
+      const double offX = (x - CenterX - 0.6) / 0.99;
+      const double offY = (y - CenterY + 1.3) / 0.99;
+      ASSERT_NEAR(static_cast<double>(picture.pixel(x, y)[1]),
+        surface(CenterX + std::cos(angle) * offX + std::sin(angle) * offY,
+          CenterY - std::sin(angle) * offX + std::cos(angle) * offY),
+        2e-5);
+    }
+  }
+}
+
 TEST(ChannelRegistration, RefusesArraysOfDifferentLength)
 {
   EXPECT_EQ(messageOf(
               []
               {
                 msi::ChannelRegistration move(Eigen::ArrayXd::Zero(3), Eigen::ArrayXd::Zero(2),
-                  Eigen::ArrayXd::Zero(3), Extent);
+                  Eigen::ArrayXd::Zero(3), Eigen::ArrayXd::Zero(3), Extent);
               }),
-    "a registration has 3 displacements to the right, 2 down and 3 magnifications; expected one of "
-    "each "
-    "for every channel");
+    "a registration has 3 displacements to the right, 2 down, 3 magnifications and 3 rotations; "
+    "expected one of each for every channel");
 }
 
 TEST(SceneMean, IsTheMeanWhateverTheSplit)

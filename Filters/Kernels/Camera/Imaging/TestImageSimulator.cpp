@@ -98,7 +98,7 @@ CameraEffect perChannel(const char* name, const char* form, double first, double
   return effect;
 }
 
-CameraEffect misregistration()
+CameraEffect misregistration(bool turned = false)
 {
   CameraEffect effect = msi::neutralEffect("misregistration", sevenChannels().channels());
   for (std::size_t k = 0; k < Channels; ++k)
@@ -106,6 +106,7 @@ CameraEffect misregistration()
     effect.parameters[k] = 0.3 * static_cast<double>(k) - 0.8;
     effect.parameters[Channels + k] = 0.5 - 0.2 * static_cast<double>(k);
     effect.parameters[2 * Channels + k] = 0.002 * static_cast<double>(k);
+    effect.parameters[3 * Channels + k] = turned ? 0.2 * static_cast<double>(k) - 0.5 : 0.0;
   }
   return effect;
 }
@@ -303,6 +304,64 @@ TEST(ImageSimulator, BandingIsASineOverTheRows)
       const double dark = sevenChannels().dark()[k];
       const double light = static_cast<double>(at(ideal, 9, y, k)) - dark;
       EXPECT_NEAR(static_cast<double>(at(banded, 9, y, k)) - dark, expected * light, 1e-6);
+    }
+  }
+}
+
+TEST(ImageSimulator, BandingHasThreeHarmonicsAsGainOrAsOffset)
+{
+  const std::vector<float> ideal = simulateAll({});
+  for (const char* form : { "row_harmonics", "column_harmonics", "row_offsets", "column_offsets" })
+  {
+    CameraEffect effect = msi::neutralEffect("banding", sevenChannels().channels(), form);
+    const auto names = msi::effectParameters(effect, sevenChannels().channels());
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      const std::string name = names[i].name.substr(0, names[i].name.find('['));
+      effect.parameters[i] = name == "period" ? 12.5
+        : name == "amplitude"                 ? 0.05
+        : name == "amplitude_2"               ? 0.03
+        : name == "amplitude_3"               ? 0.02
+        : name == "start"                     ? 0.1
+        : name == "start_2"                   ? 0.6
+                                              : 0.35;
+    }
+    const std::vector<float> banded = simulateAll({ effect });
+    const bool rows = form[0] == 'r';
+    const bool offset = std::string(form).find("offsets") != std::string::npos;
+    for (const int place : { 0, 5, 31 })
+    {
+      const auto sine = [&](int n, double start)
+      { return std::sin(6.283185307179586 * (n * place / 12.5 + start)); };
+      const double sum = 0.05 * sine(1, 0.1) + 0.03 * sine(2, 0.6) + 0.02 * sine(3, 0.35);
+      const int x = rows ? 9 : place;
+      const int y = rows ? place : 9;
+      const double dark = sevenChannels().dark()[3];
+      const double light = static_cast<double>(at(ideal, x, y, 3)) - dark;
+      EXPECT_NEAR(static_cast<double>(at(banded, x, y, 3)) - dark,
+        offset ? light + sum : light * (1.0 + sum), 1e-6)
+        << form;
+    }
+  }
+}
+
+TEST(ImageSimulator, TurnedChannelsDoNotShowTheWindow)
+{
+  const ImageSimulator simulator(sevenChannels(), { misregistration(true) }, Extent);
+  const ImageWindow all = msi::wholeImage(Extent);
+  const std::vector<float> whole = simulateWindow(simulator, all, nullptr);
+  EXPECT_NE(whole, simulateAll({ misregistration(false) }));
+  const ImageWindow part{ 31, 17, 40, 20 };
+  const std::vector<float> window = simulateWindow(simulator, part, nullptr);
+  for (int y = 0; y < part.height; ++y)
+  {
+    for (int x = 0; x < part.width; ++x)
+    {
+      for (int k = 0; k < 7; ++k)
+      {
+        const int i = (y * part.width + x) * 7 + k;
+        ASSERT_EQ(window[static_cast<std::size_t>(i)], at(whole, part.x + x, part.y + y, k));
+      }
     }
   }
 }

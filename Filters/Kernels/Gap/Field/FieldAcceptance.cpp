@@ -66,6 +66,11 @@ bool FieldAcceptance::mayJoin(const FieldFit& current, const FieldFit& fit, doub
   const bool besides = isOfEdges(fit.set.back()->effect) &&
     std::any_of(current.set.begin(), current.set.end(),
       [](const FieldChoice* other) { return isOfEdges(other->effect); });
+  // A profile fits much that goes along the axes: it must be most of what is left.
+  if (isProfile(*fit.set.back()) && gain < MostOfRest * excess)
+  {
+    return false;
+  }
   const double part = besides ? RelevantBesides : RelevantPart;
   return (gain >= part * gapEnergy && gain >= RelevantOfRest * excess) ||
     (!besides && excess >= BesideNoise * chance && gain >= MostOfRest * excess);

@@ -22,21 +22,34 @@ std::vector<FieldAxis> fieldAxisBases(const FieldModel& model, bool gaps)
     { "level", { FieldColumn::Gain, FieldColumn::Square }, {} },
     { "position", {},
       { FieldColumn::GradientRight, FieldColumn::GradientDown, FieldColumn::RadiusSquared,
-        FieldColumn::Diagonal, FieldColumn::Saddle } },
+        FieldColumn::RadiusFourth, FieldColumn::Diagonal, FieldColumn::Saddle } },
     { "edges", {}, { FieldColumn::Right, FieldColumn::Down, FieldColumn::BlurVariance } },
   };
   for (int pass = 0; !gaps && pass < TailPasses; ++pass)
   {
     axes[3].own.push_back(FieldColumn::Tail + pass);
   }
-  if (model.rowPeriod > 0.0)
+  const auto stripes = [&](const char* name, bool sines, bool profile, FieldColumn::Index sine,
+                         FieldColumn::Index gain)
   {
-    axes.push_back({ "rows", {}, { FieldColumn::RowSine, FieldColumn::RowCosine } });
-  }
-  if (model.columnPeriod > 0.0)
-  {
-    axes.push_back({ "columns", {}, { FieldColumn::ColumnSine, FieldColumn::ColumnCosine } });
-  }
+    std::vector<int> own;
+    if (sines)
+    {
+      own = { sine, sine + 1 };
+    }
+    if (profile)
+    {
+      own.insert(own.end(), { gain, gain + 1 });
+    }
+    if (!own.empty())
+    {
+      axes.push_back({ name, {}, own });
+    }
+  };
+  stripes("rows", model.rowPeriod > 0.0, model.rows != nullptr, FieldColumn::RowSine,
+    FieldColumn::RowGain);
+  stripes("columns", model.columnPeriod > 0.0, model.columns != nullptr, FieldColumn::ColumnSine,
+    FieldColumn::ColumnGain);
   return axes;
 }
 
@@ -149,8 +162,9 @@ void centerPosition(std::vector<Eigen::MatrixXd>& training, std::vector<Eigen::M
   {
     Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(FieldColumn::Count, FieldColumn::Count);
     const double square = training[k](FieldColumn::Gain, FieldColumn::Gain);
-    for (const int column : { FieldColumn::GradientRight, FieldColumn::GradientDown,
-           FieldColumn::RadiusSquared, FieldColumn::Diagonal, FieldColumn::Saddle })
+    for (const int column :
+      { FieldColumn::GradientRight, FieldColumn::GradientDown, FieldColumn::RadiusSquared,
+        FieldColumn::RadiusFourth, FieldColumn::Diagonal, FieldColumn::Saddle })
     {
       mix(FieldColumn::Gain, column) =
         -training[k](FieldColumn::Gain, column) / std::fmax(square, 1e-12);

@@ -6,12 +6,26 @@
 namespace msi
 {
 
+namespace
+{
+// What a profile counts for beside its strength. Its lines are no parameters: blocks that took no part in it judge it.
+constexpr Eigen::Index ProfileParameters = 3;
+}
+
 std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
 {
   using P = FieldParameter;
   const FieldTerm glare{ P::Glare, false, -0.1, 0.5, 0.01 };
   const FieldTerm right{ P::Right, true, -20.0, 20.0, 0.5 };
   const FieldTerm down{ P::Down, true, -20.0, 20.0, 0.5 };
+  const FieldTerm magnification{ P::Magnification, true, -0.02, 0.02, 0.001 };
+  const FieldTerm rotation{ P::Rotation, true, -5.0, 5.0, 0.1 };
+  const FieldTerm falloff{ P::Falloff, false, -0.45, 0.45, 0.03 };
+  const FieldTerm steep{ P::Falloff, false, -1.5, 1.5, 0.03 }; // beside higher orders
+  const FieldTerm fourth{ P::Fourth, false, -1.5, 1.5, 0.03 };
+  const FieldTerm sixth{ P::Sixth, false, -1.5, 1.5, 0.03 };
+  const FieldTerm centerX{ P::CenterX, false, -1.0, 1.0, 0.1 };
+  const FieldTerm centerY{ P::CenterY, false, -1.0, 1.0, 0.1 };
   std::vector<FieldTerm> surround;
   surround.reserve(FreePasses);
   for (int i = 0; i < FreePasses; ++i)
@@ -36,19 +50,27 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
       { { P::TailFraction, false, -0.1, 0.6, 0.01 }, { P::TailRadius, false, 1.0, 64.0, 4.0 } } },
     // Any shape; the effect's own form is fitted to it where it is put back.
     { "local_stray_light", "free", surround },
-    { "vignetting", "quadratic", { { P::Falloff, false, -0.45, 0.45, 0.03 } } },
+    { "vignetting", "quadratic", { falloff } },
+    { "vignetting", "quadratic", { falloff, centerX, centerY } },
+    { "vignetting", "polynomial", { steep, fourth, sixth } },
+    { "vignetting", "polynomial", { steep, fourth, sixth, centerX, centerY } },
     { "illumination_gradient", "plane",
       { { P::GradientRight, false, -0.5, 0.5, 0.03 },
         { P::GradientDown, false, -0.5, 0.5, 0.03 } } },
     { "misregistration", "per_channel", { right, down } },
-    { "misregistration", "per_channel",
-      { right, down, { P::Magnification, true, -0.02, 0.02, 0.001 } } },
+    { "misregistration", "per_channel", { right, down, magnification } },
+    { "misregistration", "per_channel", { right, down, magnification, rotation } },
     { "defocus", "common", { blur } },
     { "defocus", "per_channel", { perChannel(blur) } },
     { "banding", "rows",
       { { P::RowSine, true, -0.3, 0.3, 0.01 }, { P::RowCosine, true, -0.3, 0.3, 0.01 } } },
     { "banding", "columns",
       { { P::ColumnSine, true, -0.3, 0.3, 0.01 }, { P::ColumnCosine, true, -0.3, 0.3, 0.01 } } },
+    // A profile of any shape; three sines come nearest to it where it is put back.
+    { "banding", "row_harmonics", { { P::RowGain, true, 0.0, 2.0, 0.3 } } },
+    { "banding", "column_harmonics", { { P::ColumnGain, true, 0.0, 2.0, 0.3 } } },
+    { "banding", "row_offsets", { { P::RowOffset, true, 0.0, 2.0, 0.3 } } },
+    { "banding", "column_offsets", { { P::ColumnOffset, true, 0.0, 2.0, 0.3 } } },
     { "detector_nonlinearity", "quadratic", { { P::Square, false, -0.45, 0.9, 0.05 } } },
     { "detector_nonlinearity", "gamma", { { P::Exponent, false, 0.4, 2.5, 0.05 } } },
     { "detector_nonlinearity", "compressive", { { P::Compression, false, -0.4, 2.0, 0.05 } } },
@@ -69,11 +91,24 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
   return all;
 }
 
+bool isProfile(const FieldChoice& choice)
+{
+  const FieldParameter first = choice.terms.front().parameter;
+  return first == FieldParameter::RowGain || first == FieldParameter::RowOffset ||
+    first == FieldParameter::ColumnGain || first == FieldParameter::ColumnOffset;
+}
+
+bool isOfRows(const FieldChoice& choice)
+{
+  return choice.form.rfind("row", 0) == 0;
+}
+
 bool compatible(const FieldSet& set, const FieldChoice& choice)
 {
   for (const FieldChoice* other : set)
   {
-    const bool bothBands = other->effect == "banding" && choice.effect == "banding";
+    const bool bothBands = other->effect == "banding" && choice.effect == "banding" &&
+      isOfRows(*other) != isOfRows(choice);
     if (other == &choice || (other->effect == choice.effect && !bothBands) ||
       other->terms.front().parameter == choice.terms.front().parameter)
     {
@@ -93,6 +128,7 @@ Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels)
       count += term.perChannel ? channels : 1;
     }
     count += choice->effect == "banding" ? 1 : 0; // the period
+    count += isProfile(*choice) ? ProfileParameters * channels : 0;
   }
   return count;
 }

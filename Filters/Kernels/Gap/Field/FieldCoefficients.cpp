@@ -4,7 +4,7 @@ namespace msi
 {
 
 Eigen::VectorXd FieldFitter::coefficients(
-  FieldParameter parameter, Eigen::Index channel, double radius) const
+  FieldParameter parameter, Eigen::Index channel, const FieldShape& shape) const
 {
   using P = FieldParameter;
   const FieldModel& model = Statistics.model;
@@ -36,7 +36,29 @@ Eigen::VectorXd FieldFitter::coefficients(
       one(FieldColumn::GradientDown);
       break;
     case P::Falloff:
+    {
+      // About another center than the model's: the same polynomial.
+      const double right = shape.centerX - model.at(P::CenterX, 0);
+      const double down = shape.centerY - model.at(P::CenterY, 0);
       one(FieldColumn::RadiusSquared, -1.0);
+      one(FieldColumn::GradientRight, 2.0 * right);
+      one(FieldColumn::GradientDown, 2.0 * down);
+      one(FieldColumn::Gain,
+        -(right * (shape.centerX + model.at(P::CenterX, 0)) +
+          down * (shape.centerY + model.at(P::CenterY, 0))));
+      break;
+    }
+    case P::Fourth:
+      one(FieldColumn::RadiusFourth, -1.0);
+      break;
+    case P::Sixth:
+      one(FieldColumn::RadiusSixth, -1.0);
+      break;
+    case P::CenterX:
+      one(FieldColumn::CenterX);
+      break;
+    case P::CenterY:
+      one(FieldColumn::CenterY);
       break;
     case P::Square:
       one(FieldColumn::Square);
@@ -65,15 +87,18 @@ Eigen::VectorXd FieldFitter::coefficients(
     case P::Magnification:
       one(FieldColumn::Magnification);
       break;
+    case P::Rotation:
+      one(FieldColumn::Rotation);
+      break;
     case P::BlurVariance:
       one(FieldColumn::BlurVariance);
       break;
     case P::TailFraction:
-      column.segment(FieldColumn::Tail, TailPasses) = tailWeights(radius).matrix();
+      column.segment(FieldColumn::Tail, TailPasses) = tailWeights(shape.radius).matrix();
       break;
     case P::TailRadius:
       column.segment(FieldColumn::Tail, TailPasses) =
-        model.at(P::TailFraction, channel) * tailSlope(radius).matrix();
+        model.at(P::TailFraction, channel) * tailSlope(shape.radius).matrix();
       break;
     case P::RowSine:
       one(FieldColumn::RowSine);
@@ -86,6 +111,18 @@ Eigen::VectorXd FieldFitter::coefficients(
       break;
     case P::ColumnCosine:
       one(FieldColumn::ColumnCosine);
+      break;
+    case P::RowGain:
+      one(FieldColumn::RowGain);
+      break;
+    case P::RowOffset:
+      one(FieldColumn::RowOffset);
+      break;
+    case P::ColumnGain:
+      one(FieldColumn::ColumnGain);
+      break;
+    case P::ColumnOffset:
+      one(FieldColumn::ColumnOffset);
       break;
     case P::Count:
       break;

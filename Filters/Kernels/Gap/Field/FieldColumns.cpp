@@ -1,8 +1,8 @@
 #include "Kernels/Gap/Field/FieldColumns.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
+#include "Kernels/Gap/Field/FieldBlockLight.h"
 #include "Kernels/Gap/Field/FieldDetector.h"
-#include "Kernels/Gap/Field/FieldNeighbourhood.h"
 
 #include <algorithm>
 #include <array>
@@ -14,87 +14,8 @@ namespace msi
 namespace
 {
 constexpr double TwoPi = 6.283185307179586;
-
-using Surround = Eigen::Array<double, TailPasses, 1>;
-
-// What happens to the scene before the detector, in one block and channel.
-class BlockLight
-{
-public:
-  BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-    const FieldBlock& block, Eigen::Index channel, bool derivatives)
-    : Block(block)
-    , K(static_cast<std::size_t>(data.channels()))
-    , Channel(static_cast<std::size_t>(channel))
-    , Near(near(data, model, block.window, channel, derivatives))
-    , Weights(model.at(FieldParameter::TailFraction, channel) *
-        tailWeights(model.at(FieldParameter::TailRadius, channel)).head<TailPasses>())
-    , Added((model.at(FieldParameter::Glare, channel) +
-              model.at(FieldParameter::ConservingGlare, channel)) *
-        glare[channel])
-    , Lost(1.0 - model.at(FieldParameter::ConservingGlare, channel))
-  {
-    for (int i = 0; i < FreePasses; ++i)
-    {
-      Weights[i + 1] += model.at(surroundWeight(i), channel);
-    }
-    Fraction = Weights.sum();
-  }
-
-  const FieldNeighbourhood& scene() const noexcept { return Near; }
-  double fraction() const noexcept { return Fraction; }
-  double lost() const noexcept { return Lost; }
-
-  Surround surround(int pixel) const
-  {
-    const std::size_t pixels = Block.window.pixels();
-    Surround values;
-    for (std::size_t pass = 0; pass < TailPasses; ++pass)
-    {
-      values[static_cast<Eigen::Index>(pass)] = static_cast<double>(
-        Block.tail[(pass * pixels + static_cast<std::size_t>(pixel)) * K + Channel]);
-    }
-    return values;
-  }
-  double self(int pixel) const
-  {
-    return Near.value(pixel % Block.window.width, pixel / Block.window.width);
-  }
-  // Behind lens and stray light.
-  double light(int pixel, double field) const
-  {
-    const double own = self(pixel);
-    return field * (own + (Weights * (surround(pixel) - own)).sum());
-  }
-  double signal(int pixel, double field) const { return Lost * light(pixel, field) + Added; }
-
-private:
-  const FieldBlock& Block;
-  std::size_t K;
-  std::size_t Channel;
-  FieldNeighbourhood Near;
-  Surround Weights;
-  double Added;
-  double Lost;
-  double Fraction = 0.0;
-
-  static FieldNeighbourhood near(const FieldData& data, const FieldModel& model,
-    const ImageWindow& window, Eigen::Index channel, bool derivatives)
-  {
-    using P = FieldParameter;
-    const double magnification = model.at(P::Magnification, channel);
-    const double variance = std::max(model.at(P::BlurVariance, channel), 0.0);
-    // Out of the source at middle + (position - middle - displacement) / (1 + magnification).
-    const auto along = [&](P displacement, double off)
-    {
-      return AxisKernels(
-        (model.at(displacement, channel) + magnification * off) / (1.0 + magnification), variance);
-    };
-    return { data, window, channel,
-      along(P::Right, data.pair.offX(window.x + 0.5 * (window.width - 1))),
-      along(P::Down, data.pair.offY(window.y + 0.5 * (window.height - 1))), derivatives };
-  }
-};
+constexpr double Degree = TwoPi / 360.0;
+constexpr double LeastFactor = 0.05; // of the field, where its derivatives are asked for
 
 // The sines of the lines of a block.
 struct Stripes
@@ -122,19 +43,10 @@ struct Stripes
   }
 };
 
-// The field's factor at each pixel of a window.
-std::vector<double> fieldFactors(
-  const FieldData& data, const FieldModel& model, const ImageWindow& window)
+// The numbers of the lines of a block; null without a profile.
+const double* linesOf(const Eigen::ArrayXXd* profile, int first, Eigen::Index channel)
 {
-  std::vector<double> factors;
-  for (int y = window.y; y < window.y + window.height; ++y)
-  {
-    for (int x = window.x; x < window.x + window.width; ++x)
-    {
-      factors.push_back(model.fieldFactor(data.pair.fieldX(x), data.pair.fieldY(y)));
-    }
-  }
-  return factors;
+  return profile == nullptr ? nullptr : &(*profile)(first, channel);
 }
 
 // The channel before, for the lag; that of the last call where it was this one.
@@ -206,6 +118,14 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
   const Stripes columns(model.columnPeriod, window.x, window.width, P::ColumnSine, P::ColumnCosine);
   const double gain = model.at(P::Gain, channel);
   const double retained = model.at(P::Retained, channel);
+  const double* rowGain =
+    linesOf(model.rows ? &model.rows->gainFor(block.fold) : nullptr, window.y, channel);
+  const double* rowOffset =
+    linesOf(model.rows ? &model.rows->offsetFor(block.fold) : nullptr, window.y, channel);
+  const double* columnGain =
+    linesOf(model.columns ? &model.columns->gainFor(block.fold) : nullptr, window.x, channel);
+  const double* columnOffset =
+    linesOf(model.columns ? &model.columns->offsetFor(block.fold) : nullptr, window.x, channel);
   const auto count = static_cast<Eigen::Index>(scratch.pixel.size());
   scratch.columns.setZero(count, FieldColumn::Count);
   scratch.level.resize(count);
@@ -217,10 +137,22 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     const int row = i / window.width;
     const double x = data.pair.fieldX(window.x + column);
     const double y = data.pair.fieldY(window.y + row);
-    const double chain =
-      gain * (1.0 + rows.factor(model, channel, row) + columns.factor(model, channel, column));
+    double bands = 1.0 + rows.factor(model, channel, row) + columns.factor(model, channel, column);
+    double added = 0.0;
+    if (rowGain != nullptr)
+    {
+      bands += model.at(P::RowGain, channel) * rowGain[row];
+      added += model.at(P::RowOffset, channel) * rowOffset[row];
+    }
+    if (columnGain != nullptr)
+    {
+      bands += model.at(P::ColumnGain, channel) * columnGain[column];
+      added += model.at(P::ColumnOffset, channel) * columnOffset[column];
+    }
+    const double chain = gain * bands;
     const double before = scratch.before[at];
-    const double linear = chain * (scratch.signal[at] + retained * before);
+    const double lit = scratch.signal[at] + retained * before;
+    const double linear = chain * lit + gain * added;
     const DetectorAnswer answer = detector(linear);
     const double u = answer.bySignal * linear;
     const double through = answer.bySignal * chain * light.lost();
@@ -230,9 +162,21 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     auto out = scratch.columns.row(n);
     out[FieldColumn::Gain] = u;
     out[FieldColumn::One] = answer.byOffset;
-    out[FieldColumn::GradientRight] = x * direct;
-    out[FieldColumn::GradientDown] = y * direct;
-    out[FieldColumn::RadiusSquared] = (x * x + y * y) * direct;
+    const double even = direct / std::fmax(model.gradient(x, y), LeastFactor);
+    out[FieldColumn::GradientRight] = x * even;
+    out[FieldColumn::GradientDown] = y * even;
+    const double offX = x - model.at(P::CenterX, 0);
+    const double offY = y - model.at(P::CenterY, 0);
+    const double square = offX * offX + offY * offY;
+    const double bright = direct / std::fmax(model.vignetting(x, y), LeastFactor);
+    out[FieldColumn::RadiusSquared] = square * bright;
+    out[FieldColumn::RadiusFourth] = square * square * bright;
+    out[FieldColumn::RadiusSixth] = square * square * square * bright;
+    const double steep = 2.0 * bright *
+      (model.at(P::Falloff, 0) +
+        square * (2.0 * model.at(P::Fourth, 0) + 3.0 * square * model.at(P::Sixth, 0)));
+    out[FieldColumn::CenterX] = offX * steep;
+    out[FieldColumn::CenterY] = offY * steep;
     out[FieldColumn::Square] = answer.bySquare;
     out[FieldColumn::Exponent] = answer.byExponent;
     out[FieldColumn::Clip] = answer.byClip;
@@ -245,21 +189,34 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     out[FieldColumn::Down] = down;
     out[FieldColumn::Magnification] =
       data.pair.offX(window.x + column) * right + data.pair.offY(window.y + row) * down;
+    out[FieldColumn::Rotation] =
+      Degree * (data.pair.offX(window.x + column) * down - data.pair.offY(window.y + row) * right);
     out[FieldColumn::BlurVariance] = sharp * light.scene().blur(column, row);
-    const Surround surround = light.surround(i) - light.self(i);
+    const TailSurround surround = light.surround(i) - light.self(i);
     for (int pass = 0; pass < TailPasses; ++pass)
     {
       out[FieldColumn::Tail + pass] = local * surround[pass];
     }
+    const double open = answer.bySignal * gain * lit; // without stripes
     if (model.rowPeriod > 0.0)
     {
-      out[FieldColumn::RowSine] = rows.sine[row] * u;
-      out[FieldColumn::RowCosine] = rows.cosine[row] * u;
+      out[FieldColumn::RowSine] = rows.sine[row] * open;
+      out[FieldColumn::RowCosine] = rows.cosine[row] * open;
     }
     if (model.columnPeriod > 0.0)
     {
-      out[FieldColumn::ColumnSine] = columns.sine[column] * u;
-      out[FieldColumn::ColumnCosine] = columns.cosine[column] * u;
+      out[FieldColumn::ColumnSine] = columns.sine[column] * open;
+      out[FieldColumn::ColumnCosine] = columns.cosine[column] * open;
+    }
+    if (rowGain != nullptr)
+    {
+      out[FieldColumn::RowGain] = rowGain[row] * open;
+      out[FieldColumn::RowOffset] = rowOffset[row] * answer.bySignal * gain;
+    }
+    if (columnGain != nullptr)
+    {
+      out[FieldColumn::ColumnGain] = columnGain[column] * open;
+      out[FieldColumn::ColumnOffset] = columnOffset[column] * answer.bySignal * gain;
     }
     out[FieldColumn::Diagonal] = x * y * direct;
     out[FieldColumn::Saddle] = (x * x - y * y) * direct;

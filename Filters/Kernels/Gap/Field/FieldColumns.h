@@ -20,22 +20,31 @@ enum Index : int
   One,
   GradientRight, // x u
   GradientDown,  // y u
-  RadiusSquared, // rho^2 u
-  Square,        // u^2
-  Exponent,      // u ln u
-  Clip,          // u above the level of clipping
+  RadiusSquared, // rho^2 u, rho from the center of vignetting
+  RadiusFourth,
+  RadiusSixth,
+  CenterX,
+  CenterY,
+  Square,   // u^2
+  Exponent, // u ln u
+  Clip,     // u above the level of clipping
   ClipLevel,
   Before, // the channel before
   Mean,   // of the scene, what glare adds
   Right,  // derivative by displacement
   Down,
   Magnification,
+  Rotation,
   BlurVariance, // derivative by the blur's variance
   Tail,         // the surround minus u, TailPasses columns
   RowSine = Tail + TailPasses,
   RowCosine,
   ColumnSine,
   ColumnCosine,
+  RowGain, // the profile of lines times u
+  RowOffset,
+  ColumnGain,
+  ColumnOffset,
   Diagonal, // x y u, (x^2 - y^2) u: only to see where a gap lies
   Saddle,
   Residual, // real - predicted

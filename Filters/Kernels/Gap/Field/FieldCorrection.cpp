@@ -16,9 +16,11 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   , Surround(model)
 {
   using P = FieldParameter;
-  if (!model.isNeutral(P::Right) || !model.isNeutral(P::Down) || !model.isNeutral(P::Magnification))
+  if (!model.isNeutral(P::Right) || !model.isNeutral(P::Down) ||
+    !model.isNeutral(P::Magnification) || !model.isNeutral(P::Rotation))
   {
-    Registration.emplace(model[P::Right], model[P::Down], model[P::Magnification], pair.extent);
+    Registration.emplace(
+      model[P::Right], model[P::Down], model[P::Magnification], model[P::Rotation], pair.extent);
   }
   if (!model.isNeutral(P::BlurVariance))
   {
@@ -100,8 +102,10 @@ void FieldCorrection::operator()(
       {
         const auto channel = static_cast<Eigen::Index>(k);
         const double before = k > 0 ? light[k - 1] : 0.0;
-        const double u = (light[k] + Model.at(P::Retained, channel) * before) *
-          Model.bandFactor(channel, x, y) * Model.at(P::Gain, channel);
+        const double u =
+          ((light[k] + Model.at(P::Retained, channel) * before) * Model.bandFactor(channel, x, y) +
+            Model.bandOffset(channel, x, y)) *
+          Model.at(P::Gain, channel);
         *corrected++ = std::isfinite(simulated[k]) ? static_cast<float>(Detector[k](u).value)
                                                    : std::numeric_limits<float>::quiet_NaN();
       }

@@ -227,7 +227,7 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
     std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
   data.filled = filledScene(pair);
   data.scene = gaps ? data.filled.data() : pair.simulated;
-  data.moments = sceneMoments(pair);
+  data.cells = sceneCells(pair);
   data.unit = fieldUnits(pair);
   loop(static_cast<int>(data.blocks.size()),
     [&](int i)

@@ -3,6 +3,7 @@
 
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/Field/FieldPair.h"
+#include "Kernels/Gap/Field/FieldScene.h"
 
 #include <Eigen/Core>
 
@@ -37,8 +38,7 @@ struct FieldData
   int blockSize = 0;
   std::vector<FieldBlock> blocks;
   double usablePart = 0.0; // of the image's pixels
-  // Means over the scene of the simulated u times 1, x, y, rho^2, x rho^2, y rho^2; K x 6.
-  Eigen::MatrixXd moments;
+  SceneCells cells;
 
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
 };

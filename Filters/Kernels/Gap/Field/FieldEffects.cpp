@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 
+#include "Kernels/Gap/Field/FieldBanding.h"
 #include "Kernels/Gap/Field/FieldTail.h"
 
 #include <cmath>
@@ -37,6 +38,14 @@ Named nameOf(FieldParameter parameter)
       return { "down", "1" };
     case P::Falloff:
       return { "falloff", "1" };
+    case P::Fourth:
+      return { "fourth", "1" };
+    case P::Sixth:
+      return { "sixth", "1" };
+    case P::CenterX:
+      return { "center_x", "half field" };
+    case P::CenterY:
+      return { "center_y", "half field" };
     case P::Square:
       return { "square", "1" };
     case P::Exponent:
@@ -53,6 +62,8 @@ Named nameOf(FieldParameter parameter)
       return { "down", "pixels" };
     case P::Magnification:
       return { "magnification", "1" };
+    case P::Rotation:
+      return { "rotation", "degrees" };
     case P::BlurVariance:
       return { "blur", "pixels" };
     case P::TailRadius:
@@ -67,20 +78,43 @@ std::string withChannel(const std::string& name, const std::string& channel)
   return name + "[" + channel + "]";
 }
 
-bool isRows(const FieldChoice& choice)
+// "", "_2", "_3"
+std::string harmonicName(Eigen::Index n)
 {
-  return choice.form == "rows";
+  return n == 0 ? std::string() : "_" + std::to_string(n + 1);
 }
 
-// amplitude sin(2 pi (row / period + start)) of channel k.
-void stripe(const FieldModel& model, bool rows, Eigen::Index k, double& amplitude, double& start)
+// Lines of stripes' parameters, errors from `next` on.
+std::vector<GapParameter> bandingParameters(const FieldChoice& choice,
+  const FieldSearchResult& found, const std::vector<std::string>& channels,
+  const Eigen::VectorXd& error, Eigen::Index& next)
 {
-  const double sine = model.at(rows ? FieldParameter::RowSine : FieldParameter::ColumnSine, k);
-  const double cosine =
-    model.at(rows ? FieldParameter::RowCosine : FieldParameter::ColumnCosine, k);
-  amplitude = std::hypot(sine, cosine);
-  start = std::atan2(cosine, sine) / TwoPi;
-  start -= std::floor(start);
+  const auto K = static_cast<Eigen::Index>(channels.size());
+  const FieldModel& model = found.after.model;
+  const BandingSines sines = bandingSines(choice, model);
+  const bool profile = isProfile(choice);
+  const bool offset = choice.form == "row_offsets" || choice.form == "column_offsets";
+  std::vector<GapParameter> parameters;
+  const FieldPeriod& period = isOfRows(choice) ? found.rows : found.columns;
+  parameters.push_back({ "period", sines.period, "pixels", profile ? 0.0 : period.standardError });
+  for (Eigen::Index k = 0; k < K; ++k)
+  {
+    const std::string& channel = channels[static_cast<std::size_t>(k)];
+    for (Eigen::Index n = 0; n < sines.amplitude.cols(); ++n)
+    {
+      const double amplitude = sines.amplitude(k, n);
+      // The strength of a profile scales all of its sines.
+      const double deviation = profile
+        ? error[next + k] * amplitude / std::fmax(model.at(choice.terms.front().parameter, k), 1e-3)
+        : std::hypot(error[next + k], error[next + K + k]) / std::sqrt(2.0);
+      parameters.push_back({ withChannel("amplitude" + harmonicName(n), channel), amplitude,
+        offset ? "white" : "1", deviation });
+      parameters.push_back({ withChannel("start" + harmonicName(n), channel), sines.start(k, n),
+        "cycle", std::fmin(deviation / std::fmax(amplitude, 1e-12) / TwoPi, 0.5) });
+    }
+  }
+  next += profile ? K : 2 * K;
+  return parameters;
 }
 
 bool isFree(const FieldChoice& choice)
@@ -102,22 +136,7 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
   const auto K = static_cast<Eigen::Index>(channels.size());
   if (choice.effect == "banding")
   {
-    const FieldPeriod& period = isRows(choice) ? found.rows : found.columns;
-    parameters.push_back({ "period", isRows(choice) ? model.rowPeriod : model.columnPeriod,
-      "pixels", period.standardError });
-    for (Eigen::Index k = 0; k < K; ++k)
-    {
-      double amplitude = 0.0;
-      double start = 0.0;
-      stripe(model, isRows(choice), k, amplitude, start);
-      const double deviation = std::hypot(error[next + k], error[next + K + k]) / std::sqrt(2.0);
-      const std::string& channel = channels[static_cast<std::size_t>(k)];
-      parameters.push_back({ withChannel("amplitude", channel), amplitude, "1", deviation });
-      parameters.push_back({ withChannel("start", channel), start, "cycle",
-        std::fmin(deviation / std::fmax(amplitude, 1e-12) / TwoPi, 0.5) });
-    }
-    next += 2 * K;
-    return parameters;
+    return bandingParameters(choice, found, channels, error, next);
   }
   if (isFree(choice))
   {
@@ -176,14 +195,16 @@ std::vector<CameraEffect> fieldCorrection(
     };
     if (choice->effect == "banding")
     {
-      put("period", isRows(*choice) ? model.rowPeriod : model.columnPeriod);
+      const BandingSines sines = bandingSines(*choice, model);
+      put("period", sines.period);
       for (Eigen::Index k = 0; k < K; ++k)
       {
-        double amplitude = 0.0;
-        double start = 0.0;
-        stripe(model, isRows(*choice), k, amplitude, start);
-        put(withChannel("amplitude", channels[static_cast<std::size_t>(k)]), amplitude);
-        put(withChannel("start", channels[static_cast<std::size_t>(k)]), start);
+        const std::string& channel = channels[static_cast<std::size_t>(k)];
+        for (Eigen::Index n = 0; n < sines.amplitude.cols(); ++n)
+        {
+          put(withChannel("amplitude" + harmonicName(n), channel), sines.amplitude(k, n));
+          put(withChannel("start" + harmonicName(n), channel), sines.start(k, n));
+        }
       }
     }
     if (isFree(*choice))

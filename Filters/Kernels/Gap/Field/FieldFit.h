@@ -30,11 +30,24 @@ struct FieldChoice
 // Every effect that an image pair can show, without those named.
 std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without);
 
+// Banding by a FieldProfile.
+bool isProfile(const FieldChoice& choice);
+// Banding of rows, not of columns.
+bool isOfRows(const FieldChoice& choice);
+
 using FieldSet = std::vector<const FieldChoice*>;
 
 // Neither the same effect nor parameters in common.
 bool compatible(const FieldSet& set, const FieldChoice& choice);
 Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels);
+
+// Where a fit starts from what the normal equations do not have yet, and what they are taken to be there.
+struct FieldShape
+{
+  double radius = 0.0;  // of the tail; 0: the model's
+  double centerX = 0.0; // of vignetting
+  double centerY = 0.0;
+};
 
 struct FieldFit
 {
@@ -57,8 +70,8 @@ public:
   // The effects of `set` free; every other effect of the model is taken back to neutral. Bounds by fixing what is
   // beyond. Each parameter has a prior of ten times its typical size. The estimate without a fold comes from
   // the normal equations without it: exact where the model is linear.
-  // radius: start of the tail's radius where the model has no tail.
-  FieldFit fit(const FieldSet& set, double radius = 0.0) const;
+  // start: where the model has no tail, no vignetting.
+  FieldFit fit(const FieldSet& set, const FieldShape& start = {}) const;
 
   // Weighted energy of the training blocks at the model itself, and what noise allows of it.
   double energy() const noexcept { return Energy; }
@@ -69,12 +82,16 @@ public:
   Eigen::VectorXd standardErrors(const FieldSet& set) const;
 
   // What one term changes in the columns of a channel.
-  Eigen::VectorXd coefficients(FieldParameter parameter, Eigen::Index channel, double radius) const;
+  Eigen::VectorXd coefficients(
+    FieldParameter parameter, Eigen::Index channel, const FieldShape& shape) const;
+  // The model's own.
+  FieldShape shape() const;
 
 private:
   struct Bound;
   std::vector<Eigen::VectorXd> solve(const std::vector<Eigen::MatrixXd>& normal,
-    const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values, double radius) const;
+    const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values,
+    const FieldShape& shape) const;
 
   const FieldData& Data;
   const FieldStatistics& Statistics;

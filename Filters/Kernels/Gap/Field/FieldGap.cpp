@@ -1,7 +1,9 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
+#include "Kernels/Gap/Field/FieldBanding.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
+#include "Kernels/Gap/Field/FieldHypothesis.h"
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
@@ -135,7 +137,21 @@ std::vector<std::string> notesOn(
     notes.emplace_back("the surround of the usable pixels is partly not simulated; "
                        "local_stray_light takes it to be like its neighbours in the row");
   }
-  if (has(set, "vignetting") && has(set, "illumination_gradient"))
+  for (const FieldChoice* choice : set)
+  {
+    if (isProfile(*choice))
+    {
+      std::ostringstream text;
+      text << "the stripes of " << (isOfRows(*choice) ? "rows" : "columns")
+           << " may have any shape in the corrected image; the list of effects has the three sines "
+              "that come nearest, with "
+           << std::lround(100.0 * bandingSines(*choice, found.after.model).part)
+           << " % of their energy";
+      notes.push_back(text.str());
+    }
+  }
+  if ((has(set, "vignetting") && has(set, "illumination_gradient")) ||
+    hasTerm(set, FieldParameter::CenterX))
   {
     notes.emplace_back("vignetting about a center off the middle looks like vignetting with "
                        "illumination_gradient; the chart rotated by 180 degrees separates them");
@@ -193,6 +209,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   FieldModel nominal = found.before.model;
   nominal.rowPeriod = found.after.model.rowPeriod;
   nominal.columnPeriod = found.after.model.columnPeriod;
+  nominal.rows = found.after.model.rows;
+  nominal.columns = found.after.model.columns;
   report.where = fieldAxes(data, fieldStatistics(data, nominal, &found.weights, loop), loop);
   const std::vector<GapAxis> rest = fieldAxes(data, found.after, loop);
   const double left = blockMeanExcess(data, found.after, false);

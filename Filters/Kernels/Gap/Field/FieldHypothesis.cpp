@@ -14,7 +14,8 @@ namespace
 constexpr int Iterations = 4;
 constexpr double SmallStep = 0.02; // typical sizes
 constexpr double Radii[] = { 2.0, 4.0, 8.0, 16.0, 32.0 };
-constexpr double Indistinct = 0.5; // standard error over typical size
+constexpr double Centers[] = { -0.3, 0.0, 0.3 }; // half fields
+constexpr double Indistinct = 0.5;               // standard error over typical size
 }
 
 double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)
@@ -51,6 +52,16 @@ bool contains(const FieldSet& set, const char* effect, const char* form)
     { return choice->effect == effect && (form == nullptr || choice->form == form); });
 }
 
+bool hasTerm(const FieldSet& set, FieldParameter parameter)
+{
+  return std::any_of(set.begin(), set.end(),
+    [parameter](const FieldChoice* choice)
+    {
+      return std::any_of(choice->terms.begin(), choice->terms.end(),
+        [parameter](const FieldTerm& term) { return term.parameter == parameter; });
+    });
+}
+
 FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
   const FieldModel& start, const FieldLoop& loop)
 {
@@ -78,21 +89,43 @@ FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, con
 
 FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set)
 {
-  const bool tail = contains(set, "local_stray_light", "neighbours");
-  if (!tail || !fitter.statistics().model.isNeutral(FieldParameter::TailFraction))
-  {
-    return fitter.fit(set);
-  }
+  const FieldModel& model = fitter.statistics().model;
+  const bool tail = contains(set, "local_stray_light", "neighbours") &&
+    model.isNeutral(FieldParameter::TailFraction);
+  // Terms of a higher order are known about the model's center alone.
+  const bool center = !model.hasVignetting() && hasTerm(set, FieldParameter::CenterX) &&
+    !hasTerm(set, FieldParameter::Fourth);
+  FieldShape start;
   std::optional<FieldFit> best;
-  for (const double radius : Radii)
+  const auto tryOut = [&](const FieldShape& shape)
   {
-    FieldFit fit = fitter.fit(set, radius);
+    FieldFit fit = fitter.fit(set, shape);
     if (!best || fit.energy < best->energy)
     {
       best = std::move(fit);
+      start = shape;
+    }
+  };
+  tryOut(start);
+  for (const double radius : Radii)
+  {
+    if (tail)
+    {
+      tryOut({ radius, 0.0, 0.0 });
     }
   }
-  return *best;
+  const double reach = start.radius;
+  for (const double right : Centers)
+  {
+    for (const double down : Centers)
+    {
+      if (center)
+      {
+        tryOut({ reach, right, down });
+      }
+    }
+  }
+  return std::move(*best);
 }
 
 std::vector<std::string> indistinctEffects(
@@ -110,7 +143,7 @@ std::vector<std::string> indistinctEffects(
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
       const Eigen::VectorXd column = fitter.coefficients(
-        choice.terms.front().parameter, k, neutralValue(FieldParameter::TailRadius));
+        choice.terms.front().parameter, k, { neutralValue(FieldParameter::TailRadius), 0.0, 0.0 });
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
         information += column.dot(

@@ -21,6 +21,8 @@ FieldSet joined(FieldSet set, const FieldChoice& choice);
 FieldSet withoutOne(FieldSet set, std::size_t position);
 bool contains(const FieldSet& set, const char* effect, const char* form = nullptr);
 
+bool hasTerm(const FieldSet& set, FieldParameter parameter);
+
 // The mean over groups of training blocks of the signed root of what they gain, over its standard error. The root: energies
 // have tails, and a plane of light gains little in the middle of the field.
 double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain);
@@ -29,7 +31,7 @@ double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain);
 FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
   const FieldModel& start, const FieldLoop& loop);
 
-// One step; the radius of a tail that the model does not have yet is the best of several.
+// One step; the radius of a tail and the center of vignetting that the model does not have yet are the best of several.
 FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set);
 
 // Effects among `choices` whose parameters this scene does not show.

@@ -41,16 +41,40 @@ bool FieldModel::isNeutral(FieldParameter parameter) const
   return ((*this)[parameter] == neutralValue(parameter)).all();
 }
 
-double FieldModel::fieldFactor(double x, double y) const noexcept
+bool FieldModel::hasVignetting() const
 {
-  return (1.0 + at(FieldParameter::GradientRight, 0) * x +
-           at(FieldParameter::GradientDown, 0) * y) *
-    (1.0 - at(FieldParameter::Falloff, 0) * (x * x + y * y));
+  return !isNeutral(FieldParameter::Falloff) || !isNeutral(FieldParameter::Fourth) ||
+    !isNeutral(FieldParameter::Sixth);
 }
 
-double FieldModel::bandFactor(Eigen::Index channel, double x, double y) const noexcept
+double FieldModel::gradient(double x, double y) const noexcept
+{
+  return 1.0 + at(FieldParameter::GradientRight, 0) * x + at(FieldParameter::GradientDown, 0) * y;
+}
+
+double FieldModel::vignetting(double x, double y) const noexcept
+{
+  const double right = x - at(FieldParameter::CenterX, 0);
+  const double down = y - at(FieldParameter::CenterY, 0);
+  const double square = right * right + down * down;
+  return std::fmax(1.0 -
+      square *
+        (at(FieldParameter::Falloff, 0) +
+          square * (at(FieldParameter::Fourth, 0) + square * at(FieldParameter::Sixth, 0))),
+    0.0);
+}
+
+double FieldModel::bandFactor(Eigen::Index channel, int x, int y) const noexcept
 {
   double factor = 1.0;
+  if (rows)
+  {
+    factor += at(FieldParameter::RowGain, channel) * rows->gain.back()(y, channel);
+  }
+  if (columns)
+  {
+    factor += at(FieldParameter::ColumnGain, channel) * columns->gain.back()(x, channel);
+  }
   if (rowPeriod > 0.0)
   {
     const double angle = TwoPi * y / rowPeriod;
@@ -64,6 +88,20 @@ double FieldModel::bandFactor(Eigen::Index channel, double x, double y) const no
       at(FieldParameter::ColumnCosine, channel) * std::cos(angle);
   }
   return factor;
+}
+
+double FieldModel::bandOffset(Eigen::Index channel, int x, int y) const noexcept
+{
+  double sum = 0.0;
+  if (rows)
+  {
+    sum += at(FieldParameter::RowOffset, channel) * rows->offset.back()(y, channel);
+  }
+  if (columns)
+  {
+    sum += at(FieldParameter::ColumnOffset, channel) * columns->offset.back()(x, channel);
+  }
+  return sum;
 }
 
 } // namespace msi

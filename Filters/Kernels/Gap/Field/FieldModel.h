@@ -7,11 +7,29 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace msi
 {
+
+// Stripes of any shape: a number for each line and channel, lines x K. One such array for each fold, without what that fold's
+// blocks say, and last one from all of them.
+struct FieldProfile
+{
+  std::vector<Eigen::ArrayXXd> gain, offset;
+
+  // fold: -1 for blocks outside all folds.
+  const Eigen::ArrayXXd& gainFor(int fold) const { return fold < 0 ? gain.back() : gain[at(fold)]; }
+  const Eigen::ArrayXXd& offsetFor(int fold) const
+  {
+    return fold < 0 ? offset.back() : offset[at(fold)];
+  }
+
+private:
+  static std::size_t at(int fold) noexcept { return static_cast<std::size_t>(fold); }
+};
 
 inline constexpr int TailPasses = 6;
 inline constexpr int FreePasses = TailPasses - 1; // the first is too narrow to be told from a blur
@@ -24,7 +42,11 @@ enum class FieldParameter
   ConservingGlare,
   GradientRight,
   GradientDown,
-  Falloff,
+  Falloff, // loss at rho = 1 that grows with rho^2, rho from the center
+  Fourth,
+  Sixth,
+  CenterX,
+  CenterY,
   Square,
   Exponent,
   Compression,
@@ -34,6 +56,7 @@ enum class FieldParameter
   Right,
   Down,
   Magnification,
+  Rotation,     // degrees, right towards down
   BlurVariance, // pixels^2
   TailFraction,
   TailRadius,
@@ -43,6 +66,10 @@ enum class FieldParameter
   RowCosine,
   ColumnSine,
   ColumnCosine,
+  RowGain, // times FieldProfile::gain of the row
+  RowOffset,
+  ColumnGain,
+  ColumnOffset,
   Count
 };
 
@@ -69,13 +96,22 @@ struct FieldModel
     return Values[static_cast<std::size_t>(parameter)][channel];
   }
   bool isNeutral(FieldParameter parameter) const;
-  // (1 + right x + down y) (1 - falloff rho^2)
-  double fieldFactor(double x, double y) const noexcept;
-  // 1 + the sines of row and column.
-  double bandFactor(Eigen::Index channel, double x, double y) const noexcept;
+  bool hasVignetting() const;
+  // 1 + right x + down y
+  double gradient(double x, double y) const noexcept;
+  // 1 - falloff rho^2 - fourth rho^4 - sixth rho^6, not below zero
+  double vignetting(double x, double y) const noexcept;
+  double fieldFactor(double x, double y) const noexcept
+  {
+    return gradient(x, y) * vignetting(x, y);
+  }
+  // 1 + what stripes of rows and columns do; and what they add.
+  double bandFactor(Eigen::Index channel, int x, int y) const noexcept;
+  double bandOffset(Eigen::Index channel, int x, int y) const noexcept;
 
   double rowPeriod = 0.0; // 0: none
   double columnPeriod = 0.0;
+  std::shared_ptr<const FieldProfile> rows, columns; // null: none
 
 private:
   std::array<Eigen::ArrayXd, FieldParameters> Values;

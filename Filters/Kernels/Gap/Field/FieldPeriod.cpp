@@ -1,8 +1,6 @@
 #include "Kernels/Gap/Field/FieldPeriod.h"
 
-#include "Kernels/Gap/Field/FieldColumns.h"
-
-#include <Eigen/Cholesky>
+#include "Kernels/Gap/Field/FieldProfile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,80 +18,8 @@ constexpr int Refinements = 40;
 constexpr Eigen::Index FewestLines = 24;
 const double ExponentialMedian = std::log(2.0);
 
-// Relative gain of each line and its weight; lines x K.
-struct Profile
-{
-  Eigen::ArrayXXd value, weight;
-};
-
-Profile profileOf(
-  const FieldData& data, const FieldModel& model, bool alongRows, const FieldLoop& loop)
-{
-  const Eigen::Index lines = alongRows ? data.pair.extent.height : data.pair.extent.width;
-  const Eigen::Index K = data.channels();
-  const Eigen::ArrayXd glare = sceneMean(data, model);
-  std::vector<Profile> parts(data.blocks.size());
-  loop(static_cast<int>(data.blocks.size()),
-    [&](int b)
-    {
-      const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
-      if (block.fold < 0)
-      {
-        return;
-      }
-      Profile& part = parts[static_cast<std::size_t>(b)];
-      part.value.setZero(data.blockSize, K);
-      part.weight.setZero(data.blockSize, K);
-      FieldScratch scratch;
-      for (Eigen::Index k = 0; k < K; ++k)
-      {
-        fieldColumns(data, model, glare, block, k, scratch);
-        const auto u = scratch.columns.col(FieldColumn::Gain);
-        const auto r = scratch.columns.col(FieldColumn::Residual);
-        for (Eigen::Index n = 0; n < u.size(); ++n)
-        {
-          const int pixel = scratch.pixel[static_cast<std::size_t>(n)];
-          const int line = alongRows ? pixel / data.blockSize : pixel % data.blockSize;
-          part.value(line, k) += u[n] * r[n];
-          part.weight(line, k) += u[n] * u[n];
-        }
-      }
-    });
-  Profile profile{ Eigen::ArrayXXd::Zero(lines, K), Eigen::ArrayXXd::Zero(lines, K) };
-  for (std::size_t b = 0; b < parts.size(); ++b)
-  {
-    if (parts[b].value.size() > 0)
-    {
-      const ImageWindow& window = data.blocks[b].window;
-      const int first = alongRows ? window.y : window.x;
-      profile.value.middleRows(first, data.blockSize) += parts[b].value;
-      profile.weight.middleRows(first, data.blockSize) += parts[b].weight;
-    }
-  }
-  profile.value /= profile.weight.max(1e-12);
-  return profile;
-}
-
-// Takes a quadratic off each channel.
-void detrend(Profile& profile)
-{
-  const Eigen::Index lines = profile.value.rows();
-  const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(lines, -1.0, 1.0);
-  Eigen::MatrixXd basis(lines, 3);
-  basis.col(0).setOnes();
-  basis.col(1) = t;
-  basis.col(2) = t.square();
-  for (Eigen::Index k = 0; k < profile.value.cols(); ++k)
-  {
-    const Eigen::MatrixXd weighted = profile.weight.col(k).matrix().asDiagonal() * basis;
-    const Eigen::MatrixXd normal = weighted.transpose() * basis;
-    const Eigen::VectorXd right = weighted.transpose() * profile.value.col(k).matrix();
-    profile.value.col(k) -= (basis * normal.ldlt().solve(right)).array();
-  }
-}
-
 // Weighted energy that a sine takes away, of each channel.
-Eigen::ArrayXd powerAt(const Profile& profile, double frequency)
+Eigen::ArrayXd powerAt(const LineValues& profile, double frequency)
 {
   const Eigen::Index K = profile.value.cols();
   Eigen::ArrayXd cc = Eigen::ArrayXd::Zero(K);
@@ -139,14 +65,25 @@ double gammaSurvival(double x, Eigen::Index channels)
 FieldPeriod findPeriod(
   const FieldData& data, const FieldModel& model, bool alongRows, const FieldLoop& loop)
 {
-  Profile profile = profileOf(data, model, alongRows, loop);
+  LineValues profile;
+  for (const LineSums& fold : lineSums(data, model, alongRows, Eigen::ArrayXd(), loop))
+  {
+    if (profile.value.size() == 0)
+    {
+      profile = fold.gain;
+      continue;
+    }
+    profile.value += fold.gain.value;
+    profile.weight += fold.gain.weight;
+  }
+  profile.value /= profile.weight.max(1e-12);
   const Eigen::Index lines = profile.value.rows();
   const Eigen::Index K = profile.value.cols();
   if (lines < FewestLines)
   {
     return {};
   }
-  detrend(profile);
+  detrend(profile, 3);
   const double span = static_cast<double>(lines);
   const auto count = static_cast<int>(Oversampling * (0.5 * span - 2.0)) + 1;
   const auto frequencyOf = [&](int i) { return (2.0 + i / Oversampling) / span; };

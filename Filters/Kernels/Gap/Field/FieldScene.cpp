@@ -10,7 +10,8 @@ namespace msi
 
 namespace
 {
-constexpr std::size_t MomentPixels = std::size_t(1) << 20;
+constexpr std::size_t MeanPixels = std::size_t(1) << 20;
+constexpr int CellsPerSide = 64;
 
 // A row of one channel: gaps become the mean of both sides, weighted by nearness.
 void fillRow(float* row, int pixels, std::size_t step, float other)
@@ -44,60 +45,77 @@ bool hasGaps(const FieldPair& pair)
     pair.simulated, pair.simulated + count, [](float value) { return std::isfinite(value); });
 }
 
-Eigen::MatrixXd sceneMoments(const FieldPair& pair)
+SceneCells sceneCells(const FieldPair& pair)
 {
   const auto K = static_cast<Eigen::Index>(pair.channels.size());
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(K, 6);
+  constexpr Eigen::Index All = Eigen::Index{ CellsPerSide } * CellsPerSide;
+  SceneCells cells{ Eigen::ArrayXXd::Zero(All, K), Eigen::ArrayXXd::Zero(All, K),
+    Eigen::ArrayXXd::Zero(All, K) };
   Eigen::ArrayXd count = Eigen::ArrayXd::Zero(K);
   int step = 1;
-  while (pair.pixels() / static_cast<std::size_t>(step * step) > MomentPixels)
+  while (pair.pixels() / static_cast<std::size_t>(step * step) > MeanPixels)
   {
     ++step;
   }
   for (int y = 0; y < pair.extent.height; y += step)
   {
+    const Eigen::Index row = Eigen::Index{ y } * CellsPerSide / pair.extent.height;
     for (int x = 0; x < pair.extent.width; x += step)
     {
-      const double X = pair.fieldX(x);
-      const double Y = pair.fieldY(y);
-      const double R = X * X + Y * Y;
-      Eigen::RowVectorXd basis(6);
-      basis << 1.0, X, Y, R, X * R, Y * R;
-      const float* u = pair.simulated + pair.index(x, y) * static_cast<std::size_t>(K);
+      const Eigen::Index cell =
+        row * CellsPerSide + Eigen::Index{ x } * CellsPerSide / pair.extent.width;
+      const float* values = pair.simulated + pair.index(x, y) * static_cast<std::size_t>(K);
       for (Eigen::Index k = 0; k < K; ++k)
       {
-        if (std::isfinite(u[k]))
+        if (std::isfinite(values[k]))
         {
-          sums.row(k) += static_cast<double>(u[k]) * basis;
+          const auto u = static_cast<double>(values[k]);
+          cells.part(cell, k) += u;
+          cells.x(cell, k) += u * pair.fieldX(x);
+          cells.y(cell, k) += u * pair.fieldY(y);
           count[k] += 1.0;
         }
       }
     }
   }
-  return sums.array().colwise() / count.max(1.0);
+  for (Eigen::Index k = 0; k < K; ++k)
+  {
+    for (Eigen::Index cell = 0; cell < All; ++cell)
+    {
+      double& part = cells.part(cell, k);
+      const bool light = std::fabs(part) > 1e-12;
+      cells.x(cell, k) = light ? cells.x(cell, k) / part : 0.0;
+      cells.y(cell, k) = light ? cells.y(cell, k) / part : 0.0;
+      part /= std::fmax(count[k], 1.0);
+    }
+  }
+  return cells;
 }
 
 namespace
 {
-Eigen::ArrayXd meanOf(const Eigen::MatrixXd& moments, const FieldModel& model)
+Eigen::ArrayXd meanOf(const SceneCells& cells, const FieldModel& model)
 {
-  const double right = model.at(FieldParameter::GradientRight, 0);
-  const double down = model.at(FieldParameter::GradientDown, 0);
-  const double falloff = model.at(FieldParameter::Falloff, 0);
-  Eigen::VectorXd factor(6);
-  factor << 1.0, right, down, -falloff, -falloff * right, -falloff * down;
-  return (moments * factor).array();
+  Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(cells.part.cols());
+  for (Eigen::Index k = 0; k < mean.size(); ++k)
+  {
+    for (Eigen::Index cell = 0; cell < cells.part.rows(); ++cell)
+    {
+      mean[k] += cells.part(cell, k) * model.fieldFactor(cells.x(cell, k), cells.y(cell, k));
+    }
+  }
+  return mean;
 }
 }
 
 Eigen::ArrayXd sceneMean(const FieldPair& pair, const FieldModel& model)
 {
-  return meanOf(sceneMoments(pair), model);
+  return meanOf(sceneCells(pair), model);
 }
 
 Eigen::ArrayXd sceneMean(const FieldData& data, const FieldModel& model)
 {
-  return meanOf(data.moments, model);
+  return meanOf(data.cells, model);
 }
 
 std::vector<float> filledScene(const FieldPair& pair)
@@ -108,13 +126,13 @@ std::vector<float> filledScene(const FieldPair& pair)
     return {};
   }
   std::vector<float> filled(pair.simulated, pair.simulated + pair.pixels() * K);
-  const Eigen::MatrixXd moments = sceneMoments(pair);
+  const Eigen::ArrayXd mean = sceneMean(pair, FieldModel(static_cast<Eigen::Index>(K)));
   for (int y = 0; y < pair.extent.height; ++y)
   {
     for (std::size_t k = 0; k < K; ++k)
     {
       fillRow(filled.data() + pair.index(0, y) * K + k, pair.extent.width, K,
-        static_cast<float>(moments(static_cast<Eigen::Index>(k), 0)));
+        static_cast<float>(mean[static_cast<Eigen::Index>(k)]));
     }
   }
   return filled;

@@ -18,8 +18,13 @@ bool hasGaps(const FieldPair& pair);
 // are none.
 std::vector<float> filledScene(const FieldPair& pair);
 
-// Means over the scene of the simulated u times 1, x, y, rho^2, x rho^2, y rho^2; K x 6.
-Eigen::MatrixXd sceneMoments(const FieldPair& pair);
+// The simulated image in 64 x 64 cells: what each adds to the mean of the scene and the place of its light, cells x K.
+// A smooth factor of the field may be taken at that place.
+struct SceneCells
+{
+  Eigen::ArrayXXd part, x, y;
+};
+SceneCells sceneCells(const FieldPair& pair);
 
 // The mean over the scene of the simulated signal behind gradient and vignetting, K.
 Eigen::ArrayXd sceneMean(const FieldPair& pair, const FieldModel& model);

@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldSearch.h"
 
-#include "Kernels/Gap/Field/FieldSearchState.h"
+#include "Kernels/Gap/Field/FieldRevision.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,24 +11,25 @@ namespace msi
 
 namespace
 {
-constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
 constexpr double LeastClip = 0.7;
 constexpr int BackwardRounds = 4;
 constexpr std::size_t FullFits = 2;
 
-class Search : public FieldSearchState
+class Search : public FieldRevision
 {
 public:
-  using FieldSearchState::FieldSearchState;
+  using FieldRevision::FieldRevision;
 
   FieldSearchResult run(int maximumEffects, const std::function<bool()>& stop)
   {
     while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow(maximumEffects))
     {
+      chooseForm();
     }
     for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
     {
     }
+    tryTrend();
     return result();
   }
 
@@ -101,12 +102,20 @@ private:
     }
     for (const FieldChoice& choice : Choices)
     {
-      if (shifted() && choice.effect == "misregistration" && compatible(Current.set, choice))
+      if (choice.effect == "misregistration" && compatible(Current.set, choice))
       {
+        const FieldSet set = joined(Current.set, choice);
+        const bool similar = hasTerm(set, FieldParameter::Rotation);
+        const Eigen::MatrixXd& place = similar ? Start.similarity : Start.shift;
         FieldModel start = Current.statistics->model;
-        start[FieldParameter::Right] = Shifts.col(0);
-        start[FieldParameter::Down] = Shifts.col(1);
-        tryOut(joined(Current.set, choice), start);
+        start[FieldParameter::Right] = place.col(0);
+        start[FieldParameter::Down] = place.col(1);
+        start[FieldParameter::Magnification] = place.col(2);
+        start[FieldParameter::Rotation] = place.col(3);
+        if (!place.isZero() && (!similar || place.rightCols(2).any()))
+        {
+          tryOut(set, start);
+        }
       }
     }
     const FieldHypothesis* best = nullptr;
@@ -169,87 +178,6 @@ private:
         single = { hypothesis.set.back(), hypothesis.fit.energy, hypothesis.fit.blockEnergy };
       }
     }
-  }
-
-  // Puts another effect or form in the place of each, and a simpler form in the place of one more.
-  bool exchange()
-  {
-    const FieldFitter fitter(Data, *Current.statistics);
-    std::optional<FieldFit> best;
-    const auto consider = [&](FieldFit fit)
-    {
-      if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
-      {
-        best = std::move(fit);
-      }
-    };
-    for (std::size_t e = 0; e < Current.set.size(); ++e)
-    {
-      const FieldSet rest = withoutOne(Current.set, e);
-      for (const FieldChoice& choice : Choices)
-      {
-        if (&choice == Current.set[e] || !available(rest, choice))
-        {
-          continue;
-        }
-        const FieldSet other = joined(rest, choice);
-        FieldFit fit = linearFit(fitter, other);
-        if (fit.energy < Current.fit.energy + Tolerated * Result.gapEnergy)
-        {
-          for (const FieldSet& simple : simpler(other))
-          {
-            consider(linearFit(fitter, simple));
-          }
-        }
-        consider(std::move(fit));
-      }
-    }
-    if (!best)
-    {
-      return false;
-    }
-    const FieldHypothesis other = refit(best->set, best->next);
-    if (cost(other.fit) >= cost(Current.fit) - Result.price)
-    {
-      return false;
-    }
-    accept(other);
-    return true;
-  }
-
-  // The set with a form of fewer parameters in the place of one.
-  std::vector<FieldSet> simpler(const FieldSet& set) const
-  {
-    std::vector<FieldSet> sets;
-    for (std::size_t e = 0; e < set.size(); ++e)
-    {
-      for (const FieldChoice& choice : Choices)
-      {
-        if (choice.effect == set[e]->effect &&
-          parameterCount({ &choice }, Data.channels()) <
-            parameterCount({ set[e] }, Data.channels()) &&
-          available(withoutOne(set, e), choice))
-        {
-          sets.push_back(joined(withoutOne(set, e), choice));
-        }
-      }
-    }
-    return sets;
-  }
-
-  bool drop()
-  {
-    const FieldFitter fitter(Data, *Current.statistics);
-    for (std::size_t e = Current.set.size(); e-- > 0;)
-    {
-      const FieldFit fit = fitter.fit(withoutOne(Current.set, e));
-      if (!acceptance().mayStay(Current.fit, fit, fitter.chance()))
-      {
-        accept(refit(fit.set, fit.next));
-        return true;
-      }
-    }
-    return false;
   }
 };
 }

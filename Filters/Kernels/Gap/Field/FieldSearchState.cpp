@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldSearchState.h"
 
 #include "Kernels/Gap/Field/FieldClip.h"
-#include "Kernels/Gap/Field/FieldShift.h"
+#include "Kernels/Gap/Field/FieldProfile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,21 @@ constexpr double PricePart = 0.0005; // for a parameter
 constexpr double LargestPricePart = 0.001;
 }
 
+namespace
+{
+bool hasProfile(const FieldSet& set, bool rows)
+{
+  return std::any_of(set.begin(), set.end(),
+    [rows](const FieldChoice* choice) { return isProfile(*choice) && isOfRows(*choice) == rows; });
+}
+
+FieldSet withoutChoice(FieldSet set, const FieldChoice* choice)
+{
+  set.erase(std::remove(set.begin(), set.end(), choice), set.end());
+  return set;
+}
+}
+
 FieldSearchState::FieldSearchState(
   const FieldData& data, const std::vector<FieldChoice>& choices, const FieldLoop& loop)
   : Data(data)
@@ -26,7 +41,8 @@ FieldSearchState::FieldSearchState(
   Result.weights = fieldWeights(Result.before, nullptr);
   // Once more with noise known, and what the tolerance does with it.
   measureNominal();
-  Shifts = wholePixelShifts(data, loop);
+  Limit = Result.weights.limit;
+  Start = registrationStart(data, loop);
 }
 
 FieldSearchResult FieldSearchState::result() const
@@ -65,10 +81,15 @@ void FieldSearchState::setPrice(const FieldFitter& fitter)
 bool FieldSearchState::available(const FieldSet& set, const FieldChoice& choice) const
 {
   const FieldModel& model = Current.statistics->model;
-  if (choice.effect == "banding" &&
-    (choice.form == "rows" ? model.rowPeriod : model.columnPeriod) <= 0.0)
+  if (choice.effect == "banding")
   {
-    return false;
+    const bool rows = isOfRows(choice);
+    const bool known = isProfile(choice) ? (rows ? model.rows : model.columns) != nullptr
+                                         : (rows ? model.rowPeriod : model.columnPeriod) > 0.0;
+    if (!known)
+    {
+      return false;
+    }
   }
   if (choice.effect == "saturation" && model.isNeutral(FieldParameter::ClipLevel))
   {
@@ -93,6 +114,11 @@ void FieldSearchState::findStarts()
     found = found || Result.columns.period != model.columnPeriod;
     model.columnPeriod = Result.columns.period;
   }
+  if (!hasProfile(Current.set, true) || !hasProfile(Current.set, false))
+  {
+    findProfiles(model, Current.set);
+    found = true;
+  }
   if (!contains(Current.set, "saturation"))
   {
     const double level = findClipLevel(Data, model, Loop);
@@ -107,9 +133,38 @@ void FieldSearchState::findStarts()
   }
 }
 
+// Of lines whose profile is not in the set; those of others stay as they are.
+void FieldSearchState::findProfiles(FieldModel& model, const FieldSet& set) const
+{
+  const auto find = [&](bool rows)
+  {
+    return std::make_shared<const FieldProfile>(
+      findProfile(Data, model, rows, KeepTrend, Limit, Loop));
+  };
+  if (!hasProfile(set, true))
+  {
+    model.rows = find(true);
+  }
+  if (!hasProfile(set, false))
+  {
+    model.columns = find(false);
+  }
+}
+
 void FieldSearchState::accept(const FieldHypothesis& hypothesis)
 {
-  const FieldModel model = hypothesis.fit.next;
+  FieldModel model = hypothesis.fit.next;
+  for (const FieldChoice* choice : hypothesis.set)
+  {
+    if (isProfile(*choice))
+    {
+      // Once more beside the other effects.
+      const Eigen::ArrayXd strength = model[choice->terms.front().parameter];
+      model[choice->terms.front().parameter].setZero();
+      findProfiles(model, withoutChoice(hypothesis.set, choice));
+      model[choice->terms.front().parameter] = strength;
+    }
+  }
   const Eigen::ArrayXd tolerance = Result.weights.tolerance;
   const FieldStatistics plain = fieldStatistics(Data, model, &Result.weights, Loop);
   Result.weights = fieldWeights(plain, &tolerance);

@@ -4,6 +4,7 @@
 #include "Kernels/Gap/Field/FieldAcceptance.h"
 #include "Kernels/Gap/Field/FieldHypothesis.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
+#include "Kernels/Gap/Field/FieldShift.h"
 
 #include <Eigen/Core>
 
@@ -25,13 +26,13 @@ protected:
   const FieldData& Data;
   const std::vector<FieldChoice>& Choices;
   const FieldLoop& Loop;
-  Eigen::MatrixXd Shifts; // of whole pixels
+  FieldStart Start; // of misregistration
   FieldHypothesis Current;
+  bool KeepTrend = false; // of the profiles of stripes
   FieldSearchResult Result;
 
   FieldAcceptance acceptance() const { return { Data, Result.gapEnergy, Result.price }; }
   double cost(const FieldFit& fit) const { return acceptance().cost(fit); }
-  bool shifted() const { return Shifts.cwiseAbs().maxCoeff() >= 1.0; }
   FieldHypothesis refit(const FieldSet& set, const FieldModel& start) const
   {
     return refitted(Data, Result.weights, set, start, Loop);
@@ -44,6 +45,9 @@ protected:
   void accept(const FieldHypothesis& hypothesis);
 
 private:
+  Eigen::ArrayXd Limit; // of residuals, at the nominal model
+
+  void findProfiles(FieldModel& model, const FieldSet& set) const;
   void measureNominal();
   void setPrice(const FieldFitter& fitter);
 };

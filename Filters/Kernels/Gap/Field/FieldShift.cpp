@@ -9,86 +9,156 @@ namespace msi
 namespace
 {
 constexpr int Farthest = 10;
+constexpr int Side = 2 * Farthest + 1;
 constexpr std::size_t MostBlocks = 64;
 constexpr double Better = 0.002; // of correlation; less is not worth a start elsewhere
+constexpr double Degrees = 57.29577951308232;
 
-double correlation(const FieldData& data, const std::vector<std::size_t>& blocks,
-  Eigen::Index channel, int right, int down)
+// Of a block in one channel: variances and covariance with the scene at each displacement.
+struct Match
+{
+  double x, y; // middle, from that of the image
+  double real;
+  Eigen::Array<double, Side, Side> scene, both; // down, right
+};
+
+Match matchOf(const FieldData& data, const FieldBlock& block, Eigen::Index channel)
 {
   const auto K = static_cast<std::size_t>(data.channels());
   const auto k = static_cast<std::size_t>(channel);
   const ImageExtent& extent = data.pair.extent;
-  double rr = 0.0;
-  double ss = 0.0;
-  double rs = 0.0;
-  for (const std::size_t b : blocks)
+  Match match{ data.pair.offX(block.window.x + 0.5 * (block.window.width - 1)),
+    data.pair.offY(block.window.y + 0.5 * (block.window.height - 1)), 0.0, {}, {} };
+  for (int down = -Farthest; down <= Farthest; ++down)
   {
-    const FieldBlock& block = data.blocks[b];
-    double n = 0.0;
-    double r = 0.0;
-    double s = 0.0;
-    double r2 = 0.0;
-    double s2 = 0.0;
-    double both = 0.0;
-    std::size_t i = k;
-    for (int y = block.window.y; y < block.window.y + block.window.height; ++y)
+    for (int right = -Farthest; right <= Farthest; ++right)
     {
-      const int v = std::clamp(y - down, 0, extent.height - 1);
-      for (int x = block.window.x; x < block.window.x + block.window.width; ++x, i += K)
+      double n = 0.0;
+      double r = 0.0;
+      double s = 0.0;
+      double r2 = 0.0;
+      double s2 = 0.0;
+      double both = 0.0;
+      std::size_t i = k;
+      for (int y = block.window.y; y < block.window.y + block.window.height; ++y)
       {
-        const auto real = static_cast<double>(block.real[i]);
-        if (std::isfinite(real))
+        const int v = std::clamp(y - down, 0, extent.height - 1);
+        for (int x = block.window.x; x < block.window.x + block.window.width; ++x, i += K)
         {
-          const int u = std::clamp(x - right, 0, extent.width - 1);
-          const auto scene = static_cast<double>(data.scene[data.pair.index(u, v) * K + k]);
-          n += 1.0;
-          r += real;
-          s += scene;
-          r2 += real * real;
-          s2 += scene * scene;
-          both += real * scene;
-        }
-      }
-    }
-    n = std::fmax(n, 1.0);
-    rr += r2 - r * r / n;
-    ss += s2 - s * s / n;
-    rs += both - r * s / n;
-  }
-  return rs / std::sqrt(std::fmax(rr * ss, 1e-30));
-}
-}
-
-Eigen::MatrixXd wholePixelShifts(const FieldData& data, const FieldLoop& loop)
-{
-  std::vector<std::size_t> blocks;
-  for (std::size_t b = 0; b < data.blocks.size() && blocks.size() < MostBlocks; ++b)
-  {
-    if (data.blocks[b].fold >= 0)
-    {
-      blocks.push_back(b);
-    }
-  }
-  Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(data.channels(), 2);
-  loop(static_cast<int>(data.channels()),
-    [&](int channel)
-    {
-      const double still = correlation(data, blocks, channel, 0, 0);
-      double best = still + Better;
-      for (int down = -Farthest; down <= Farthest; ++down)
-      {
-        for (int right = -Farthest; right <= Farthest; ++right)
-        {
-          const double value = correlation(data, blocks, channel, right, down);
-          if (value > best)
+          const auto real = static_cast<double>(block.real[i]);
+          if (std::isfinite(real))
           {
-            best = value;
-            shifts.row(channel) << right, down;
+            const int u = std::clamp(x - right, 0, extent.width - 1);
+            const auto scene = static_cast<double>(data.scene[data.pair.index(u, v) * K + k]);
+            n += 1.0;
+            r += real;
+            s += scene;
+            r2 += real * real;
+            s2 += scene * scene;
+            both += real * scene;
           }
         }
       }
+      n = std::fmax(n, 1.0);
+      match.real = r2 - r * r / n;
+      match.scene(down + Farthest, right + Farthest) = s2 - s * s / n;
+      match.both(down + Farthest, right + Farthest) = both - r * s / n;
+    }
+  }
+  return match;
+}
+
+// right, down, magnification, rotation in radians
+using Similarity = Eigen::RowVector4d;
+
+// Of all blocks; 0 where one of them would move farther than was looked at.
+double correlation(const std::vector<Match>& matches, const Similarity& similarity)
+{
+  double real = 0.0;
+  double scene = 0.0;
+  double both = 0.0;
+  for (const Match& match : matches)
+  {
+    const auto right =
+      std::lround(similarity[0] + similarity[2] * match.x - similarity[3] * match.y);
+    const auto down =
+      std::lround(similarity[1] + similarity[2] * match.y + similarity[3] * match.x);
+    if (std::max(std::labs(right), std::labs(down)) > Farthest)
+    {
+      return 0.0;
+    }
+    real += match.real;
+    scene += match.scene(down + Farthest, right + Farthest);
+    both += match.both(down + Farthest, right + Farthest);
+  }
+  return both / std::sqrt(std::fmax(real * scene, 1e-30));
+}
+
+struct Best
+{
+  Similarity at = Similarity::Zero();
+  double value = 0.0;
+};
+
+// The displacement with the largest correlation within `reach` of that of `around`, which keeps the rest.
+void move(const std::vector<Match>& matches, const Similarity& around, int reach, Best& best)
+{
+  for (int down = -reach; down <= reach; ++down)
+  {
+    for (int right = -reach; right <= reach; ++right)
+    {
+      const Similarity at = around + Similarity(right, down, 0.0, 0.0);
+      const double value = correlation(matches, at);
+      if (value > best.value)
+      {
+        best = { at, value };
+      }
+    }
+  }
+}
+}
+
+FieldStart registrationStart(const FieldData& data, const FieldLoop& loop)
+{
+  std::vector<const FieldBlock*> blocks;
+  for (const FieldBlock& block : data.blocks)
+  {
+    if (block.fold >= 0 && blocks.size() < MostBlocks)
+    {
+      blocks.push_back(&block);
+    }
+  }
+  const double step = 2.0 / std::max(data.pair.extent.width, data.pair.extent.height);
+  FieldStart start{ Eigen::MatrixXd::Zero(data.channels(), 4),
+    Eigen::MatrixXd::Zero(data.channels(), 4) };
+  loop(static_cast<int>(data.channels()),
+    [&](int channel)
+    {
+      std::vector<Match> matches;
+      matches.reserve(blocks.size());
+      for (const FieldBlock* block : blocks)
+      {
+        matches.push_back(matchOf(data, *block, channel));
+      }
+      Best best{ Similarity::Zero(), correlation(matches, Similarity::Zero()) + Better };
+      move(matches, Similarity::Zero(), Farthest, best);
+      start.shift.row(channel) = best.at;
+      // A pixel more at the end of the longer side with each step.
+      best.value += Better;
+      for (const int parameter : { 3, 2 })
+      {
+        const Similarity around = best.at;
+        for (int i = -Farthest; i <= Farthest; ++i)
+        {
+          Similarity at = around;
+          at[parameter] += i * step;
+          move(matches, at, parameter == 3 && around.isZero() ? 4 : 1, best);
+        }
+      }
+      start.similarity.row(channel) = best.at;
+      start.similarity(channel, 3) *= Degrees;
     });
-  return shifts;
+  return start;
 }
 
 } // namespace msi

@@ -1,4 +1,4 @@
-// Displacements of whole pixels.
+// Displacements of whole pixels as a start for misregistration.
 #pragma once
 
 #include "Kernels/Gap/Field/FieldData.h"
@@ -8,8 +8,15 @@
 namespace msi
 {
 
-// The displacement (right, down; K x 2) of each channel of the real image, up to ten pixels, by the largest correlation of
-// blocks whose means are taken off; zero where it is less than a pixel, so a start for a fit by gradients.
-Eigen::MatrixXd wholePixelShifts(const FieldData& data, const FieldLoop& loop);
+// Where each channel of the real image lies: right, down (pixels), magnification, rotation (degrees); K x 4.
+struct FieldStart
+{
+  Eigen::MatrixXd shift;      // displacements alone, the rest zero
+  Eigen::MatrixXd similarity; // all of them
+};
+
+// The largest correlation of blocks whose means are taken off, with displacements of up to ten whole pixels in every
+// block. Zero where it is no better than no displacement, so a start for a fit by gradients.
+FieldStart registrationStart(const FieldData& data, const FieldLoop& loop);
 
 } // namespace msi

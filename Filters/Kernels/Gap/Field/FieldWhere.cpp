@@ -60,6 +60,15 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
 }
 }
 
+namespace
+{
+std::vector<GapCell> stripeCells(double period, const std::string& lines)
+{
+  return { { period > 0.0 ? "period " + rounded(period) + " " + lines : lines + " without period",
+    1.0 } };
+}
+}
+
 std::vector<GapAxis> fieldAxes(
   const FieldData& data, const FieldStatistics& statistics, const FieldLoop& loop)
 {
@@ -150,9 +159,8 @@ std::vector<GapAxis> fieldAxes(
       : name == "level"                                  ? fifths(level, "level").worst()
       : name == "position"                               ? position.worst()
       : name == "edges" ? fifths(gradient, "change over two pixels").worst()
-      : name == "rows"
-      ? std::vector<GapCell>{ { "period " + rounded(plain.model.rowPeriod) + " rows", 1.0 } }
-      : std::vector<GapCell>{ { "period " + rounded(plain.model.columnPeriod) + " columns", 1.0 } };
+      : name == "rows"  ? stripeCells(plain.model.rowPeriod, "rows")
+                        : stripeCells(plain.model.columnPeriod, "columns");
     found.push_back({ name, share[a], cells });
   }
   // What goes with labels, or with blocks, of what is left.

@@ -98,6 +98,39 @@ TEST(FieldCorrection, TheSimulatorRunsWithWhatWasFound)
   EXPECT_LT(after, 0.05 * before);
 }
 
+// Turned channels under light off the middle, with sines of three harmonics in the place of a profile.
+TEST(FieldCorrection, TheSimulatorTurnsAsTheModelDoes)
+{
+  const TestScene scene(24, 3, 120, 100);
+  const TestPair test = makePair(
+    scene, [&](int k) { return scene.pixels(scene.fine(k)); }, 33);
+  const msi::FieldPair pair = test.pair();
+  msi::FieldModel model(3);
+  model[msi::FieldParameter::Right] << 0.4, 0.0, -1.2;
+  model[msi::FieldParameter::Rotation] << 0.7, 0.0, -1.1;
+  model[msi::FieldParameter::Magnification] << 0.0, 0.004, 0.0;
+  model[msi::FieldParameter::Falloff].setConstant(0.1);
+  model[msi::FieldParameter::Fourth].setConstant(0.05);
+  model[msi::FieldParameter::Sixth].setConstant(-0.02);
+  model[msi::FieldParameter::CenterX].setConstant(0.2);
+  model[msi::FieldParameter::CenterY].setConstant(-0.1);
+  msi::CameraEffect moved = msi::neutralEffect("misregistration", pair.channels);
+  moved.parameters = { 0.4, 0.0, -1.2, 0.0, 0.0, 0.0, 0.0, 0.004, 0.0, 0.7, 0.0, -1.1 };
+  const msi::CameraEffect light{ "vignetting", "polynomial", "", { 0.1, 0.05, -0.02, 0.2, -0.1 } };
+  const msi::CameraModel camera(msi::WavelengthGrid::uniform(500.0, 520.0, 10.0),
+    Eigen::MatrixXd::Identity(3, 3), Eigen::VectorXd::Zero(3), pair.channels);
+  const msi::ImageSimulator simulator(camera, { light, moved }, pair.extent);
+  const msi::ImageWindow all = msi::wholeImage(pair.extent);
+  msi::ImageWorkspace workspace;
+  std::vector<float> simulated(test.simulated.size());
+  simulator.simulate(pair.simulated, nullptr, all, all, nullptr, simulated.data(), workspace);
+  const std::vector<float> corrected = correctedImage(pair, model, 64);
+  for (std::size_t i = 0; i < corrected.size(); ++i)
+  {
+    ASSERT_NEAR(simulated[i], corrected[i], 1e-5) << i;
+  }
+}
+
 TEST(FieldCorrection, WindowsDoNotShowAndGapsStay)
 {
   const TestScene scene(22, 3, 120, 100);

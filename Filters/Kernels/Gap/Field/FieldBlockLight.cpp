@@ -1,0 +1,57 @@
+#include "Kernels/Gap/Field/FieldBlockLight.h"
+
+#include "Kernels/Gap/Field/FieldColumns.h"
+
+#include <algorithm>
+
+namespace msi
+{
+
+namespace
+{
+FieldNeighbourhood near(const FieldData& data, const FieldModel& model, const ImageWindow& window,
+  Eigen::Index channel, const FieldDisplacement& where, bool derivatives)
+{
+  const double variance = std::max(model.at(FieldParameter::BlurVariance, channel), 0.0);
+  const FieldDisplacement::Place middle = where.atMiddle(window);
+  return { data, window, channel, AxisKernels(middle.right, variance),
+    AxisKernels(middle.down, variance), derivatives || where.varies() };
+}
+}
+
+BlockLight::BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
+  const FieldBlock& block, Eigen::Index channel, bool derivatives)
+  : Block(block)
+  , K(static_cast<std::size_t>(data.channels()))
+  , Channel(static_cast<std::size_t>(channel))
+  , Where(data.pair, model, channel)
+  , Near(near(data, model, block.window, channel, Where, derivatives))
+  , Weights(model.at(FieldParameter::TailFraction, channel) *
+      tailWeights(model.at(FieldParameter::TailRadius, channel)).head<TailPasses>())
+  , Added((model.at(FieldParameter::Glare, channel) +
+            model.at(FieldParameter::ConservingGlare, channel)) *
+      glare[channel])
+  , Lost(1.0 - model.at(FieldParameter::ConservingGlare, channel))
+{
+  for (int i = 0; i < FreePasses; ++i)
+  {
+    Weights[i + 1] += model.at(surroundWeight(i), channel);
+  }
+  Fraction = Weights.sum();
+}
+
+std::vector<double> fieldFactors(
+  const FieldData& data, const FieldModel& model, const ImageWindow& window)
+{
+  std::vector<double> factors;
+  for (int y = window.y; y < window.y + window.height; ++y)
+  {
+    for (int x = window.x; x < window.x + window.width; ++x)
+    {
+      factors.push_back(model.fieldFactor(data.pair.fieldX(x), data.pair.fieldY(y)));
+    }
+  }
+  return factors;
+}
+
+} // namespace msi

@@ -1,0 +1,21 @@
+// What a solution of the normal equations is held to.
+#pragma once
+
+#include "Kernels/Gap/Field/FieldFit.h"
+
+#include <vector>
+
+namespace msi
+{
+
+inline constexpr double PriorSize = 10.0; // typical sizes
+
+// A term with the value that is wanted (prior or hold), channel by channel.
+struct FieldFitter::Bound
+{
+  FieldTerm term;
+  Eigen::ArrayXd wanted;
+  std::vector<char> held;
+};
+
+} // namespace msi

@@ -1,0 +1,185 @@
+#include "Kernels/Gap/Field/FieldRevision.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
+}
+
+void FieldRevision::chooseForm()
+{
+  const FieldFitter fitter(Data, *Current.statistics);
+  const FieldSet rest = withoutOne(Current.set, Current.set.size() - 1);
+  const FieldChoice* last = Current.set.back();
+  std::optional<FieldFit> best;
+  for (const FieldChoice& choice : Choices)
+  {
+    if (&choice == last || choice.effect != last->effect || !available(rest, choice))
+    {
+      continue;
+    }
+    FieldFit fit = linearFit(fitter, joined(rest, choice));
+    if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+    {
+      best = std::move(fit);
+    }
+  }
+  if (best)
+  {
+    const FieldHypothesis other = refit(best->set, best->next);
+    if (cost(other.fit) < cost(Current.fit) - Result.price)
+    {
+      accept(other);
+    }
+  }
+}
+
+void FieldRevision::tryTrend()
+{
+  FieldSet set;
+  std::copy_if(Current.set.begin(), Current.set.end(), std::back_inserter(set),
+    [](const FieldChoice* choice)
+    { return choice->effect != "vignetting" && choice->effect != "illumination_gradient"; });
+  if (std::none_of(set.begin(), set.end(), [](const FieldChoice* c) { return isProfile(*c); }))
+  {
+    return;
+  }
+  const FieldHypothesis before = Current;
+  const FieldWeights weights = Result.weights;
+  const double price = Result.price;
+  KeepTrend = true;
+  accept(refit(set, FieldFitter(Data, *Current.statistics).fit(set).next));
+  const FieldHypothesis with = refitted(Data, weights, set, Current.fit.next, Loop);
+  if (with.fit.energy > before.fit.energy - price)
+  {
+    KeepTrend = false;
+    Current = before;
+    Result.weights = weights;
+    Result.price = price;
+  }
+}
+
+bool FieldRevision::exchange()
+{
+  const FieldFitter fitter(Data, *Current.statistics);
+  std::optional<FieldFit> best;
+  const auto consider = [&](FieldFit fit)
+  {
+    if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+    {
+      best = std::move(fit);
+    }
+  };
+  for (std::size_t e = 0; e < Current.set.size(); ++e)
+  {
+    const FieldSet rest = withoutOne(Current.set, e);
+    for (const FieldChoice& choice : Choices)
+    {
+      if (&choice == Current.set[e] || !available(rest, choice))
+      {
+        continue;
+      }
+      const FieldSet other = joined(rest, choice);
+      FieldFit fit = linearFit(fitter, other);
+      if (fit.energy < Current.fit.energy + Tolerated * Result.gapEnergy)
+      {
+        for (const FieldSet& simple : simpler(other))
+        {
+          consider(linearFit(fitter, simple));
+        }
+      }
+      consider(std::move(fit));
+    }
+  }
+  for (const FieldSet& other : otherLight())
+  {
+    consider(linearFit(fitter, other));
+  }
+  if (!best)
+  {
+    return false;
+  }
+  const FieldHypothesis other = refit(best->set, best->next);
+  if (cost(other.fit) >= cost(Current.fit) - Result.price)
+  {
+    return false;
+  }
+  accept(other);
+  return true;
+}
+
+std::vector<FieldSet> FieldRevision::otherLight() const
+{
+  std::vector<FieldSet> sets;
+  for (std::size_t e = 0; e < Current.set.size(); ++e)
+  {
+    const FieldChoice* mine = Current.set[e];
+    if (mine->effect != "vignetting")
+    {
+      continue;
+    }
+    FieldSet rest = withoutOne(Current.set, e);
+    const bool off = hasTerm({ mine }, FieldParameter::CenterX);
+    const FieldChoice* gradient = nullptr;
+    for (const FieldChoice& choice : Choices)
+    {
+      gradient = choice.effect == "illumination_gradient" ? &choice : gradient;
+    }
+    if (gradient == nullptr || contains(rest, "illumination_gradient") == off)
+    {
+      continue;
+    }
+    rest.erase(std::remove(rest.begin(), rest.end(), gradient), rest.end());
+    for (const FieldChoice& choice : Choices)
+    {
+      if (choice.effect == mine->effect && choice.form == mine->form &&
+        hasTerm({ &choice }, FieldParameter::CenterX) != off)
+      {
+        sets.push_back(joined(off ? joined(rest, *gradient) : rest, choice));
+      }
+    }
+  }
+  return sets;
+}
+
+std::vector<FieldSet> FieldRevision::simpler(const FieldSet& set) const
+{
+  std::vector<FieldSet> sets;
+  for (std::size_t e = 0; e < set.size(); ++e)
+  {
+    for (const FieldChoice& choice : Choices)
+    {
+      if (choice.effect == set[e]->effect &&
+        parameterCount({ &choice }, Data.channels()) <
+          parameterCount({ set[e] }, Data.channels()) &&
+        available(withoutOne(set, e), choice))
+      {
+        sets.push_back(joined(withoutOne(set, e), choice));
+      }
+    }
+  }
+  return sets;
+}
+
+bool FieldRevision::drop()
+{
+  const FieldFitter fitter(Data, *Current.statistics);
+  for (std::size_t e = Current.set.size(); e-- > 0;)
+  {
+    const FieldFit fit = fitter.fit(withoutOne(Current.set, e));
+    if (!acceptance().mayStay(Current.fit, fit, fitter.chance()))
+    {
+      accept(refit(fit.set, fit.next));
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace msi

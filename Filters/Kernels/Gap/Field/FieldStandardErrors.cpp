@@ -1,0 +1,81 @@
+#include "Kernels/Gap/Field/FieldBound.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int Columns = FieldColumn::Residual;
+}
+
+Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
+{
+  const auto K = Data.channels();
+  std::vector<std::pair<FieldTerm, Eigen::Index>> single; // channel, -1: common
+  for (const FieldChoice* choice : set)
+  {
+    for (const FieldTerm& term : choice->terms)
+    {
+      for (Eigen::Index k = term.perChannel ? 0 : -1; k < (term.perChannel ? K : 0); ++k)
+      {
+        single.emplace_back(term, k);
+      }
+    }
+  }
+  const auto p = static_cast<Eigen::Index>(single.size());
+  const FieldShape shape = this->shape();
+  std::vector<Eigen::MatrixXd> design(
+    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(Columns, p));
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(p, p);
+  for (Eigen::Index k = 0; k < K; ++k)
+  {
+    Eigen::MatrixXd& columns = design[static_cast<std::size_t>(k)];
+    for (Eigen::Index i = 0; i < p; ++i)
+    {
+      const auto& [term, channel] = single[static_cast<std::size_t>(i)];
+      if (channel < 0 || channel == k)
+      {
+        columns.col(i) = coefficients(term.parameter, k, shape);
+      }
+    }
+    information += columns.transpose() *
+      Total[static_cast<std::size_t>(k)].topLeftCorner(Columns, Columns) * columns;
+  }
+  for (Eigen::Index i = 0; i < p; ++i)
+  {
+    information(i, i) +=
+      std::pow(PriorSize * single[static_cast<std::size_t>(i)].first.typical, -2);
+  }
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(p, p);
+  std::map<int, Eigen::VectorXd> ofGroup;
+  for (std::size_t b = 0; b < Data.blocks.size(); ++b)
+  {
+    if (Data.blocks[b].fold < 0)
+    {
+      continue;
+    }
+    Eigen::VectorXd& g =
+      ofGroup.try_emplace(Data.blocks[b].group, Eigen::VectorXd::Zero(p)).first->second;
+    for (Eigen::Index k = 0; k < K; ++k)
+    {
+      g += design[static_cast<std::size_t>(k)].transpose() *
+        Statistics.at(b, k).normal.col(Columns).head(Columns);
+    }
+  }
+  for (const auto& [number, g] : ofGroup)
+  {
+    scatter += g * g.transpose();
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(information);
+  const Eigen::MatrixXd half = factor.solve(scatter);
+  const Eigen::MatrixXd covariance = factor.solve(half.transpose());
+  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+} // namespace msi

@@ -1,0 +1,118 @@
+#include "Kernels/Gap/Field/FieldBanding.h"
+#include "Kernels/Gap/Field/TestFieldReport.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace
+{
+using msi::GapReport;
+using msi::GapVerdict;
+using msi::test::changed;
+using msi::test::describe;
+using msi::test::diagnose;
+using msi::test::expectFirst;
+using msi::test::expectParameter;
+using msi::test::Pi;
+using msi::test::TestPair;
+using msi::test::TestScene;
+}
+
+TEST(FieldGap, BandingOfRowsAndOfColumns)
+{
+  const TestScene scene(12);
+  const double start[] = { 0.1, 0.45, 0.8 };
+  const TestPair rows = changed(scene, 22,
+    [&](double u, int k, int, int y, double)
+    { return u * (1.0 + 0.012 * std::sin(2.0 * Pi * (y / 11.3 + start[k]))); });
+  const GapReport report = diagnose(rows);
+  expectFirst(report, "banding", "rows");
+  EXPECT_EQ(report.causes.front().form, "rows");
+  expectParameter(report, "banding", "period", 11.3, 0.05);
+  expectParameter(report, "banding", "amplitude[C1]", 0.012, 0.001);
+  expectParameter(report, "banding", "start[C2]", 0.45, 0.04);
+
+  const TestPair columns = changed(scene, 23,
+    [&](double u, int k, int x, int, double)
+    { return u * (1.0 + 0.012 * std::sin(2.0 * Pi * (x / 7.7 + start[k]))); });
+  const GapReport other = diagnose(columns);
+  expectFirst(other, "banding", "columns");
+  expectParameter(other, "banding", "period", 7.7, 0.05);
+}
+
+// A square wave a has the harmonics 4 a / (pi n), n odd, a sawtooth 2 a / (pi n).
+TEST(FieldBanding, SinesOfASquareWaveAndOfASawtooth)
+{
+  constexpr Eigen::Index Lines = 240;
+  Eigen::ArrayXXd profile(Lines, 2);
+  for (Eigen::Index line = 0; line < Lines; ++line)
+  {
+    // Half a line off, so that no line lies on a step.
+    const double cycle = (static_cast<double>(line) + 0.5) / 60.0;
+    const double part = cycle - std::floor(cycle);
+    profile(line, 0) = part < 0.5 ? 0.1 : -0.1;
+    profile(line, 1) = 0.1 * (1.0 - 2.0 * part);
+  }
+  const msi::BandingSines sines = msi::nearestSines(profile);
+  EXPECT_NEAR(sines.period, 60.0, 1e-9);
+  for (int n = 1; n <= 3; ++n)
+  {
+    EXPECT_NEAR(sines.amplitude(0, n - 1), n == 2 ? 0.0 : 0.4 / (Pi * n), 2e-3) << n;
+    EXPECT_NEAR(sines.amplitude(1, n - 1), 0.2 / (Pi * n), 2e-3) << n;
+  }
+}
+
+TEST(FieldGap, StripesOfAnyPeriodicShape)
+{
+  const TestScene scene(44);
+  const double start[] = { 0.1, 0.45, 0.8 };
+  const auto part = [&](int place, double period, int k)
+  {
+    const double cycle = place / period + start[k];
+    return cycle - std::floor(cycle);
+  };
+  const GapReport square = diagnose(changed(scene, 54,
+    [&](double u, int k, int, int y, double)
+    { return u * (part(y, 16.0, k) < 0.5 ? 1.03 : 0.97); }));
+  expectFirst(square, "banding", "rows");
+  EXPECT_EQ(square.causes.front().form, "row_harmonics");
+  expectParameter(square, "banding", "period", 16.0, 0.2);
+  const GapReport saw = diagnose(changed(scene, 55,
+    [&](double u, int k, int x, int, double)
+    { return u * (1.0 + 0.06 * (part(x, 21.0, k) - 0.5)); }));
+  expectFirst(saw, "banding", "columns");
+  EXPECT_EQ(saw.causes.front().form, "column_harmonics");
+  expectParameter(saw, "banding", "period", 21.0, 0.2);
+}
+
+// Every row with an offset of its own: no sine, and so the notes say.
+TEST(FieldGap, OffsetsOfRows)
+{
+  const TestScene scene(45);
+  const msi::CounterRandom random(7, 3);
+  Eigen::ArrayXXd offset(scene.height(), scene.channels());
+  for (Eigen::Index i = 0; i < offset.size(); ++i)
+  {
+    offset(i) = 0.02 * random.normal(static_cast<std::uint64_t>(i));
+  }
+  offset.rowwise() -= offset.colwise().mean().eval(); // that would be a dark offset
+  const TestPair pair =
+    changed(scene, 56, [&](double u, int k, int, int y, double) { return u + offset(y, k); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "banding", "rows");
+  EXPECT_EQ(report.causes.front().form, "row_offsets");
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes.front().find("the three sines that come nearest"), std::string::npos);
+}
+
+TEST(FieldGap, OneDeadColumnIsNoBanding)
+{
+  const TestScene scene(46);
+  const GapReport report = diagnose(
+    changed(scene, 57, [](double u, int, int x, int, double) { return x == 80 ? 0.1 * u : u; }));
+  SCOPED_TRACE(describe(report));
+  EXPECT_TRUE(report.causes.empty());
+  EXPECT_EQ(report.verdict, GapVerdict::Unexplained);
+}

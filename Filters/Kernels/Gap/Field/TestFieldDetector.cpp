@@ -1,0 +1,170 @@
+#include "Kernels/Gap/Field/TestFieldReport.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace
+{
+using msi::FieldGap;
+using msi::GapReport;
+using msi::GapVerdict;
+using msi::test::changed;
+using msi::test::describe;
+using msi::test::diagnose;
+using msi::test::expectFirst;
+using msi::test::expectParameter;
+using msi::test::findParameter;
+using msi::test::ImagePlane;
+using msi::test::makePair;
+using msi::test::TestPair;
+using msi::test::TestScene;
+}
+
+TEST(FieldGap, GlareGoesWithTheMeanOfTheScene)
+{
+  const TestScene scene(3);
+  const double level[] = { 1.0, 0.4, 1.6 };
+  // Channels of different brightness: only then does glare differ from a common offset.
+  TestPair pair = changed(scene, 13, [](double u, int, int, int, double) { return u; });
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    double mean = 0.0;
+    const std::size_t pixels = pair.simulated.size() / 3;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      pair.simulated[i * 3 + k] *= static_cast<float>(level[k]);
+      mean += static_cast<double>(pair.simulated[i * 3 + k]) / static_cast<double>(pixels);
+    }
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      pair.real[i * 3 + k] =
+        static_cast<float>(level[k]) * pair.real[i * 3 + k] + static_cast<float>(0.04 * mean);
+    }
+  }
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "veiling_glare", "channel");
+  expectParameter(report, "veiling_glare", "fraction", 0.04, 0.001);
+}
+
+TEST(FieldGap, OffsetsOfChannelsMayBeGlare)
+{
+  const TestScene scene(4);
+  const double offset[] = { 0.004, 0.012, -0.006 };
+  const TestPair pair =
+    changed(scene, 14, [&](double u, int k, int, int, double) { return u + offset[k]; });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "dark_offset", "channel");
+  expectParameter(report, "dark_offset", "offset[C2]", 0.012, 0.0005);
+  EXPECT_EQ(report.causes.front().equivalent, std::vector<std::string>{ "veiling_glare" });
+  ASSERT_TRUE(report.nextCapture);
+  EXPECT_EQ(report.nextCapture->capture, "lens cap");
+}
+
+TEST(FieldGap, GainOfAChannel)
+{
+  const TestScene scene(5);
+  const double gain[] = { 1.0, 0.96, 1.03 };
+  const TestPair pair =
+    changed(scene, 15, [&](double u, int k, int, int, double) { return u * gain[k]; });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "channel_gain", "channel");
+  expectParameter(report, "channel_gain", "gain[C2]", 0.96, 0.001);
+}
+
+TEST(FieldGap, ExposureIsOneNumber)
+{
+  const TestScene scene(6);
+  const TestPair pair =
+    changed(scene, 16, [&](double u, int, int, int, double) { return u * 0.95; });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "exposure_gain", "level");
+  expectParameter(report, "exposure_gain", "gain", 0.95, 0.001);
+}
+
+TEST(FieldGap, LagOfTheChannelBefore)
+{
+  const TestScene scene(31, 4);
+  std::vector<ImagePlane> planes;
+  for (int k = 0; k < scene.channels(); ++k)
+  {
+    planes.push_back(scene.pixels(scene.fine(k)));
+  }
+  const TestPair pair = changed(scene, 41,
+    [&](double u, int k, int x, int y, double)
+    { return u + (k > 0 ? 0.05 * planes[static_cast<std::size_t>(k) - 1].read(x, y) : 0.0); });
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "lag");
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  expectParameter(report, "lag", "retained", 0.05, 0.001);
+}
+
+// Few pixels are that bright; all others are as they were.
+TEST(FieldGap, SaturationOfTheBrightest)
+{
+  const TestScene scene(32);
+  const TestPair pair =
+    changed(scene, 42, [](double u, int, int, int, double) { return std::fmin(u, 0.45); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "saturation", "level");
+  expectParameter(report, "saturation", "level", 0.45, 0.005);
+}
+
+TEST(FieldGap, NonlinearityIsAPowerOrACompression)
+{
+  const TestScene scene(33);
+  const GapReport power =
+    diagnose(changed(scene, 43, [](double u, int, int, int, double) { return std::pow(u, 1.1); }));
+  expectFirst(power, "detector_nonlinearity", "level");
+  EXPECT_EQ(power.causes.front().form, "gamma");
+  expectParameter(power, "detector_nonlinearity", "exponent", 1.1, 0.005);
+  const GapReport bent = diagnose(
+    changed(scene, 44, [](double u, int, int, int, double) { return u / (1.0 + 0.3 * u); }));
+  expectFirst(bent, "detector_nonlinearity", "level");
+}
+
+// Counts of a camera whose white is 3200 of 65535, with an offset of 96, under uneven light.
+TEST(FieldGap, CountsOfARawImage)
+{
+  const TestScene scene(35, 3);
+  TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      ImagePlane plane = scene.pixels(scene.fine(k));
+      for (int y = 0; y < plane.height; ++y)
+      {
+        for (int x = 0; x < plane.width; ++x)
+        {
+          const double rho2 = std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2);
+          const double light = (1.0 - 0.07 * scene.fieldX(x)) * (1.0 - 0.06 * rho2);
+          plane.at(x, y) = 0.03 + plane.at(x, y) * light;
+        }
+      }
+      return plane;
+    },
+    46, 0.001, 0.001);
+  for (float& value : pair.real)
+  {
+    value *= 3200.0F;
+  }
+  const FieldGap found = *msi::diagnoseField(pair.pair());
+  const GapReport& report = found.report;
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  // The unit may hold a part of the gain; what the camera does is the product.
+  const msi::GapParameter* gain = findParameter(report, "exposure_gain", "gain");
+  const double left = gain == nullptr ? 1.0 : gain->value;
+  EXPECT_NEAR(found.unit[0] * left, 3200.0, 0.01 * 3200.0);
+  const msi::GapParameter* offset = findParameter(report, "dark_offset", "offset");
+  ASSERT_NE(offset, nullptr);
+  EXPECT_NEAR(offset->value * found.unit[0], 96.0, 3.0);
+  expectParameter(report, "vignetting", "falloff", 0.06, 0.003);
+  expectParameter(report, "illumination_gradient", "right", -0.07, 0.002);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes.front().find("not in units of white"), std::string::npos);
+}

@@ -1,0 +1,257 @@
+#include "Kernels/Gap/Field/TestFieldReport.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace
+{
+using msi::GapReport;
+using msi::GapVerdict;
+using msi::test::describe;
+using msi::test::diagnose;
+using msi::test::expectFirst;
+using msi::test::expectParameter;
+using msi::test::gaussianBlurred;
+using msi::test::ImagePlane;
+using msi::test::makePair;
+using msi::test::Pi;
+using msi::test::TestPair;
+using msi::test::TestScene;
+}
+
+TEST(FieldGap, DefocusOfEachChannel)
+{
+  const TestScene scene(7);
+  const double blur[] = { 0.0, 0.8, 1.3 };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      const ImagePlane sharp = scene.fine(k);
+      return scene.pixels(
+        blur[k] > 0.0 ? gaussianBlurred(sharp, blur[k] * TestScene::Fine) : sharp);
+    },
+    17);
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "defocus", "edges");
+  expectParameter(report, "defocus", "blur[C2]", 0.8, 0.03);
+  expectParameter(report, "defocus", "blur[C3]", 1.3, 0.03);
+}
+
+TEST(FieldGap, MisregistrationOfEachChannel)
+{
+  const TestScene scene(8);
+  const double right[] = { 0.4, 0.0, -1.3 };
+  const double down[] = { -0.25, 0.0, 0.7 };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      return scene.pixels(scene.fine(
+        k, [&](double x, double y) { return std::make_pair(x - right[k], y - down[k]); }));
+    },
+    18);
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "misregistration", "edges");
+  expectParameter(report, "misregistration", "right[C1]", 0.4, 0.02);
+  expectParameter(report, "misregistration", "down[C1]", -0.25, 0.02);
+  expectParameter(report, "misregistration", "right[C3]", -1.3, 0.02);
+  expectParameter(report, "misregistration", "down[C3]", 0.7, 0.02);
+}
+
+TEST(FieldGap, DisplacementOfManyPixels)
+{
+  const TestScene scene(9);
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      return scene.pixels(scene.fine(k,
+        [&](double x, double y)
+        { return std::make_pair(x - 6.3 * (k == 1), y + 4.6 * (k == 1)); }));
+    },
+    19);
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "misregistration", "edges");
+  expectParameter(report, "misregistration", "right[C2]", 6.3, 0.02);
+  expectParameter(report, "misregistration", "down[C2]", -4.6, 0.02);
+}
+
+TEST(FieldGap, LateralColor)
+{
+  const TestScene scene(10);
+  const double growth[] = { 0.004, 0.0, -0.006 };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      const double middleX = 0.5 * (scene.width() - 1);
+      const double middleY = 0.5 * (scene.height() - 1);
+      return scene.pixels(scene.fine(k,
+        [&](double x, double y)
+        {
+          return std::make_pair(middleX + (x - middleX) / (1.0 + growth[k]),
+            middleY + (y - middleY) / (1.0 + growth[k]));
+        }));
+    },
+    20);
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "misregistration");
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  expectParameter(report, "misregistration", "magnification[C1]", 0.004, 0.0003);
+  expectParameter(report, "misregistration", "magnification[C3]", -0.006, 0.0003);
+}
+
+TEST(FieldGap, LocalStrayLightIsABroadTail)
+{
+  // Gaussians of the deviations and weights that ScatterTail states, for a radius of 6 pixels.
+  const TestScene scene(11);
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      ImagePlane plane = scene.pixels(scene.fine(k));
+      const ImagePlane sharp = plane;
+      std::vector<double> weight;
+      double sum = 0.0;
+      for (int pass = 1; pass <= 6; ++pass)
+      {
+        const double deviation = std::sqrt((std::pow(4.0, pass) - 1.0) / 3.0);
+        weight.push_back(std::pow(0.5, pass) * std::exp(-deviation / 12.0));
+        sum += weight.back();
+      }
+      for (double& value : plane.value)
+      {
+        value *= 1.0 - 0.08;
+      }
+      for (int pass = 1; pass <= 6; ++pass)
+      {
+        const double deviation = std::sqrt((std::pow(4.0, pass) - 1.0) / 3.0);
+        const ImagePlane wide = gaussianBlurred(sharp, deviation);
+        for (std::size_t i = 0; i < plane.value.size(); ++i)
+        {
+          plane.value[i] += 0.08 * weight[static_cast<std::size_t>(pass - 1)] / sum * wide.value[i];
+        }
+      }
+      return plane;
+    },
+    21);
+  const GapReport report = diagnose(pair);
+  // Gaussians are not quite the library's splines.
+  expectFirst(report, "local_stray_light", "edges", 0.6);
+  expectParameter(report, "local_stray_light", "fraction", 0.08, 0.006);
+  expectParameter(report, "local_stray_light", "radius", 6.0, 1.0);
+}
+
+// exp(-distance / radius), summed in the plane by plain loops: no sum of splines.
+TEST(FieldGap, LocalStrayLightOfAnotherShape)
+{
+  const TestScene scene(34, 2, 128, 112);
+  constexpr int Reach = 24;
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      const ImagePlane sharp = scene.pixels(scene.fine(k));
+      ImagePlane plane = sharp;
+      std::vector<double> weight;
+      double sum = 0.0;
+      for (int j = -Reach; j <= Reach; ++j)
+      {
+        for (int i = -Reach; i <= Reach; ++i)
+        {
+          weight.push_back(std::exp(-std::hypot(i, j) / 5.0));
+          sum += weight.back();
+        }
+      }
+      for (int y = 0; y < plane.height; ++y)
+      {
+        for (int x = 0; x < plane.width; ++x)
+        {
+          double wide = 0.0;
+          std::size_t n = 0;
+          for (int j = -Reach; j <= Reach; ++j)
+          {
+            for (int i = -Reach; i <= Reach; ++i)
+            {
+              wide += weight[n++] * sharp.read(x + i, y + j);
+            }
+          }
+          plane.at(x, y) += 0.2 * (wide / sum - plane.at(x, y));
+        }
+      }
+      return plane;
+    },
+    45);
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "local_stray_light");
+  EXPECT_EQ(report.causes.front().form, "neighbours");
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_GT(report.gap.shrink, 0.9);
+}
+
+TEST(FieldGap, RotationOfEachChannel)
+{
+  const TestScene scene(42);
+  const double degrees[] = { 0.4, 0.0, -0.25 };
+  const double right[] = { 0.5, 0.0, 0.0 };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      const double angle = degrees[k] * Pi / 180.0;
+      const double middleX = 0.5 * (scene.width() - 1);
+      const double middleY = 0.5 * (scene.height() - 1);
+      return scene.pixels(scene.fine(k,
+        [&](double x, double y)
+        {
+          const double offX = x - middleX - right[k];
+          const double offY = y - middleY;
+          return std::make_pair(middleX + std::cos(angle) * offX + std::sin(angle) * offY,
+            middleY - std::sin(angle) * offX + std::cos(angle) * offY);
+        }));
+    },
+    52);
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "misregistration", "edges");
+  constexpr double Tolerance = 0.013; // 0.02 pixels at the border
+  expectParameter(report, "misregistration", "rotation[C1]", 0.4, Tolerance);
+  expectParameter(report, "misregistration", "rotation[C2]", 0.0, Tolerance);
+  expectParameter(report, "misregistration", "rotation[C3]", -0.25, Tolerance);
+  expectParameter(report, "misregistration", "right[C1]", 0.5, 0.02);
+}
+
+// 3 degrees move the border by five pixels: no start for a fit by gradients without a look around.
+TEST(FieldGap, RotationOfTheWholeImage)
+{
+  const TestScene scene(43);
+  const double angle = 3.0 * Pi / 180.0;
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      const double middleX = 0.5 * (scene.width() - 1);
+      const double middleY = 0.5 * (scene.height() - 1);
+      return scene.pixels(scene.fine(k,
+        [&](double x, double y)
+        {
+          return std::make_pair(
+            middleX + std::cos(angle) * (x - middleX) + std::sin(angle) * (y - middleY),
+            middleY - std::sin(angle) * (x - middleX) + std::cos(angle) * (y - middleY));
+        }));
+    },
+    53);
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "misregistration");
+  expectParameter(report, "misregistration", "rotation[C1]", 3.0, 0.03);
+  expectParameter(report, "misregistration", "rotation[C3]", 3.0, 0.03);
+}

@@ -1,0 +1,124 @@
+#include "Kernels/Gap/Field/TestFieldReport.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using msi::GapReport;
+using msi::GapVerdict;
+using msi::test::changed;
+using msi::test::describe;
+using msi::test::diagnose;
+using msi::test::expectFirst;
+using msi::test::expectParameter;
+using msi::test::findParameter;
+using msi::test::TestPair;
+using msi::test::TestScene;
+}
+
+TEST(FieldGap, VignettingIsRadial)
+{
+  const TestScene scene(1);
+  const TestPair pair = changed(scene, 11,
+    [&](double u, int, int x, int y, double)
+    { return u * (1.0 - 0.08 * (std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2))); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "vignetting", "position");
+  expectParameter(report, "vignetting", "falloff", 0.08, 0.002);
+}
+
+TEST(FieldGap, GradientIsAPlane)
+{
+  const TestScene scene(2);
+  const TestPair pair = changed(scene, 12,
+    [&](double u, int, int x, int y, double)
+    { return u * (1.0 + 0.05 * scene.fieldX(x) - 0.03 * scene.fieldY(y)); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "illumination_gradient", "position");
+  expectParameter(report, "illumination_gradient", "right", 0.05, 0.002);
+  expectParameter(report, "illumination_gradient", "down", -0.03, 0.002);
+}
+
+// Seen against a white in the same light, the middle is too bright and the border too dark.
+TEST(FieldGap, FalloffAboutItsMean)
+{
+  const TestScene scene(36);
+  const TestPair pair = changed(scene, 47,
+    [&](double u, int, int x, int y, double)
+    {
+      const double rho2 = std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2);
+      return u * 1.06 * (1.0 - 0.1 * rho2);
+    });
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_EQ(report.causes.size(), 2U);
+  expectParameter(report, "vignetting", "falloff", 0.1, 0.003);
+  expectParameter(report, "exposure_gain", "gain", 1.06, 0.003);
+}
+
+// More than two million pixels: nine windows of it are looked at.
+TEST(FieldGap, LargeImages)
+{
+  TestPair pair;
+  pair.extent = { 2400, 1000 };
+  pair.channels = { "C1" };
+  const msi::CounterRandom random(5);
+  for (int y = 0; y < pair.extent.height; ++y)
+  {
+    for (int x = 0; x < pair.extent.width; ++x)
+    {
+      const double u = 0.4 + 0.15 * std::sin(0.11 * x + 0.07 * y) * std::cos(0.013 * x - 0.09 * y);
+      const double X = (x - 1199.5) / 1199.5;
+      const double Y = (y - 499.5) / 1199.5;
+      const auto pixel = static_cast<std::uint64_t>(pair.simulated.size());
+      pair.simulated.push_back(static_cast<float>(u));
+      pair.real.push_back(static_cast<float>(
+        u * (1.0 + 0.03 * Y) * (1.0 - 0.06 * (X * X + Y * Y)) + 0.004 * random.normal(pixel)));
+    }
+  }
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_EQ(report.causes.size(), 2U);
+  expectParameter(report, "vignetting", "falloff", 0.06, 0.002);
+  expectParameter(report, "illumination_gradient", "down", 0.03, 0.002);
+}
+
+TEST(FieldGap, VignettingOffTheMiddle)
+{
+  const TestScene scene(40);
+  const TestPair pair = changed(scene, 50,
+    [&](double u, int, int x, int y, double)
+    {
+      return u *
+        (1.0 - 0.12 * (std::pow(scene.fieldX(x) - 0.25, 2) + std::pow(scene.fieldY(y) + 0.15, 2)));
+    });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "vignetting", "position");
+  expectParameter(report, "vignetting", "falloff", 0.12, 0.003);
+  expectParameter(report, "vignetting", "center_x", 0.25, 0.02);
+  expectParameter(report, "vignetting", "center_y", -0.15, 0.02);
+}
+
+// cos^4 of the field angle with tangent 0.7 at rho = 1: no polynomial of sixth order, but near one.
+TEST(FieldGap, SteepFalloff)
+{
+  const TestScene scene(41);
+  const auto light = [](double rho2) { return std::pow(1.0 + 0.49 * rho2, -2.0); };
+  const TestPair pair = changed(scene, 51,
+    [&](double u, int, int x, int y, double)
+    { return u * light(std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2)); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "vignetting", "position", 0.95);
+  EXPECT_EQ(report.causes.front().form, "polynomial");
+  const auto value = [&report](const char* name)
+  { return findParameter(report, "vignetting", name)->value; };
+  ASSERT_NE(findParameter(report, "vignetting", "sixth"), nullptr);
+  for (const double rho2 : { 0.2, 0.5, 0.9 })
+  {
+    EXPECT_NEAR(1.0 - rho2 * (value("falloff") + rho2 * (value("fourth") + rho2 * value("sixth"))),
+      light(rho2), 0.005);
+  }
+}

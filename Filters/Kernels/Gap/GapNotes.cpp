@@ -121,8 +121,14 @@ void noteSamples(std::vector<std::string>& notes, const GapData& data, const Gap
   }
 }
 
-void noteUncredited(std::vector<std::string>& notes, const GapReport& report)
+void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
 {
+  if (report.unconfirmed)
+  {
+    notes.push_back("What the causes do shows in a few samples only, and the others cannot confirm "
+                    "it: more samples "
+                    "like these would.");
+  }
   if (report.uncredited.empty())
   {
     return;
@@ -233,7 +239,7 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   noteScene(notes, data);
   noteSamples(notes, data, report);
   noteSaturation(notes, data);
-  noteUncredited(notes, report);
+  noteDoubts(notes, report);
   return notes;
 }
 

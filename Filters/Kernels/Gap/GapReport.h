@@ -110,6 +110,8 @@ struct GapReport
   std::vector<GapCause> causes; // the largest share first
   std::vector<std::string>
     uncredited; // effects of the correction that help it but get less than 1 % of the gap
+  bool unconfirmed =
+    false; // the causes show in so few samples that those left out cannot confirm them
   std::vector<GapCandidate> candidates; // the largest shrink first
   GapRemainder unexplained;
   std::optional<GapNextCapture> nextCapture;

@@ -4,6 +4,7 @@
 #include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/GapData.h"
+#include "Kernels/Gap/GapEvidence.h"
 #include "Kernels/Gap/GapNoise.h"
 #include "Kernels/Gap/GapNotes.h"
 #include "Kernels/Gap/HeldOut.h"
@@ -23,13 +24,11 @@ namespace msi
 namespace
 {
 constexpr double ExplainedShrink = 0.85;
-constexpr double DoubtfulRest = 0.05;   // of the gap's size
-constexpr double ExplainedShare = 0.7;  // of the causes together
-constexpr double NegligiblePart = 0.25; // of what is left
+constexpr double DoubtfulRest = 0.05;    // of the gap's size
+constexpr double ExplainedShare = 0.7;   // of the causes together
+constexpr double LeastCertain = 0.1;     // of a shrink below one half
+constexpr double UnconfirmedShare = 0.4; // of what samples left out cannot confirm
 constexpr double PartlyShrink = 0.25;
-constexpr double PredictableDeviations = 4.0;
-constexpr double PredictablePart = 0.1; // of the noise energy
-constexpr double UnpredictableFactor = 1.3;
 constexpr int MostChangePoints = 6;
 
 // Progress over jobs that may run on several threads.
@@ -95,125 +94,21 @@ private:
   double Steps;
 };
 
-Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
+// Takes over what the search found; the sum of the causes' shares.
+double credit(GapReport& report, const EffectFitter& fitter, const SearchResult& found,
+  const std::vector<EffectChoice>& choices, double certain, double doubt)
 {
-  return (data.count.array() > 0.0).select(values, 0.0);
-}
-
-double meanOverMeasured(const GapData& data, const Eigen::MatrixXd& values)
-{
-  return measuredOnly(data, values).sum() / static_cast<double>(data.elements);
-}
-
-// Without noise model and repeats: per channel what no basis predicts is noise.
-void setUnknownNoise(GapData& data)
-{
-  data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());
-  const Eigen::MatrixXd residual =
-    shareOverAxes(data, measuredOnly(data, data.observed - data.simulated), false).heldOutResidual;
-  for (Eigen::Index k = 0; k < data.channels(); ++k)
+  report.causes = describeCauses(fitter, found, choices, certain, doubt);
+  report.uncredited = takeUncredited(report.causes);
+  report.correction = found.best.set.simulated();
+  report.whiteAfterEffects = found.best.set.whiteAfterEffects();
+  double share = 0.0;
+  for (const GapCause& cause : report.causes)
   {
-    std::vector<double> size;
-    for (Eigen::Index i = 0; i < data.samples(); ++i)
-    {
-      if (data.count(k, i) > 0.0)
-      {
-        size.push_back(std::fabs(residual(k, i)));
-      }
-    }
-    if (!size.empty())
-    {
-      const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-      std::nth_element(size.begin(), middle, size.end());
-      data.variance.row(k).setConstant(std::pow(1.4826 * *middle, 2) + 1e-12);
-    }
+    share += cause.share;
   }
-}
-
-// The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
-// it allows, only as much of it stays in the variance as what is left shows. Returns the mean variance taken away.
-double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
-{
-  const double allowed = measuredOnly(data, integration).sum();
-  const double other = measuredOnly(data, data.variance).sum() - allowed;
-  double kept = 1.0;
-  if (allowed > 0.0)
-  {
-    kept = std::fmin(std::fmax((unpredicted - other) / allowed, 0.0), 1.0);
-    data.variance -= (1.0 - kept) * integration;
-  }
-  return (1.0 - kept) * allowed / static_cast<double>(data.elements);
-}
-
-// Per-sample energies before and after, and what noise allows.
-SampleEnergies energiesOf(
-  const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
-{
-  SampleEnergies energies;
-  for (Eigen::Index i = 0; i < data.samples(); ++i)
-  {
-    if (data.usable[static_cast<std::size_t>(i)] != 0)
-    {
-      energies.before.push_back(before.col(i).squaredNorm());
-      energies.after.push_back(after.col(i).squaredNorm());
-      energies.noise.push_back(
-        (data.count.col(i).array() > 0.0).select(data.variance.col(i), 0.0).sum());
-    }
-  }
-  return energies;
-}
-
-GapFigures figuresOf(const GapData& data, const SampleEnergies& energies, std::uint64_t seed)
-{
-  double before = 0.0;
-  double after = 0.0;
-  double noise = 0.0;
-  const std::size_t count = energies.before.size();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    before += energies.before[i];
-    after += energies.after[i];
-    noise += energies.noise[i];
-  }
-  GapFigures figures;
-  const auto elements = static_cast<double>(data.elements);
-  figures.rmsBefore = std::sqrt(before / elements);
-  figures.rmsAfter = std::sqrt(after / elements);
-  figures.noiseFloor = std::sqrt(noise / elements);
-  figures.shrink = shrinkOf(before, after, noise);
-  figures.shrinkInterval = shrinkInterval(energies, seed);
-  figures.shrinkInterval[0] = std::fmin(figures.shrinkInterval[0], figures.shrink);
-  figures.shrinkInterval[1] = std::fmax(figures.shrinkInterval[1], figures.shrink);
-  return figures;
-}
-
-// Whether the bases predict held-out samples: their gain in energy, sample by sample, against its own error.
-bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares)
-{
-  double sum = 0.0;
-  double square = 0.0;
-  double samples = 0.0;
-  for (Eigen::Index i = 0; i < data.samples(); ++i)
-  {
-    if (data.usable[static_cast<std::size_t>(i)] != 0)
-    {
-      const double gain = gap.col(i).squaredNorm() - shares.heldOutResidual.col(i).squaredNorm();
-      sum += gain;
-      square += gain * gain;
-      samples += 1.0;
-    }
-  }
-  const double error = std::sqrt(std::fmax(square - sum * sum / samples, 0.0));
-  const double noise = measuredOnly(data, data.variance).sum();
-  return sum > PredictableDeviations * error && sum > PredictablePart * noise;
-}
-
-// A gap that nothing predicts but that noise, with the largest reflectance noise allowed for, does not make.
-// integration: further variance that sums over wavelength may make.
-bool beyondNoise(const GapFigures& gap, double integration)
-{
-  return gap.rmsBefore >
-    UnpredictableFactor * std::sqrt(gap.noiseFloor * gap.noiseFloor + integration);
+  report.unexplained.share = std::fmin(std::fmax(1.0 - share, 0.0), 1.0);
+  return share;
 }
 
 std::string whereIs(const AxisShares& shares)
@@ -352,38 +247,34 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   report.changePoints = OrderBreaks::significant(fitter, data.simulated, MostChangePoints);
   progress.step("axes shared");
 
-  const double explained = meanOverMeasured(data, before.array().square().matrix()) -
-    meanOverMeasured(data, after.array().square().matrix());
-  // A change this small is not told apart from errors of sums over wavelength and of reflectance.
-  const double negligible = std::fmax(2.0 * meanOverMeasured(data, integration),
-    NegligiblePart * meanOverMeasured(data, after.array().square().matrix()));
-  if (found.best.set.size() > 0 && explained > negligible && report.gap.shrink > 0.0)
+  const bool causes = found.best.set.size() > 0;
+  const double shrink = report.gap.shrink;
+  const double alone = shrinkOf(fitter, found.best); // all samples took part in the choice
+  if (causes && shrink > 0.0 && noticeable(data, before, after, integration))
   {
     // What is left has a cause that is not known, and may overlap with those found by as much as its own size: of what
     // they do, only that part is certain.
-    const double shrink = report.gap.shrink;
-    const double certain = shrink * std::fmax(2.0 * shrink - 1.0, 0.0);
+    const double certain = shrink * std::fmax(2.0 * shrink - 1.0, LeastCertain);
     // Wrong causes that cancel one another mimic one that is not known, but not to the last; right ones may cancel and
     // leave nothing.
     const double left = 1.0 - report.gap.shrinkInterval[1];
     const double doubt = std::fmin(std::fmax(left / DoubtfulRest, 0.0), 1.0);
-    report.causes = describeCauses(fitter, found, choices, certain, doubt);
-    report.uncredited = takeUncredited(report.causes);
-    report.correction = found.best.set.simulated();
-    report.whiteAfterEffects = found.best.set.whiteAfterEffects();
-    double share = 0.0;
-    for (const GapCause& cause : report.causes)
-    {
-      share += cause.share;
-    }
-    report.unexplained.share = std::fmin(std::fmax(1.0 - share, 0.0), 1.0);
+    const double share = credit(report, fitter, found, choices, certain, doubt);
+    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
     report.verdict = shrink >= ExplainedShrink && share >= ExplainedShare ? GapVerdict::Explained
       : shrink >= PartlyShrink && !report.causes.empty() ? GapVerdict::PartlyExplained
                                                          : GapVerdict::Unexplained;
-    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
+  }
+  else if (causes && alone >= ExplainedShrink &&
+    inFewSamples(data, found.best.predicted - data.simulated))
+  {
+    report.unconfirmed = true;
+    credit(report, fitter, found, choices, UnconfirmedShare * alone, 0.0);
+    report.unexplained.where = whereIs(where);
+    report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
   }
   else if ((predictable(data, before, where) &&
-             where.predictable > negligible * static_cast<double>(data.elements)) ||
+             where.predictable > negligibleEnergy(data, after, integration)) ||
     beyondNoise(report.gap, doubted))
   {
     report.verdict = GapVerdict::Unexplained;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 namespace msi
 {
@@ -17,7 +18,7 @@ namespace
 constexpr int Iterations = 6;
 constexpr int AlternativesFitted = 8;
 constexpr std::size_t EquivalentNamed = 2;
-constexpr double LeastShare = 0.01;
+constexpr double LeastPart = 0.03;           // of the causes together
 constexpr double EquivalentPart = 0.02;      // of the gap's energy
 constexpr double EquivalentDeviations = 9.0; // dispersions
 
@@ -129,8 +130,10 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
 
 std::vector<std::string> takeUncredited(std::vector<GapCause>& causes)
 {
-  const auto first = std::stable_partition(
-    causes.begin(), causes.end(), [](const GapCause& cause) { return cause.share >= LeastShare; });
+  const double all = std::accumulate(causes.begin(), causes.end(), 0.0,
+    [](double sum, const GapCause& cause) { return sum + cause.share; });
+  const auto first = std::stable_partition(causes.begin(), causes.end(),
+    [all](const GapCause& cause) { return cause.share > LeastPart * all; });
   std::vector<std::string> names;
   std::transform(
     first, causes.end(), std::back_inserter(names), [](const GapCause& c) { return c.effect; });

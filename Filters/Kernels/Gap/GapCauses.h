@@ -15,7 +15,7 @@ namespace msi
 std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchResult& found,
   const std::vector<EffectChoice>& choices, double total, double doubt);
 
-// Takes causes of less than 1 % of the gap out of the list; their effects' names.
+// Takes causes that get less than 3 % of what all get out of the list; their effects' names.
 std::vector<std::string> takeUncredited(std::vector<GapCause>& causes);
 
 // The single effects by what each alone would do. seed: of the intervals.

@@ -107,9 +107,8 @@ struct GapReport
   GapFigures gap;
   std::vector<GapAxis> where; // the largest share first
   std::vector<GapChangePoint> changePoints;
-  std::vector<GapCause> causes; // the largest share first
-  std::vector<std::string>
-    uncredited; // effects of the correction that help it but get less than 1 % of the gap
+  std::vector<GapCause> causes;        // the largest share first
+  std::vector<std::string> uncredited; // effects of the correction that help it but are no cause
   bool unconfirmed =
     false; // the causes show in so few samples that those left out cannot confirm them
   std::vector<GapCandidate> candidates; // the largest shrink first

@@ -26,7 +26,7 @@ namespace
 constexpr double ExplainedShrink = 0.85;
 constexpr double DoubtfulRest = 0.05;    // of the gap's size
 constexpr double ExplainedShare = 0.7;   // of the causes together
-constexpr double LeastCertain = 0.1;     // of a shrink below one half
+constexpr double LeastCertain = 0.2;     // of a shrink below one half
 constexpr double UnconfirmedShare = 0.4; // of what samples left out cannot confirm
 constexpr double PartlyShrink = 0.25;
 constexpr int MostChangePoints = 6;

@@ -64,22 +64,36 @@ Eigen::MatrixXd neighbourMean(const Eigen::MatrixXd& signal, const SampleScene& 
 // The mean of a sample's surround, weighted exp(-distance / reach); itself where it has none. reach: pitches.
 Eigen::MatrixXd tailMean(const Eigen::MatrixXd& signal, const SampleScene& scene, double reach)
 {
+  std::vector<double> weight;
+  weight.reserve(scene.distances().size());
+  for (const double pitches : scene.distances())
+  {
+    weight.push_back(std::exp(-pitches / reach));
+  }
+  const auto finite = signal.array().isFinite().colwise().all().eval();
   Eigen::MatrixXd surround(signal.rows(), signal.cols());
   for (Eigen::Index j = 0; j < signal.cols(); ++j)
   {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(signal.rows());
+    auto sum = surround.col(j);
+    sum.setZero();
     double weights = 0.0;
     for (const SampleScene::Other& other : scene.surround()[static_cast<std::size_t>(j)])
     {
-      if (signal.col(other.sample).allFinite())
+      if (finite[other.sample])
       {
-        const double weight = std::exp(-static_cast<double>(other.pitches) / reach);
-        sum += weight * signal.col(other.sample);
-        weights += weight;
+        const double own = weight[static_cast<std::size_t>(other.distance)];
+        sum += own * signal.col(other.sample);
+        weights += own;
       }
     }
-    surround.col(j) =
-      weights > 0.0 ? Eigen::VectorXd(sum / weights) : Eigen::VectorXd(signal.col(j));
+    if (weights > 0.0)
+    {
+      sum /= weights;
+    }
+    else
+    {
+      sum = signal.col(j);
+    }
   }
   return surround;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <unordered_map>
 
 namespace msi
 {
@@ -12,6 +13,7 @@ namespace msi
 namespace
 {
 constexpr double NeighbourReach = 1.5;
+constexpr double DistanceStep = 1e-7; // pitches
 
 void requireCount(const char* what, Eigen::Index given, Eigen::Index samples)
 {
@@ -161,6 +163,7 @@ void SampleScene::findSurround(const std::vector<double>& nearest)
     }
   }
   Surround.resize(count);
+  std::unordered_map<int, int> known; // steps of a distance, its number
   for (std::size_t i = 0; i < count; ++i)
   {
     const double own = pitch[static_cast<std::size_t>(SceneOf[i])];
@@ -171,7 +174,13 @@ void SampleScene::findSurround(const std::vector<double>& nearest)
       const double pitches = std::hypot(FieldX[a] - FieldX[b], FieldY[a] - FieldY[b]) / own;
       if (i != j && SceneOf[i] == SceneOf[j] && pitches <= SurroundReach)
       {
-        Surround[i].push_back({ static_cast<int>(j), static_cast<float>(pitches) });
+        const auto steps = static_cast<int>(std::lround(pitches / DistanceStep));
+        const auto [place, fresh] = known.try_emplace(steps, static_cast<int>(Distances.size()));
+        if (fresh)
+        {
+          Distances.push_back(steps * DistanceStep);
+        }
+        Surround[i].push_back({ static_cast<int>(j), place->second });
       }
     }
   }

@@ -39,7 +39,7 @@ public:
   struct Other
   {
     int sample;
-    float pitches; // away
+    int distance; // in distances()
   };
   static constexpr double SurroundReach = 8.0;
 
@@ -65,6 +65,8 @@ public:
   const Eigen::VectorXd& time() const noexcept { return Time; }
   const std::vector<std::vector<int>>& neighbours() const noexcept { return Neighbours; }
   const std::vector<std::vector<Other>>& surround() const noexcept { return Surround; }
+  // The distances that occur in a surround, in pitches, to 1e-7: few on a raster.
+  const std::vector<double>& distances() const noexcept { return Distances; }
 
 private:
   void placeInField();
@@ -78,6 +80,7 @@ private:
   Eigen::VectorXd FieldX, FieldY, Time;
   std::vector<std::vector<int>> Neighbours;
   std::vector<std::vector<Other>> Surround;
+  std::vector<double> Distances;
 };
 
 } // namespace msi

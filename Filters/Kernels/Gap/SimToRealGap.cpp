@@ -280,7 +280,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     report.verdict = GapVerdict::Unexplained;
     report.unexplained = { 1.0, whereIs(where) };
   }
-  if (report.verdict == GapVerdict::NoGap)
+  if (report.correction.empty())
   {
     report.gap.rmsAfter = report.gap.rmsBefore;
     report.gap.shrink = 0.0;

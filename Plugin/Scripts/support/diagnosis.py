@@ -168,16 +168,24 @@ def corrected_section(causes):
         "to put back. report.json holds this page as data.")
 
 
+def uncredited_lines(figures):
+    """What no cause is given: what is left of the gap, and what shrinks but may be another's."""
+    share, left = figures["unexplained_share"], 1.0 - max(figures["shrink"], 0.0)
+    if share < 0.005:
+        return []
+    place = f", mostly along {figures['unexplained_where']}" if figures["unexplained_where"] else ""
+    if share <= left + 0.02:
+        return [f"Left over: {100 * share:.0f} % of the gap{place}."]
+    return [f"No cause is given {100 * share:.0f} % of the gap: {100 * left:.0f} % is left over{place}; the rest shrinks, but "
+            "the shares are cautious. They leave out what causes undo of one another, and what is left over may hide under "
+            "the causes by as much as its own size."]
+
+
 def verdict_section(figures, causes, held):
     lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures, held)}."]
     lines += [f"Cause {number}: {cause_line(cause)}." for number, cause in enumerate(causes, 1)]
-    if causes and figures["unexplained_share"] >= 0.005:
-        lines.append(f"Left over: {100 * figures['unexplained_share']:.0f} % of the gap"
-                     + (f", mostly along {figures['unexplained_where']}."
-                        if figures["unexplained_where"] else "."))
-    if figures["verdict"] == "partly explained":
-        lines.append("The shares are cautious: they leave out what causes undo of one another, and what is "
-                     "left over may hide under the causes by as much as its own size.")
+    if causes:
+        lines += uncredited_lines(figures)
     if figures["next_capture"]:
         lines.append(f"Capture next: {figures['next_capture']}. It separates {figures['separates']}.")
     return report.text(f"Verdict: {figures['verdict']}", *lines)

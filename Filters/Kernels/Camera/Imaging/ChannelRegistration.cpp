@@ -79,7 +79,7 @@ Cubic sourceOf(int position, int extent, double displacement, double magnificati
 }
 
 ChannelRegistration::ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd down,
-  Eigen::ArrayXd magnification, Eigen::ArrayXd rotation, const ImageExtent& extent)
+  Eigen::ArrayXd magnification, const Eigen::ArrayXd& rotation, const ImageExtent& extent)
   : Right(std::move(right))
   , Down(std::move(down))
   , Magnification(std::move(magnification))

@@ -24,7 +24,7 @@ class ChannelRegistration
 {
 public:
   ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd down, Eigen::ArrayXd magnification,
-    Eigen::ArrayXd rotation, const ImageExtent& extent);
+    const Eigen::ArrayXd& rotation, const ImageExtent& extent);
 
   // Pixels around a window that its result depends on.
   int reach() const noexcept { return Reach; }

@@ -1,5 +1,6 @@
 #include "Kernels/Camera/CounterRandom.h"
 
+#include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/NormalDeviate.h"
 #include "Kernels/Camera/NormalDeviateKernel.h"
 
@@ -47,7 +48,6 @@ double CounterRandom::uniform(std::uint64_t index, unsigned lane) const noexcept
 
 std::array<double, 2> CounterRandom::normalPair(std::uint64_t index) const noexcept
 {
-  constexpr double TwoPi = 6.283185307179586;
   const auto word = words(index);
   const double radius = std::sqrt(-2.0 * std::log(openUniform(word[0])));
   const double angle = TwoPi * openUniform(word[1]);

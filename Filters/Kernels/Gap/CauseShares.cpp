@@ -131,25 +131,13 @@ std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& sh
   return share;
 }
 
-// A change of the response, weighted, element by element.
-Eigen::VectorXd weighted(const EffectFitter& fitter, const Eigen::MatrixXd& change)
-{
-  const Eigen::ArrayXXd whole =
-    (fitter.weight().array() > 0.0).select(fitter.weight().array().sqrt() * change.array(), 0.0);
-  return Eigen::Map<const Eigen::VectorXd>(whole.data(), whole.size());
-}
-
-// What each effect does to the response where the others are there too, weighted, one column an effect.
+// What each effect does, one column an effect.
 Eigen::MatrixXd contributions(const EffectFitter& fitter, const EffectFit& fit)
 {
-  const GapData& data = fitter.data();
-  Eigen::MatrixXd columns(data.observed.size(), static_cast<Eigen::Index>(fit.set.size()));
+  Eigen::MatrixXd columns(fit.predicted.size(), static_cast<Eigen::Index>(fit.set.size()));
   for (std::size_t e = 0; e < fit.set.size(); ++e)
   {
-    EffectSet rest = fit.set;
-    rest.remove(e);
-    columns.col(static_cast<Eigen::Index>(e)) =
-      weighted(fitter, fit.predicted - respond(data.camera, data.scene, rest));
+    columns.col(static_cast<Eigen::Index>(e)) = fitter.contribution(fit, e);
   }
   return columns;
 }
@@ -159,7 +147,7 @@ Eigen::MatrixXd contributions(const EffectFitter& fitter, const EffectFit& fit)
 std::vector<double> undoneParts(
   const EffectFitter& fitter, const EffectFit& fit, const Eigen::MatrixXd& contribution)
 {
-  const Eigen::VectorXd all = weighted(fitter, fit.predicted - fitter.data().simulated);
+  const Eigen::VectorXd all = fitter.weighted(fit.predicted - fitter.data().simulated);
   std::vector<double> undone;
   for (Eigen::Index e = 0; e < contribution.cols(); ++e)
   {

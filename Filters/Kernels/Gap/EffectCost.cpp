@@ -10,12 +10,6 @@ namespace
 constexpr double UnlikelyForm =
   2.0; // dispersions: a form is e times less likely than the one before it
 
-double priceOf(const EffectFitter& fitter, double gapEnergy, double dispersion)
-{
-  const double chance = 0.5 * std::log(std::fmax(fitter.trainingElements(), 2.0)) * dispersion;
-  return std::fmax(chance, FormPart * gapEnergy);
-}
-
 double improbability(const EffectFitter& fitter, const EffectFit& fit)
 {
   double sum = 0.0;
@@ -27,18 +21,18 @@ double improbability(const EffectFitter& fitter, const EffectFit& fit)
   }
   return sum;
 }
-
 }
 
-double parameterPrice(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy)
+double parameterPrice(const EffectFitter& fitter, double gapEnergy, double dispersion)
 {
-  return priceOf(fitter, gapEnergy, fit.dispersion);
+  const double chance = 0.5 * std::log(std::fmax(fitter.trainingElements(), 2.0)) * dispersion;
+  return std::fmax(chance, FormPart * gapEnergy);
 }
 
 double costOf(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy, double dispersion)
 {
   return fit.energy +
-    static_cast<double>(fit.parameters()) * priceOf(fitter, gapEnergy, dispersion) +
+    static_cast<double>(fit.parameters()) * parameterPrice(fitter, gapEnergy, dispersion) +
     improbability(fitter, fit) * dispersion;
 }
 

@@ -16,7 +16,7 @@ constexpr double FormPart = 0.002;
 // The price of one parameter in cross-validated energy: what chance gives it (half of log n times the
 // dispersion), and not less than FormPart of the gap, because a form is an approximation and a further
 // parameter mends it a little always.
-double parameterPrice(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy);
+double parameterPrice(const EffectFitter& fitter, double gapEnergy, double dispersion);
 
 // Energy, price of the parameters, and what speaks against the set before the data does: late forms, and an effect of
 // a medium where there is but one. `dispersion`: the same for all sets that are compared.

@@ -96,6 +96,10 @@ EffectFit EffectFitter::nominal() const
 
 EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
 {
+  if (start.size() == 0)
+  {
+    return nominal();
+  }
   EffectFit fit;
   fit.set = std::move(start);
   fit.free = fit.set.freeParameters(Data.camera);
@@ -238,6 +242,20 @@ void EffectFitter::crossValidate(EffectFit& fit) const
   const double mean = fit.energy / std::fmax(Elements, 1.0);
   const double effect = fit.energy > 0.0 ? together / fit.energy : 1.0;
   fit.dispersion = mean * std::fmin(std::fmax(effect, 1.0), static_cast<double>(channels));
+}
+
+Eigen::VectorXd EffectFitter::weighted(const Eigen::MatrixXd& change) const
+{
+  const Eigen::ArrayXXd whole =
+    (Weight.array() > 0.0).select(Weight.array().sqrt() * change.array(), 0.0);
+  return Eigen::Map<const Eigen::VectorXd>(whole.data(), whole.size());
+}
+
+Eigen::VectorXd EffectFitter::contribution(const EffectFit& fit, std::size_t position) const
+{
+  EffectSet rest = fit.set;
+  rest.remove(position);
+  return weighted(fit.predicted - respond(Data.camera, Data.scene, rest));
 }
 
 Eigen::MatrixXd EffectFitter::covariance(const EffectFit& fit) const

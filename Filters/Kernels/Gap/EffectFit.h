@@ -50,7 +50,12 @@ public:
   double noiseEnergy() const noexcept { return NoiseEnergy; } // what noise alone leaves of energy
 
   EffectFit nominal() const;
-  EffectFit fit(EffectSet start, int maximumIterations) const;
+  EffectFit fit(EffectSet start, int maximumIterations) const; // nominal() without effects
+
+  // A change of the response, K x S, times the root of the weights, element by element.
+  Eigen::VectorXd weighted(const Eigen::MatrixXd& change) const;
+  // What one effect of a fit does to the response where the others are there too, weighted.
+  Eigen::VectorXd contribution(const EffectFit& fit, std::size_t position) const;
 
   // Covariance of the free parameters: sandwich over samples, whose channels may err together.
   Eigen::MatrixXd covariance(const EffectFit& fit) const;

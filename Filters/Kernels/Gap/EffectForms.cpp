@@ -25,6 +25,12 @@ bool betterForm(const EffectFit& other, const EffectFit& fit, double gapEnergy)
     fit.energy;
 }
 
+// Little worse: a simpler cause is taken for it.
+bool nearlyAsGood(const EffectFit& other, const EffectFit& fit, double gapEnergy)
+{
+  return other.energy <=
+    fit.energy + std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion);
+}
 }
 
 bool hasSecondary(const EffectChoice& choice)
@@ -54,7 +60,7 @@ EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
     const EffectChoice mine = fit.set.choices[position];
     EffectSet rest = fit.set;
     rest.remove(position);
-    const EffectFit without = rest.size() > 0 ? fitter.fit(rest, 2) : fitter.nominal();
+    const EffectFit without = fitter.fit(rest, 2);
     std::vector<EffectChoice> forms;
     std::copy_if(choices.begin(), choices.end(), std::back_inserter(forms),
       [&mine](const EffectChoice& choice)
@@ -73,18 +79,13 @@ EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
       if (betterForm(other, fit, gapEnergy))
       {
         // Keep the position: the loop runs over it.
-        std::rotate(other.set.choices.begin() + static_cast<std::ptrdiff_t>(position),
-          other.set.choices.end() - 1, other.set.choices.end());
-        std::rotate(other.set.effects.begin() + static_cast<std::ptrdiff_t>(position),
-          other.set.effects.end() - 1, other.set.effects.end());
-        std::rotate(other.set.secondaryFree.begin() + static_cast<std::ptrdiff_t>(position),
-          other.set.secondaryFree.end() - 1, other.set.secondaryFree.end());
+        other.set.moveLastTo(position);
         fit = fitter.fit(other.set, Iterations);
       }
     }
     fit = withSecondary(fitter, std::move(fit), position, Iterations);
   }
-  return fit.set.size() > 0 ? fitter.fit(fit.set, FinalIterations) : fit;
+  return fitter.fit(fit.set, FinalIterations);
 }
 
 EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
@@ -119,8 +120,7 @@ EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
   }
   set.level = alone.set.level;
   EffectFit other = fitter.fit(std::move(set), FinalIterations);
-  const double tolerance = std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion);
-  return other.energy <= fit.energy + tolerance ? other : fit;
+  return nearlyAsGood(other, fit, gapEnergy) ? other : fit;
 }
 
 EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
@@ -141,8 +141,7 @@ EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
     set.remove(position);
     set.add(*exposure, fitter.data().camera);
     EffectFit other = fitter.fit(std::move(set), FinalIterations);
-    if (other.energy <=
-      fit.energy + std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion))
+    if (nearlyAsGood(other, fit, gapEnergy))
     {
       fit = std::move(other);
       break;

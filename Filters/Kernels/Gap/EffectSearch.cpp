@@ -95,17 +95,12 @@ EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEn
 // Beside effects that came later some do nothing any more.
 void dropIdle(const EffectFitter& fitter, SearchResult& result)
 {
-  const GapData& data = fitter.data();
   for (std::size_t position = result.best.set.size(); position-- > 0;)
   {
-    EffectSet rest = result.best.set;
-    rest.remove(position);
-    const Eigen::MatrixXd change = result.best.predicted - respond(data.camera, data.scene, rest);
-    const double energy = (fitter.weight().array() > 0.0)
-                            .select(fitter.weight().array() * change.array().square(), 0.0)
-                            .sum();
-    if (energy < IdlePart * result.gapEnergy)
+    if (fitter.contribution(result.best, position).squaredNorm() < IdlePart * result.gapEnergy)
     {
+      EffectSet rest = result.best.set;
+      rest.remove(position);
       result.best = fitter.fit(std::move(rest), FinalIterations);
       result.causes -= position < result.causes ? 1 : 0;
     }

@@ -108,6 +108,33 @@ void EffectSet::remove(std::size_t position)
   secondaryFree.erase(secondaryFree.begin() + at);
 }
 
+void EffectSet::moveLastTo(std::size_t position)
+{
+  const auto rotate = [position](auto& list) {
+    std::rotate(list.begin() + static_cast<std::ptrdiff_t>(position), list.end() - 1, list.end());
+  };
+  rotate(choices);
+  rotate(effects);
+  rotate(secondaryFree);
+}
+
+std::optional<StepPlace> EffectSet::placeOf(std::size_t position) const
+{
+  const std::vector<EffectParameter>& parameters = choices[position].form->parameters;
+  std::size_t index = 0;
+  for (const EffectParameter& parameter : parameters)
+  {
+    if (foundBySearch(parameter))
+    {
+      return StepPlace{ index, &parameter };
+    }
+    // At most one parameter of a form with a step has a number for each channel.
+    index +=
+      parameter.perChannel ? effects[position].parameters.size() - (parameters.size() - 1) : 1;
+  }
+  return std::nullopt;
+}
+
 std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) const
 {
   std::vector<FreeParameter> free;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,13 @@ struct FreeParameter
   std::string name, unit;
 };
 
+// The parameter that says when a step takes place: its index in CameraEffect::parameters, that of its width behind it.
+struct StepPlace
+{
+  std::size_t index;
+  const EffectParameter* parameter;
+};
+
 struct EffectSet
 {
   std::vector<EffectChoice> choices;
@@ -71,6 +79,8 @@ struct EffectSet
     const EffectChoice& choice, const CameraModel& camera, const std::vector<double>& start = {});
   void add(const EffectSet& from, std::size_t position); // with its values
   void remove(std::size_t position);
+  void moveLastTo(std::size_t position);
+  std::optional<StepPlace> placeOf(std::size_t position) const; // empty: it makes no step
   std::vector<FreeParameter> freeParameters(const CameraModel& camera) const;
 };
 

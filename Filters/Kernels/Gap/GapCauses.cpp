@@ -25,17 +25,11 @@ constexpr double EquivalentDeviations = 9.0; // dispersions
 // The place of a step lies between two samples; the error is that of a uniform distribution there.
 void addPlace(GapCause& cause, const EffectSet& set, std::size_t position, double samples)
 {
-  std::size_t index = 0;
-  for (const EffectParameter& parameter : set.choices[position].form->parameters)
+  if (const auto place = set.placeOf(position))
   {
-    if (parameter.name == "place")
-    {
-      cause.parameters.push_back({ parameter.name, set.effects[position].parameters[index],
-        parameter.unit, 1.0 / (samples * std::sqrt(12.0)) });
-    }
-    index += parameter.perChannel ? set.effects[position].parameters.size() -
-        (set.choices[position].form->parameters.size() - 1)
-                                  : 1;
+    cause.parameters.push_back(
+      { place->parameter->name, set.effects[position].parameters[place->index],
+        place->parameter->unit, 1.0 / (samples * std::sqrt(12.0)) });
   }
 }
 
@@ -51,7 +45,7 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
     [&](const EffectChoice& choice) {
       return choice.effect->name != best.set.choices[position].effect->name && !rest.has(choice);
     });
-  const EffectFit without = rest.size() > 0 ? fitter.fit(rest, Iterations) : fitter.nominal();
+  const EffectFit without = fitter.fit(rest, Iterations);
   const std::vector<EffectFit> alternatives =
     extendFit(fitter, without, others, found.gapEnergy, AlternativesFitted);
   struct Rival
@@ -60,7 +54,7 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
     double cost;
   };
   std::vector<Rival> rivals;
-  const double price = parameterPrice(fitter, best, found.gapEnergy);
+  const double price = parameterPrice(fitter, found.gapEnergy, best.dispersion);
   const auto cost = [price](const EffectFit& fit)
   { return fit.energy + price * static_cast<double>(fit.parameters()); };
   const double tolerance =

@@ -25,11 +25,6 @@ Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
   return (data.count.array() > 0.0).select(values, 0.0);
 }
 
-double meanOverMeasured(const GapData& data, const Eigen::MatrixXd& values)
-{
-  return measuredOnly(data, values).sum() / static_cast<double>(data.elements);
-}
-
 void setUnknownNoise(GapData& data)
 {
   data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());

@@ -15,9 +15,8 @@ namespace msi
 
 // K x S throughout; `gap`, `before`, `after`: real minus simulated, 0 where nothing was measured.
 
-// The values where something was measured, 0 elsewhere; and their mean there.
+// The values where something was measured, 0 elsewhere.
 Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values);
-double meanOverMeasured(const GapData& data, const Eigen::MatrixXd& values);
 
 // Without noise model and repeats: per channel what no basis predicts is noise.
 void setUnknownNoise(GapData& data);

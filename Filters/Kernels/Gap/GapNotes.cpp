@@ -40,9 +40,8 @@ void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   else if (noise.unrepeated)
   {
     notes.push_back(text("One reading a sample, and what is left scatters ", noise.excess,
-      " times as much as the noise model allows: noise, or an error of its own of each sample. A "
-      "second reading of "
-      "each would tell."));
+      " times as much as the noise model allows: noise, or an error of its own of each sample. "
+      "A second reading of each would tell."));
   }
   else if (noise.degrees < 4.0)
   {
@@ -125,9 +124,9 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
 {
   if (report.unconfirmed)
   {
-    notes.push_back("What the causes do shows in a few samples only, and the others cannot confirm "
-                    "it: more samples "
-                    "like these would.");
+    notes.push_back(
+      "What the causes do shows in a few samples only, and the others cannot confirm it: "
+      "more samples like these would.");
   }
   if (report.uncredited.empty())
   {

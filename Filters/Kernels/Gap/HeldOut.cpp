@@ -9,29 +9,9 @@ namespace msi
 
 namespace
 {
-constexpr const char* Place = "place";
-
 Eigen::MatrixXd leftBy(const GapData& data, const Eigen::MatrixXd& predicted)
 {
   return (data.count.array() > 0.0).select(data.observed - predicted, 0.0);
-}
-
-// Where in its parameters an effect has the place of its step, the width behind it; -1: nowhere.
-Eigen::Index placeOf(const EffectSet& set, std::size_t effect)
-{
-  Eigen::Index index = 0;
-  const auto& parameters = set.choices[effect].form->parameters;
-  const auto perChannel = static_cast<Eigen::Index>(set.effects[effect].parameters.size()) -
-    static_cast<Eigen::Index>(parameters.size()) + 1;
-  for (const EffectParameter& parameter : parameters)
-  {
-    if (parameter.name == Place)
-    {
-      return index;
-    }
-    index += parameter.perChannel ? perChannel : 1;
-  }
-  return -1;
 }
 }
 
@@ -42,13 +22,13 @@ Eigen::MatrixXd leftOfHeldOut(
   const double none = std::numeric_limits<double>::infinity();
   for (std::size_t e = 0; e < fit.set.size(); ++e)
   {
-    const Eigen::Index index = placeOf(fit.set, e);
-    if (index < 0)
+    const auto step = fit.set.placeOf(e);
+    if (!step)
     {
       continue;
     }
     const Eigen::VectorXd& time = data.scene.time();
-    const double place = fit.set.effects[e].parameters[static_cast<std::size_t>(index)];
+    const double place = fit.set.effects[e].parameters[step->index];
     double before = -none;
     double behind = none;
     for (Eigen::Index i = 0; i < data.samples(); ++i)
@@ -59,11 +39,11 @@ Eigen::MatrixXd leftOfHeldOut(
         behind = time[i] > place ? std::fmin(behind, time[i]) : behind;
       }
     }
-    const double half = 0.5 * fit.set.effects[e].parameters[static_cast<std::size_t>(index) + 1];
+    const double half = 0.5 * fit.set.effects[e].parameters[step->index + 1];
     for (const double end : { before - half, behind + half })
     {
       EffectSet moved = fit.set;
-      moved.effects[e].parameters[static_cast<std::size_t>(index)] = std::clamp(end, 0.0, 1.0);
+      moved.effects[e].parameters[step->index] = std::clamp(end, 0.0, 1.0);
       const Eigen::MatrixXd other = leftBy(data, respond(data.camera, data.scene, moved));
       for (Eigen::Index i = 0; i < data.samples(); ++i)
       {

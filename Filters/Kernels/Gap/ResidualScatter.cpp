@@ -109,16 +109,18 @@ double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, 
 }
 
 double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
-  const ReadingNoise& model, const Eigen::MatrixXd& integration)
+  const Eigen::MatrixXd& noise, const Eigen::MatrixXd& integration)
 {
-  const Eigen::ArrayXXd noise = readingVariance(data, model).array();
+  const auto measured = data.count.array() > 0.0;
   const Eigen::MatrixXd& m = data.camera.responsivity();
   const Eigen::MatrixXd through = m * m.transpose();
-  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(data.channels(), data.channels());
   const auto noisy = [&](double factor) -> Eigen::ArrayXXd
-  { return factor * factor * noise + integration.array(); };
+  { return factor * factor * noise.array() + integration.array(); };
   const auto asNoise = [&](double factor)
-  { return logLikelihood(data, residual, noisy(factor), none); };
+  {
+    const Eigen::ArrayXXd variance = noisy(factor);
+    return -0.5 * measured.select(variance.log() + residual.array().square() / variance, 0.0).sum();
+  };
   const auto asReflectance = [&](double scatter)
   { return logLikelihood(data, residual, noisy(1.0), scatter * scatter * through); };
   const double factor = highest(1.0, LargestFactor, asNoise);
@@ -128,7 +130,6 @@ double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
   {
     return 1.0;
   }
-  const auto measured = data.count.array() > 0.0;
   const Eigen::ArrayXXd whitened = measured.select(residual.array() / noisy(factor).sqrt(), 0.0);
   const Eigen::Index pairs = data.channels() - 1;
   const double products = (whitened.topRows(pairs) * whitened.bottomRows(pairs)).sum();

@@ -226,10 +226,9 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const double doubted = limitIntegration(data, integration, unpredicted);
   if (capture.noise && noise.degrees == 0.0)
   {
-    noise.excess = excessScatter(
-      data, after, *capture.noise, data.variance - readingVariance(data, *capture.noise));
-    noise.unrepeated = noise.excess > 1.0;
     const Eigen::MatrixXd modelled = readingVariance(data, noise.reading);
+    noise.excess = excessScatter(data, after, modelled, data.variance - modelled);
+    noise.unrepeated = noise.excess > 1.0;
     noise.reading.read *= noise.excess;
     noise.reading.shot *= noise.excess;
     data.variance += readingVariance(data, noise.reading) - modelled;

@@ -53,7 +53,7 @@ EffectFit splitGains(
   const EffectChoice gain = *gains;
   EffectSet rest = fit.set;
   rest.remove(static_cast<std::size_t>(gains - fit.set.choices.begin()));
-  const EffectFit without = rest.size() > 0 ? fitter.fit(rest, Iterations) : fitter.nominal();
+  const EffectFit without = fitter.fit(rest, Iterations);
   double least = StructuredChance;
   EffectSet best;
   for (const EffectChoice& choice : choices)

@@ -68,6 +68,16 @@ INSTANTIATE_TEST_SUITE_P(Effects, EffectFitRecovers,
     Planted{ { "medium_gain", "", "fabric", { 0.93 } }, 0 },
     Planted{ { "interreflection", "", "fabric", { 0.2 } }, 0 }));
 
+TEST(EffectFit, WithoutEffectsIsTheNominalCamera)
+{
+  const msi::GapData data = dataOf(captureWith({ { "exposure_gain", "", "", { 1.05 } } }));
+  const msi::EffectFitter fitter(data, data.usable, 1);
+  const msi::EffectFit fit = fitter.fit({}, 20);
+  EXPECT_EQ(fit.predicted, data.simulated);
+  EXPECT_EQ(fit.energy, fitter.nominal().energy);
+  EXPECT_EQ(fit.parameters(), 0);
+}
+
 TEST(EffectFit, ResistsReadingsThatAreWrongAltogether)
 {
   msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } });

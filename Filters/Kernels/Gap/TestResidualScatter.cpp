@@ -23,7 +23,7 @@ msi::GapCapture understated(double noise, Eigen::Index samples = 96)
 double factorOf(const msi::GapCapture& capture)
 {
   const msi::GapData data = dataOf(capture);
-  return msi::excessScatter(data, data.observed - data.simulated, *capture.noise,
+  return msi::excessScatter(data, data.observed - data.simulated, data.variance,
     Eigen::MatrixXd::Zero(data.channels(), data.samples()));
 }
 

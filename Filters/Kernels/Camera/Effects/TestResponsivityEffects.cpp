@@ -229,7 +229,8 @@ TEST(FilterLeak, LetsALongPassTileThroughABlueChannel)
     0.04 * above * (1.0 + x), 1e-12);
 }
 
-TEST(IlluminantDrift, IsTheCameraUnderTheOtherLamp)
+// The effect is the same as designing the camera under the lamp times `change`.
+void expectOtherLamp(const CameraEffect& effect, const Eigen::ArrayXd& change)
 {
   const WavelengthGrid grid = fineGrid();
   msi::CameraParts parts;
@@ -237,30 +238,25 @@ TEST(IlluminantDrift, IsTheCameraUnderTheOtherLamp)
   parts.light = msi::planckianLight(grid, 2850.0);
   parts.filters = { { 470.0, 30.0 }, { 560.0, 50.0 }, { 640.0, 30.0 } };
   const msi::CameraModel nominal = msi::designCamera(grid, parts);
-  const Eigen::ArrayXd x = (grid.vector().array() - 550.0) / 150.0;
+  parts.light = parts.light.array() * change;
+  const msi::CameraModel real = msi::designCamera(grid, parts);
+  const CameraSimulator simulator(nominal, { effect }, { true });
+  EXPECT_LT((simulator.effectiveResponsivity() - real.responsivity()).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(IlluminantDrift, IsTheCameraUnderTheOtherLamp)
+{
+  const Eigen::ArrayXd x = (fineGrid().vector().array() - 550.0) / 150.0;
   const Eigen::ArrayXd cubic =
     0.2 * x - 0.1 * (1.5 * x.square() - 0.5) + 0.05 * (2.5 * x.cube() - 1.5 * x);
-  parts.light = parts.light.array() * cubic.exp();
-  const msi::CameraModel real = msi::designCamera(grid, parts);
-  const CameraSimulator simulator(
-    nominal, { { "illuminant_drift", "smooth", "", { 0.2, -0.1, 0.05 } } }, { true });
-  EXPECT_LT((simulator.effectiveResponsivity() - real.responsivity()).cwiseAbs().maxCoeff(), 1e-15);
+  expectOtherLamp({ "illuminant_drift", "smooth", "", { 0.2, -0.1, 0.05 } }, cubic.exp());
 }
 
 TEST(IlluminantDrift, IsABandMoreOfTheLamp)
 {
-  const WavelengthGrid grid = fineGrid();
-  msi::CameraParts parts;
-  parts.detector = msi::siliconDetector(grid);
-  parts.light = msi::planckianLight(grid, 2850.0);
-  parts.filters = { { 470.0, 30.0 }, { 560.0, 50.0 }, { 640.0, 30.0 } };
-  const msi::CameraModel nominal = msi::designCamera(grid, parts);
-  const Eigen::ArrayXd z = (grid.vector().array() - 530.0) / 25.0;
-  parts.light = parts.light.array() * (1.0 - 0.15 * (-0.5 * z.square()).exp());
-  const msi::CameraModel real = msi::designCamera(grid, parts);
-  const CameraSimulator simulator(
-    nominal, { { "illuminant_drift", "band", "", { -0.15, 530.0, 25.0 } } }, { true });
-  EXPECT_LT((simulator.effectiveResponsivity() - real.responsivity()).cwiseAbs().maxCoeff(), 1e-15);
+  const Eigen::ArrayXd z = (fineGrid().vector().array() - 530.0) / 25.0;
+  expectOtherLamp({ "illuminant_drift", "band", "", { -0.15, 530.0, 25.0 } },
+    1.0 - 0.15 * (-0.5 * z.square()).exp());
 }
 
 TEST(MovedSpectrum, IsExactForCubicsAndComesToRestOutside)

@@ -1,5 +1,6 @@
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
 
+#include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Imaging/WeightedSum.h"
 
 #include <algorithm>
@@ -16,7 +17,6 @@ namespace
 {
 // A row's weights are repeated over so many pixels that a loop over them is worth its start.
 constexpr std::size_t TilePixels = 32;
-constexpr double Pi = 3.141592653589793;
 
 // Cubic convolution around a place on an axis: weights of the pixels from `first` on.
 struct Cubic
@@ -83,7 +83,7 @@ ChannelRegistration::ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd do
   : Right(std::move(right))
   , Down(std::move(down))
   , Magnification(std::move(magnification))
-  , Rotation(rotation * (Pi / 180.0))
+  , Rotation(rotation * Degree)
   , Extent(extent)
   , Reach(0)
 {

@@ -1,5 +1,6 @@
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 
+#include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Effects/EffectChain.h"
 
 #include <algorithm>
@@ -94,7 +95,6 @@ private:
   // Factors, or what is added.
   Eigen::ArrayXf changes(int place) const
   {
-    constexpr double TwoPi = 6.283185307179586;
     Eigen::ArrayXf changes(amplitude[0].size());
     for (Eigen::Index k = 0; k < changes.size(); ++k)
     {

@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldBanding.h"
 
+#include "Kernels/Camera/Angle.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -11,7 +13,6 @@ namespace msi
 
 namespace
 {
-constexpr double TwoPi = 6.283185307179586;
 constexpr double LargestAmplitude = 0.45;
 constexpr Eigen::Index Oversampling = 6;
 

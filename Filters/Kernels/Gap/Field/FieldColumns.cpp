@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldColumns.h"
 
+#include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldBlockLight.h"
 #include "Kernels/Gap/Field/FieldDetector.h"
@@ -13,8 +14,6 @@ namespace msi
 
 namespace
 {
-constexpr double TwoPi = 6.283185307179586;
-constexpr double Degree = TwoPi / 360.0;
 constexpr double LeastFactor = 0.05; // of the field, where its derivatives are asked for
 
 // The sines of the lines of a block.

@@ -1,14 +1,11 @@
 #include "Kernels/Gap/Field/FieldDisplacement.h"
 
+#include "Kernels/Camera/Angle.h"
+
 #include <cmath>
 
 namespace msi
 {
-
-namespace
-{
-constexpr double Degree = 6.283185307179586 / 360.0;
-}
 
 FieldDisplacement::FieldDisplacement(
   const FieldPair& pair, const FieldModel& model, Eigen::Index channel)

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 
+#include "Kernels/Camera/Angle.h"
 #include "Kernels/Gap/Field/FieldBanding.h"
 #include "Kernels/Gap/Field/FieldTail.h"
 
@@ -10,7 +11,6 @@ namespace msi
 
 namespace
 {
-constexpr double TwoPi = 6.283185307179586;
 constexpr double LeastBlur = 1e-4; // pixels^2
 
 struct Named

@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldModel.h"
 
+#include "Kernels/Camera/Angle.h"
+
 #include <cmath>
 
 namespace msi
@@ -7,7 +9,6 @@ namespace msi
 
 namespace
 {
-constexpr double TwoPi = 6.283185307179586;
 constexpr double NeutralRadius = 8.0;
 constexpr double NeutralLevel = 8.0;
 }

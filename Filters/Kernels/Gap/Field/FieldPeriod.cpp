@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldPeriod.h"
 
+#include "Kernels/Camera/Angle.h"
 #include "Kernels/Gap/Field/FieldProfile.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@ namespace msi
 
 namespace
 {
-constexpr double TwoPi = 6.283185307179586;
 constexpr double FalseAlarm = 1e-3;
 constexpr double Oversampling = 6.0;
 constexpr int Refinements = 40;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
+#include <utility>
 
 namespace msi
 {
@@ -10,6 +10,29 @@ namespace msi
 namespace
 {
 constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
+}
+
+void FieldRevision::consider(FieldFit fit, std::optional<FieldFit>& best) const
+{
+  if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+  {
+    best = std::move(fit);
+  }
+}
+
+bool FieldRevision::takeOver(const std::optional<FieldFit>& best)
+{
+  if (!best)
+  {
+    return false;
+  }
+  const FieldHypothesis other = refit(best->set, best->next);
+  if (cost(other.fit) >= cost(Current.fit) - Result.price)
+  {
+    return false;
+  }
+  accept(other);
+  return true;
 }
 
 void FieldRevision::chooseForm()
@@ -20,24 +43,12 @@ void FieldRevision::chooseForm()
   std::optional<FieldFit> best;
   for (const FieldChoice& choice : Choices)
   {
-    if (&choice == last || choice.effect != last->effect || !available(rest, choice))
+    if (&choice != last && choice.effect == last->effect && available(rest, choice))
     {
-      continue;
-    }
-    FieldFit fit = linearFit(fitter, joined(rest, choice));
-    if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
-    {
-      best = std::move(fit);
+      consider(linearFit(fitter, joined(rest, choice)), best);
     }
   }
-  if (best)
-  {
-    const FieldHypothesis other = refit(best->set, best->next);
-    if (cost(other.fit) < cost(Current.fit) - Result.price)
-    {
-      accept(other);
-    }
-  }
+  takeOver(best);
 }
 
 void FieldRevision::tryTrend()
@@ -69,13 +80,6 @@ bool FieldRevision::exchange()
 {
   const FieldFitter fitter(Data, *Current.statistics);
   std::optional<FieldFit> best;
-  const auto consider = [&](FieldFit fit)
-  {
-    if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
-    {
-      best = std::move(fit);
-    }
-  };
   for (std::size_t e = 0; e < Current.set.size(); ++e)
   {
     const FieldSet rest = withoutOne(Current.set, e);
@@ -91,27 +95,17 @@ bool FieldRevision::exchange()
       {
         for (const FieldSet& simple : simpler(other))
         {
-          consider(linearFit(fitter, simple));
+          consider(linearFit(fitter, simple), best);
         }
       }
-      consider(std::move(fit));
+      consider(std::move(fit), best);
     }
   }
   for (const FieldSet& other : otherLight())
   {
-    consider(linearFit(fitter, other));
+    consider(linearFit(fitter, other), best);
   }
-  if (!best)
-  {
-    return false;
-  }
-  const FieldHypothesis other = refit(best->set, best->next);
-  if (cost(other.fit) >= cost(Current.fit) - Result.price)
-  {
-    return false;
-  }
-  accept(other);
-  return true;
+  return takeOver(best);
 }
 
 std::vector<FieldSet> FieldRevision::otherLight() const

@@ -3,6 +3,7 @@
 
 #include "Kernels/Gap/Field/FieldSearchState.h"
 
+#include <optional>
 #include <vector>
 
 namespace msi
@@ -23,6 +24,10 @@ protected:
   void tryTrend();
 
 private:
+  // Keeps in `best` the cheapest fit that is worth more than the price.
+  void consider(FieldFit fit, std::optional<FieldFit>& best) const;
+  // Goes on from it where it is still worth that when refitted. True where it did.
+  bool takeOver(const std::optional<FieldFit>& best);
   // Vignetting about a center off the middle in the place of vignetting with a gradient, and the other way round.
   std::vector<FieldSet> otherLight() const;
   // The set with a form of fewer parameters in the place of one.

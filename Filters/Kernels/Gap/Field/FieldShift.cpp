@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldShift.h"
 
+#include "Kernels/Camera/Angle.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +14,6 @@ constexpr int Farthest = 10;
 constexpr int Side = 2 * Farthest + 1;
 constexpr std::size_t MostBlocks = 64;
 constexpr double Better = 0.002; // of correlation; less is not worth a start elsewhere
-constexpr double Degrees = 57.29577951308232;
 
 // Of a block in one channel: variances and covariance with the scene at each displacement.
 struct Match
@@ -156,7 +157,7 @@ FieldStart registrationStart(const FieldData& data, const FieldLoop& loop)
         }
       }
       start.similarity.row(channel) = best.at;
-      start.similarity(channel, 3) *= Degrees;
+      start.similarity(channel, 3) /= Degree;
     });
   return start;
 }

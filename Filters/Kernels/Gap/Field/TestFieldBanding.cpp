@@ -10,14 +10,7 @@ namespace
 {
 using msi::GapReport;
 using msi::GapVerdict;
-using msi::test::changed;
-using msi::test::describe;
-using msi::test::diagnose;
-using msi::test::expectFirst;
-using msi::test::expectParameter;
-using msi::test::Pi;
-using msi::test::TestPair;
-using msi::test::TestScene;
+using namespace msi::test;
 }
 
 TEST(FieldGap, BandingOfRowsAndOfColumns)

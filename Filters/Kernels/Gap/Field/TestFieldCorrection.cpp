@@ -11,12 +11,7 @@
 namespace
 {
 using msi::FieldGap;
-using msi::test::gaussianBlurred;
-using msi::test::ImagePlane;
-using msi::test::makePair;
-using msi::test::Pi;
-using msi::test::TestPair;
-using msi::test::TestScene;
+using namespace msi::test;
 
 // Blur, vignetting, stripes of columns, gains and an offset.
 TestPair everything(const TestScene& scene)

@@ -131,11 +131,16 @@ struct CameraSimulator::Implementation
 
   std::vector<int> mediumOf(const SampleScene& scene) const
   {
+    std::vector<int> known;
+    for (const std::string& medium : scene.media())
+    {
+      known.push_back(Chain.mediumNumber(medium));
+    }
     std::vector<int> numbers;
     numbers.reserve(scene.medium().size());
     for (const int medium : scene.medium())
     {
-      numbers.push_back(Chain.mediumNumber(scene.media()[static_cast<std::size_t>(medium)]));
+      numbers.push_back(known[static_cast<std::size_t>(medium)]);
     }
     return numbers;
   }

@@ -1,7 +1,9 @@
 #include "Kernels/Gap/EffectSearch.h"
 
 #include "Kernels/Gap/EffectCost.h"
+#include "Kernels/Gap/EffectExtension.h"
 #include "Kernels/Gap/EffectForms.h"
+#include "Kernels/Gap/EffectRevision.h"
 #include "Kernels/Gap/SmallErrors.h"
 
 #include <algorithm>
@@ -12,20 +14,8 @@ namespace msi
 
 namespace
 {
-constexpr int Iterations = 6;
-constexpr int FormsFitted = 2; // of one effect
 constexpr int FinalIterations = 20;
 constexpr double IdlePart = 0.001; // of the gap's energy
-constexpr int MostExchanges = 3;
-constexpr int ExchangesFitted = 3; // for each effect that may go
-constexpr double NoiseLeft = 1.1;  // times the noise: nothing is left to do better
-
-bool sameCauses(const EffectSet& a, const EffectSet& b)
-{
-  return a.size() == b.size() &&
-    std::all_of(
-      a.choices.begin(), a.choices.end(), [&b](const EffectChoice& c) { return b.has(c); });
-}
 
 // One fit for each set of causes, the cheapest.
 void keepBestForms(
@@ -37,59 +27,13 @@ void keepBestForms(
   for (EffectFit& fit : fits)
   {
     const bool known = std::any_of(kept.begin(), kept.end(),
-      [&fit](const EffectFit& other) { return sameCauses(fit.set, other.set); });
+      [&fit](const EffectFit& other) { return fit.set.sameCauses(other.set); });
     if (!known)
     {
       kept.push_back(std::move(fit));
     }
   }
   fits = std::move(kept);
-}
-
-// An effect in a form that is not quite right leaves a rest that others mend, numbers of single channels above all, and
-// they then hide the form that is right. Where the rest of the causes in their best forms do as well for the price, an
-// effect goes.
-EffectFit withoutMenders(const EffectFitter& fitter, EffectFit fit,
-  const std::vector<EffectChoice>& choices, double gapEnergy)
-{
-  for (std::size_t position = fit.set.size(); fit.set.size() > 1 && position-- > 0;)
-  {
-    EffectSet rest = fit.set;
-    rest.remove(position);
-    EffectFit other =
-      chooseForms(fitter, fitter.fit(std::move(rest), Iterations), choices, gapEnergy);
-    if (costOf(fitter, other, gapEnergy, fit.dispersion) <
-      costOf(fitter, fit, gapEnergy, fit.dispersion))
-    {
-      fit = std::move(other);
-      position = fit.set.size();
-    }
-  }
-  return fit;
-}
-
-// Drops effects again that are not worth their price.
-EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEnergy)
-{
-  for (std::size_t position = 0; position < fit.set.size() && fit.set.size() > 1;)
-  {
-    EffectSet rest = fit.set;
-    rest.remove(position);
-    EffectFit other = fitter.fit(std::move(rest), Iterations);
-    const double loss = other.energy - fit.energy;
-    if (costOf(fitter, other, gapEnergy, fit.dispersion) <=
-        costOf(fitter, fit, gapEnergy, fit.dispersion) ||
-      loss < std::fmax(ChanceOfMany * fit.dispersion, RelevantPart * gapEnergy))
-    {
-      fit = std::move(other);
-      position = 0;
-    }
-    else
-    {
-      ++position;
-    }
-  }
-  return fit;
 }
 
 // Beside effects that came later some do nothing any more.
@@ -106,101 +50,6 @@ void dropIdle(const EffectFitter& fitter, SearchResult& result)
     }
   }
 }
-
-// All but one effect of the set; of three or more also all but two.
-std::vector<EffectSet> partsToKeep(const EffectSet& set)
-{
-  std::vector<EffectSet> parts;
-  for (std::size_t first = 0; first < set.size(); ++first)
-  {
-    EffectSet part = set;
-    part.remove(first);
-    for (std::size_t second = first; second < part.size() && set.size() > 2; ++second)
-    {
-      EffectSet smaller = part;
-      smaller.remove(second);
-      parts.push_back(std::move(smaller));
-    }
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
-// A set that grew effect by effect holds some that only suited the forms of those before them. Where another effect, the
-// others in the forms that it asks for, costs less in the place of one, or of two, it takes it.
-EffectFit withExchanges(const EffectFitter& fitter, EffectFit fit,
-  const std::vector<EffectChoice>& choices, double gapEnergy, const std::function<bool()>& stop)
-{
-  for (int round = 0;
-       round < MostExchanges && fit.set.size() > 1 && fit.energy > NoiseLeft * fitter.noiseEnergy();
-       ++round)
-  {
-    const double dispersion = fit.dispersion;
-    const auto cost = [&](const EffectFit& one)
-    { return costOf(fitter, one, gapEnergy, dispersion); };
-    const EffectFit before = fit;
-    for (const EffectSet& part : partsToKeep(before.set))
-    {
-      if (stop())
-      {
-        return fit;
-      }
-      std::vector<EffectChoice> fresh;
-      std::copy_if(choices.begin(), choices.end(), std::back_inserter(fresh),
-        [&before](const EffectChoice& choice) { return !before.set.has(choice); });
-      std::vector<EffectFit> others =
-        extendFit(fitter, fitter.fit(part, Iterations), fresh, gapEnergy, ExchangesFitted);
-      std::stable_sort(others.begin(), others.end(),
-        [&](const EffectFit& a, const EffectFit& b) { return cost(a) < cost(b); });
-      // What is kept may be in a form that suits only what went; the fewer are kept, the more that says.
-      others.resize(std::min<std::size_t>(others.size(), part.size() == 1 ? ExchangesFitted : 1));
-      for (EffectFit& other : others)
-      {
-        EffectFit formed = chooseForms(fitter, std::move(other), choices, gapEnergy);
-        if (cost(formed) + dispersion < cost(fit))
-        {
-          fit = std::move(formed);
-        }
-      }
-    }
-    if (sameCauses(fit.set, before.set))
-    {
-      break;
-    }
-    fit = withoutSurplus(fitter, std::move(fit), gapEnergy);
-  }
-  return fit;
-}
-}
-
-std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& current,
-  const std::vector<EffectChoice>& choices, double gapEnergy, int fullFits)
-{
-  const double price = FormPart * gapEnergy;
-  std::vector<EffectFit> fits;
-  std::vector<EffectChoice> forms;
-  for (const ScreenedEffect& screened : screenEffects(fitter, current, choices, price))
-  {
-    if (static_cast<int>(fits.size()) >= fullFits || screened.gain <= ChanceOfMany)
-    {
-      break;
-    }
-    const auto alike = std::count_if(forms.begin(), forms.end(),
-      [&screened](const EffectChoice& form) { return form.sameCause(screened.choice); });
-    if (alike >= FormsFitted + (hasSecondary(screened.choice) ? 1 : 0))
-    {
-      continue;
-    }
-    forms.push_back(screened.choice);
-    EffectSet set = current.set;
-    set.add(screened.choice, fitter.data().camera, screened.start);
-    EffectFit fit = fitter.fit(std::move(set), Iterations);
-    if (std::isfinite(fit.energy))
-    {
-      fits.push_back(withSecondary(fitter, std::move(fit), current.set.size(), Iterations));
-    }
-  }
-  return fits;
 }
 
 SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectChoice>& choices,
@@ -220,7 +69,8 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
       {
         return result;
       }
-      std::vector<EffectFit> more = extendFit(fitter, from, choices, gapEnergy, limits.fullFits);
+      std::vector<EffectFit> more = extendFit(
+        fitter, from, screenEffects(fitter, from, choices, FormPart * gapEnergy), limits.fullFits);
       std::move(more.begin(), more.end(), std::back_inserter(grown));
     }
     if (grown.empty())

@@ -26,11 +26,6 @@ struct SearchResult
   double gapEnergy = 0.0;         // weighted, beyond noise, before any effect
 };
 
-// Fits current + choice for the best choices of the screen; secondary parameters are freed where the
-// cross-validation asks for it.
-std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& current,
-  const std::vector<EffectChoice>& choices, double gapEnergy, int fullFits);
-
 // Beam search by size; a set of one effect more must beat the best smaller one by significance, by the price of
 // its parameters and by a relevant part of the gap. Afterwards effects are dropped again where that
 // costs nothing, and the forms of those that stay are chosen by cross-validation alone.

@@ -30,6 +30,13 @@ bool EffectSet::has(const EffectChoice& cause) const noexcept
     [&cause](const EffectChoice& choice) { return choice.sameCause(cause); });
 }
 
+bool EffectSet::sameCauses(const EffectSet& other) const noexcept
+{
+  return size() == other.size() &&
+    std::all_of(choices.begin(), choices.end(),
+      [&other](const EffectChoice& choice) { return other.has(choice); });
+}
+
 bool EffectSet::whiteAfterEffects() const noexcept
 {
   return std::any_of(

@@ -67,6 +67,7 @@ struct EffectSet
 
   std::size_t size() const noexcept { return effects.size(); }
   bool has(const EffectChoice& cause) const noexcept;
+  bool sameCauses(const EffectSet& other) const noexcept; // in any order and form
   bool whiteAfterEffects() const noexcept;
   bool leveled() const noexcept;      // and exposure_gain is not there to do it
   std::size_t steps() const noexcept; // places of steps in time: found by search, not by derivative

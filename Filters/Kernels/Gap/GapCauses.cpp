@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/CauseShares.h"
 #include "Kernels/Gap/EffectCost.h"
+#include "Kernels/Gap/EffectExtension.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
@@ -46,8 +47,8 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
       return choice.effect->name != best.set.choices[position].effect->name && !rest.has(choice);
     });
   const EffectFit without = fitter.fit(rest, Iterations);
-  const std::vector<EffectFit> alternatives =
-    extendFit(fitter, without, others, found.gapEnergy, AlternativesFitted);
+  const std::vector<EffectFit> alternatives = extendFit(fitter, without,
+    screenEffects(fitter, without, others, FormPart * found.gapEnergy), AlternativesFitted);
   struct Rival
   {
     std::string name;

@@ -23,15 +23,15 @@ constexpr double HopefulFit = 1.25;
 constexpr double WorthAnotherRound = 0.95; // of the cost before
 constexpr double NoiseLeft = 1.1;          // times the noise: nothing is left to do better
 
-// All but one effect of the set; of three or more also all but two.
-std::vector<EffectSet> partsToKeep(const EffectSet& set)
+// All but one effect of the set; of three or more also all but two where `pairs`.
+std::vector<EffectSet> partsToKeep(const EffectSet& set, bool pairs)
 {
   std::vector<EffectSet> parts;
   for (std::size_t first = 0; first < set.size(); ++first)
   {
     EffectSet part = set;
     part.remove(first);
-    for (std::size_t second = first; second < part.size() && set.size() > 2; ++second)
+    for (std::size_t second = first; pairs && second < part.size() && set.size() > 2; ++second)
     {
       EffectSet smaller = part;
       smaller.remove(second);
@@ -102,7 +102,8 @@ EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEn
 }
 
 EffectFit withExchanges(const EffectFitter& fitter, EffectFit fit,
-  const std::vector<EffectChoice>& choices, double gapEnergy, const std::function<bool()>& stop)
+  const std::vector<EffectChoice>& choices, double gapEnergy, bool pairs,
+  const std::function<bool()>& stop)
 {
   for (int round = 0;
        round < MostExchanges && fit.set.size() > 1 && fit.energy > NoiseLeft * fitter.noiseEnergy();
@@ -118,7 +119,7 @@ EffectFit withExchanges(const EffectFitter& fitter, EffectFit fit,
     std::copy_if(choices.begin(), choices.end(), std::back_inserter(fresh),
       [&before](const EffectChoice& choice) { return !before.set.has(choice); });
     std::vector<EffectFit> hopeful;
-    for (const EffectSet& part : partsToKeep(before.set))
+    for (const EffectSet& part : partsToKeep(before.set, pairs))
     {
       if (stop())
       {

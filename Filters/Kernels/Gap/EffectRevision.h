@@ -19,9 +19,10 @@ EffectFit withoutMenders(const EffectFitter& fitter, EffectFit fit,
 EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEnergy);
 
 // A set that grew effect by effect holds some that only suited the forms of those before them. Where another effect, the
-// others in the forms that it asks for, costs less in the place of one, or of two, it takes it. Followed are those
+// others in the forms that it asks for, costs less in the place of one, or with `pairs` of two, it takes it. Followed are those
 // that promise to compete, so that a gap that nothing fits costs no more than a few times the search before.
 EffectFit withExchanges(const EffectFitter& fitter, EffectFit fit,
-  const std::vector<EffectChoice>& choices, double gapEnergy, const std::function<bool()>& stop);
+  const std::vector<EffectChoice>& choices, double gapEnergy, bool pairs,
+  const std::function<bool()>& stop);
 
 } // namespace msi

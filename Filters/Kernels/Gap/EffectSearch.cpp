@@ -107,7 +107,8 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
   result.best = withoutMenders(fitter, std::move(result.best), choices, gapEnergy);
   result.best = withoutSurplus(fitter, std::move(result.best), gapEnergy);
   result.best = chooseForms(fitter, std::move(result.best), choices, gapEnergy);
-  result.best = withExchanges(fitter, std::move(result.best), choices, gapEnergy, stop);
+  result.best =
+    withExchanges(fitter, std::move(result.best), choices, gapEnergy, limits.exchangePairs, stop);
   result.best = preferExposure(fitter, std::move(result.best), choices, gapEnergy);
   if (static_cast<int>(result.best.set.size()) < limits.maximumEffects)
   {

@@ -13,8 +13,9 @@ namespace msi
 struct SearchLimits
 {
   int maximumEffects = 5;
-  int width = 3;     // sets kept of each size
-  int fullFits = 12; // effects fitted for each set kept
+  int width = 3;             // sets kept of each size
+  int fullFits = 12;         // effects fitted for each set kept
+  bool exchangePairs = true; // other effects in the place of two, not of one only
 };
 
 struct SearchResult

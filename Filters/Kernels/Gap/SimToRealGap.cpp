@@ -194,6 +194,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     limits.maximumEffects = options.maximumCauses;
     limits.width = 2;
     limits.fullFits = 7;
+    limits.exchangePairs = false;
     const SearchResult result = searchEffects(fold, choices, limits, stop);
     const Eigen::MatrixXd left = leftOfHeldOut(data, result.best, training);
     for (Eigen::Index i = 0; i < data.samples(); ++i)

@@ -22,6 +22,7 @@ COLORS = {
 }
 _TEXT = (0.1, 0.1, 0.1)
 _GRID = (0.88, 0.88, 0.88)
+_PANEL = 300  # pixels of one of several images side by side
 
 
 class LineStyle:
@@ -60,11 +61,13 @@ def image(source, array, path, value_range=None, rgb=False):
     _save(view, path)
 
 
-def image_view(source, array, value_range=None, rgb=False):
+def image_view(source, array, value_range=None, rgb=False, shown=1000):
+    """shown: pixels of the longer side that the picture will have before a reader; the legend is as large as that asks."""
     extent, origin, spacing = _frame(source)
     width, height = extent[1] - extent[0] + 1, extent[3] - extent[2] + 1
-    scale = max(1, round(1000 / max(width, height)))
-    legend = 0 if rgb else 150
+    scale = max(1, round(shown / max(width, height)))
+    enlarged = _enlarged(max(width, height), shown)
+    legend = 0 if rgb else round(150 * enlarged)
     view = simple.CreateView("RenderView")
     view.ViewSize = [width * scale + legend, height * scale]
     view.OrientationAxesVisibility = 0
@@ -78,7 +81,7 @@ def image_view(source, array, value_range=None, rgb=False):
         simple.ColorBy(display, ("POINTS", array))
         display.MapScalars = 0
     else:
-        _map_errors(display, view, array, value_range)
+        _map_errors(display, view, array, value_range, enlarged)
     # The image fills the view but for the legend at the right.
     units = spacing[0] / scale
     center_x = origin[0] + 0.5 * (extent[0] + extent[1]) * spacing[0] + 0.5 * legend * units
@@ -89,7 +92,12 @@ def image_view(source, array, value_range=None, rgb=False):
     return view
 
 
-def _map_errors(display, view, array, value_range):
+def _enlarged(longer, shown):
+    """How much larger than shown a picture of whole pixels is at least."""
+    return max(1.0, longer / shown)
+
+
+def _map_errors(display, view, array, value_range, enlarged):
     simple.ColorBy(display, ("POINTS", array))
     colors = simple.GetColorTransferFunction(array)
     colors.ApplyPreset("Viridis (matplotlib)", True)
@@ -98,30 +106,35 @@ def _map_errors(display, view, array, value_range):
         colors.RescaleTransferFunction(*value_range)
     else:
         display.RescaleTransferFunctionToDataRange(False, True)
-    bar = simple.GetScalarBar(colors, view)
-    bar.Title = array
+    _place_bar(simple.GetScalarBar(colors, view), array, view, enlarged)
+    display.SetScalarBarVisibility(view, True)
+
+
+def _place_bar(bar, title, view, enlarged):
+    """Into the margin at the right of an image."""
+    bar.Title = title
     bar.ComponentTitle = ""
     bar.TitleColor = _TEXT
     bar.LabelColor = _TEXT
-    bar.TitleFontSize = 16
-    bar.LabelFontSize = 14
+    bar.TitleFontSize = round(16 * enlarged)
+    bar.LabelFontSize = round(14 * enlarged)
+    bar.ScalarBarThickness = round(16 * enlarged)
     bar.Orientation = "Vertical"
     bar.WindowLocation = "Any Location"
-    bar.Position = [1.0 - 120.0 / view.ViewSize[0], 0.12]
+    bar.Position = [1.0 - 120.0 * enlarged / view.ViewSize[0], 0.12]
     bar.ScalarBarLength = 0.7
     bar.AutomaticLabelFormat = 0
     bar.LabelFormat = "%-.3g"
     bar.RangeLabelFormat = "%-.3g"
-    display.SetScalarBarVisibility(view, True)
 
 
 def channel_row(panels, component, path):
     """One channel of several images side by side; panels: (source, array, title, (low, high)). No array: the active one."""
     layout = simple.CreateLayout(os.path.basename(path))
-    cell, views, size = 0, [], [0, 0]
+    cell, views, whole = 0, [], [0, 0]
     for i, (source, array, title, bounds) in enumerate(panels):
         name = array or source.PointData.GetArray(0).GetName()
-        view = image_view(source, name, bounds)
+        view = image_view(source, name, bounds, shown=_PANEL)
         display = simple.GetDisplayProperties(source, view)
         display.SetScalarBarVisibility(view, False)  # that of all channels together
         display.UseSeparateColorMap = 1
@@ -131,9 +144,7 @@ def channel_row(panels, component, path):
         colors.ApplyPreset("Cool to Warm" if bounds[0] < 0.0 else "Viridis (matplotlib)", True)
         colors.NanColor = [0.82, 0.82, 0.82]
         colors.RescaleTransferFunction(*bounds)
-        bar = simple.GetScalarBar(colors, view)
-        bar.Title, bar.ComponentTitle = title, ""
-        bar.TitleColor, bar.LabelColor = _TEXT, _TEXT
+        _place_bar(simple.GetScalarBar(colors, view), title, view, _enlarged(max(size(source)), _PANEL))
         display.SetScalarBarVisibility(view, True)
         if i + 1 < len(panels):
             cell = layout.SplitHorizontal(cell, 1.0 / (len(panels) - i))
@@ -141,10 +152,10 @@ def channel_row(panels, component, path):
             cell += 1
         else:
             layout.AssignView(cell, view)
-        size = [size[0] + view.ViewSize[0], max(size[1], view.ViewSize[1])]
+        whole = [whole[0] + view.ViewSize[0], max(whole[1], view.ViewSize[1])]
         views.append(view)
-    layout.SetSize(size)
-    simple.SaveScreenshot(path, layout, ImageResolution=size, TransparentBackground=0)
+    layout.SetSize(whole)
+    simple.SaveScreenshot(path, layout, ImageResolution=whole, TransparentBackground=0)
     for view in views:
         simple.Delete(view)
     simple.Delete(layout)

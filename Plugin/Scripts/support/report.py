@@ -4,9 +4,11 @@ import base64
 import html
 import math
 import os
+import struct
 
 from . import command
 
+_WIDE = 2.5  # times the height: needs the whole width of the page
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 62rem; margin: 2rem auto;
        padding: 0 1rem; }
@@ -14,6 +16,7 @@ h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.2rem; }
 figure { margin: 1rem 0; } figcaption { color: #555; font-size: .9rem; }
 img { max-width: 100%; height: auto; border: 1px solid #ddd; }
 .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(28rem, 1fr)); gap: 1rem; }
+.row .wide { grid-column: 1 / -1; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .92rem; }
 th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e3e3e3; }
 th:first-child, td:first-child { text-align: left; }
@@ -47,8 +50,11 @@ def pictures(title, folder, captions):
     figures = ""
     for name, caption in captions.items():
         with open(os.path.join(folder, name), "rb") as file:
-            data = base64.b64encode(file.read()).decode("ascii")
-        figures += (f"<figure><img alt='{html.escape(caption)}' src='data:image/png;base64,{data}'>"
+            content = file.read()
+        data = base64.b64encode(content).decode("ascii")
+        width, height = struct.unpack(">II", content[16:24])  # of a PNG
+        wide = " class='wide'" if width > _WIDE * height else ""
+        figures += (f"<figure{wide}><img alt='{html.escape(caption)}' src='data:image/png;base64,{data}'>"
                     f"<figcaption>{html.escape(caption)}</figcaption></figure>")
     layout = f"<div class='row'>{figures}</div>" if len(captions) > 1 else figures
     return _section(title, layout)

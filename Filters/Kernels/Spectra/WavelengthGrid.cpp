@@ -41,6 +41,7 @@ WavelengthGrid::WavelengthGrid(std::vector<double> nanometres)
       reject(i, value, "wavelengths in strictly increasing order");
     }
   }
+  Step = commonStep();
 }
 
 WavelengthGrid WavelengthGrid::uniform(double first, double last, double step)
@@ -63,7 +64,7 @@ WavelengthGrid WavelengthGrid::uniform(double first, double last, double step)
   return WavelengthGrid(std::move(values));
 }
 
-std::optional<double> WavelengthGrid::step() const noexcept
+std::optional<double> WavelengthGrid::commonStep() const noexcept
 {
   if (Nanometres.size() < 2)
   {

@@ -35,7 +35,7 @@ public:
   }
 
   // The common step in nm; empty where the spacing varies by more than 1e-6 nm or one value stands.
-  std::optional<double> step() const noexcept;
+  std::optional<double> step() const noexcept { return Step; }
 
   friend bool operator==(const WavelengthGrid& a, const WavelengthGrid& b) noexcept
   {
@@ -47,7 +47,10 @@ public:
   }
 
 private:
+  std::optional<double> commonStep() const noexcept;
+
   std::vector<double> Nanometres;
+  std::optional<double> Step;
 };
 
 } // namespace msi

@@ -29,9 +29,8 @@ BoundEffect::BoundEffect(const CameraEffect& effect, const CameraModel& camera, 
   , Medium(medium)
   , Neutral(true)
 {
-  const std::vector<EffectParameter> expected = effectParameters(effect, camera.channels());
-  Definition = findEffect(effect.name);
-  Form = findForm(*Definition, effect.form);
+  Definition = &requireEffect(effect.name);
+  Form = &requireForm(*Definition, effect.form);
   const bool needsMedium = Definition->need == EffectNeed::Medium;
   if (needsMedium && effect.medium.empty())
   {
@@ -42,22 +41,36 @@ BoundEffect::BoundEffect(const CameraEffect& effect, const CameraModel& camera, 
     reject("the camera effect ", effect.name, " acts on all media; '", effect.medium,
       "' cannot be its medium");
   }
-  if (Values.size() != expected.size())
+  std::size_t expected = 0;
+  for (const EffectParameter& parameter : Form->parameters)
   {
-    reject("the camera effect ", effect.name, " in the form ", Form->name, " has ", expected.size(),
+    expected += countOf(parameter);
+  }
+  if (Values.size() != expected)
+  {
+    reject("the camera effect ", effect.name, " in the form ", Form->name, " has ", expected,
       " parameters but ", Values.size(), " are given");
   }
-  for (std::size_t i = 0; i < expected.size(); ++i)
+  std::size_t i = 0;
+  for (const EffectParameter& parameter : Form->parameters)
   {
-    const EffectParameter& parameter = expected[i];
     const double margin = BoundTolerance * (parameter.upper - parameter.lower);
-    if (!(Values[i] >= parameter.lower - margin && Values[i] <= parameter.upper + margin))
+    for (const std::size_t end = i + countOf(parameter); i < end; ++i)
     {
-      reject("the parameter ", parameter.name, " of the camera effect ", effect.name, " is ",
-        Values[i], "; expected a value from ", parameter.lower, " to ", parameter.upper);
+      if (!(Values[i] >= parameter.lower - margin && Values[i] <= parameter.upper + margin))
+      {
+        reject("the parameter ", effectParameters(effect, camera.channels())[i].name,
+          " of the camera effect ", effect.name, " is ", Values[i], "; expected a value from ",
+          parameter.lower, " to ", parameter.upper);
+      }
+      Neutral = Neutral && (parameter.secondary || Values[i] == parameter.neutral);
     }
-    Neutral = Neutral && (parameter.secondary || Values[i] == parameter.neutral);
   }
+}
+
+std::size_t BoundEffect::countOf(const EffectParameter& parameter) const noexcept
+{
+  return parameter.perChannel ? Camera->channels().size() : 1;
 }
 
 std::size_t BoundEffect::offsetOf(std::string_view parameter, bool& perChannel) const
@@ -70,7 +83,7 @@ std::size_t BoundEffect::offsetOf(std::string_view parameter, bool& perChannel) 
       perChannel = candidate.perChannel;
       return offset;
     }
-    offset += candidate.perChannel ? Camera->channels().size() : 1;
+    offset += countOf(candidate);
   }
   reject("the form ", Form->name, " of ", Definition->name, " has no parameter ", parameter);
 }

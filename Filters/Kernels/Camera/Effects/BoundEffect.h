@@ -33,6 +33,7 @@ public:
   Eigen::ArrayXd perChannel(std::string_view parameter) const;
 
 private:
+  std::size_t countOf(const EffectParameter& parameter) const noexcept; // of its values
   std::size_t offsetOf(std::string_view parameter, bool& perChannel) const;
 
   const EffectDefinition* Definition;

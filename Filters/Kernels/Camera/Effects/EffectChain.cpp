@@ -32,7 +32,6 @@ EffectChain::EffectChain(
   : Camera(std::move(camera))
   , Effects(std::move(effects))
   , Responsivity(Camera.responsivity())
-  , Integral(cameraResponse(Camera))
   , Dark(Camera.dark().array())
 {
   // In the order of the library, whatever the order in which they were given.
@@ -64,7 +63,7 @@ EffectChain::EffectChain(
     OnIrradiance.empty() && BeforeDark.empty() && !VeilingGlare && !LocalStrayLight && !onImage;
   const Eigen::VectorXd dark =
     DarkInIntegral ? Camera.dark() : Eigen::VectorXd::Zero(Camera.channelCount());
-  Integral = cameraResponse(Camera.with(Responsivity, dark));
+  Integral = cameraResponse(Responsivity, dark);
 }
 
 void EffectChain::add(const CameraEffect& effect)

@@ -105,7 +105,8 @@ private:
   bool NeedsOrder = false;
   // Nothing acts between integral and dark response: one sum, as the ideal camera does it.
   bool DarkInIntegral = true;
-  AffineTransform Integral;
+  AffineTransform Integral =
+    AffineTransform::identity(1); // until all effects are in the responsivity
   ChannelValues Dark;
 };
 

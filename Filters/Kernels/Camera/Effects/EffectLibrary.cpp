@@ -26,26 +26,6 @@ template <typename Items>
   }
   throw std::invalid_argument(message.str());
 }
-
-const EffectDefinition& definitionOf(std::string_view name)
-{
-  const EffectDefinition* definition = findEffect(name);
-  if (definition == nullptr)
-  {
-    rejectName("camera effect", name, effectLibrary());
-  }
-  return *definition;
-}
-
-const EffectForm& formOf(const EffectDefinition& definition, std::string_view name)
-{
-  const EffectForm* form = findForm(definition, name);
-  if (form == nullptr)
-  {
-    rejectName("form of " + definition.name, name, definition.forms);
-  }
-  return *form;
-}
 }
 
 const std::vector<EffectEntry>& effectEntries()
@@ -110,11 +90,32 @@ const EffectForm* findForm(const EffectDefinition& effect, std::string_view form
   return found == effect.forms.end() ? nullptr : &*found;
 }
 
+const EffectDefinition& requireEffect(std::string_view name)
+{
+  const EffectDefinition* definition = findEffect(name);
+  if (definition == nullptr)
+  {
+    rejectName("camera effect", name, effectLibrary());
+  }
+  return *definition;
+}
+
+const EffectForm& requireForm(const EffectDefinition& effect, std::string_view name)
+{
+  const EffectForm* form = findForm(effect, name);
+  if (form == nullptr)
+  {
+    rejectName("form of " + effect.name, name, effect.forms);
+  }
+  return *form;
+}
+
 std::vector<EffectParameter> effectParameters(
   const CameraEffect& effect, const std::vector<std::string>& channels)
 {
   std::vector<EffectParameter> single;
-  for (const EffectParameter& parameter : formOf(definitionOf(effect.name), effect.form).parameters)
+  for (const EffectParameter& parameter :
+    requireForm(requireEffect(effect.name), effect.form).parameters)
   {
     if (!parameter.perChannel)
     {

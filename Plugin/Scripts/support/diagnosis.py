@@ -173,7 +173,8 @@ def uncredited_lines(figures):
     share, left = figures["unexplained_share"], 1.0 - max(figures["shrink"], 0.0)
     if share < 0.005:
         return []
-    place = f", mostly along {figures['unexplained_where']}" if figures["unexplained_where"] else ""
+    where = figures["unexplained_where"]
+    place = "" if not where else f" ({where})" if where.startswith("no ") else f", most of it at {where}"
     if share <= left + 0.02:
         return [f"Left over: {100 * share:.0f} % of the gap{place}."]
     return [f"No cause is given {100 * share:.0f} % of the gap: {100 * left:.0f} % is left over{place}; the rest shrinks, but "

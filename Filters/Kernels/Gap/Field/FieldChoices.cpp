@@ -26,6 +26,8 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
   const FieldTerm sixth{ P::Sixth, false, -1.5, 1.5, 0.03 };
   const FieldTerm centerX{ P::CenterX, false, -1.0, 1.0, 0.1 };
   const FieldTerm centerY{ P::CenterY, false, -1.0, 1.0, 0.1 };
+  const FieldTerm slopeRight{ P::GradientRight, false, -0.5, 0.5, 0.03 };
+  const FieldTerm slopeDown{ P::GradientDown, false, -0.5, 0.5, 0.03 };
   std::vector<FieldTerm> surround;
   surround.reserve(FreePasses);
   for (int i = 0; i < FreePasses; ++i)
@@ -54,9 +56,9 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
     { "vignetting", "quadratic", { falloff, centerX, centerY } },
     { "vignetting", "polynomial", { steep, fourth, sixth } },
     { "vignetting", "polynomial", { steep, fourth, sixth, centerX, centerY } },
-    { "illumination_gradient", "plane",
-      { { P::GradientRight, false, -0.5, 0.5, 0.03 },
-        { P::GradientDown, false, -0.5, 0.5, 0.03 } } },
+    { "illumination_gradient", "plane", { slopeRight, slopeDown } },
+    { "illumination_gradient", "bent",
+      { slopeRight, slopeDown, { P::GradientBend, false, -0.3, 0.3, 0.03 } } },
     { "misregistration", "per_channel", { right, down } },
     { "misregistration", "per_channel", { right, down, magnification } },
     { "misregistration", "per_channel", { right, down, magnification, rotation } },

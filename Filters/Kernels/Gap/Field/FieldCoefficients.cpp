@@ -35,6 +35,26 @@ Eigen::VectorXd FieldFitter::coefficients(
     case P::GradientDown:
       one(FieldColumn::GradientDown);
       break;
+    case P::GradientBend:
+    {
+      if (!hasDirection(shape))
+      {
+        one(FieldColumn::GradientBend);
+        break;
+      }
+      // (a x + b y)^2 out of x^2 + y^2, x^2 - y^2 and x y, a^2 + b^2 = 1
+      const double a = shape.gradientRight;
+      const double b = shape.gradientDown;
+      const double x = model.at(P::CenterX, 0);
+      const double y = model.at(P::CenterY, 0);
+      one(FieldColumn::RadiusSquared, 0.5);
+      one(FieldColumn::GradientRight, x);
+      one(FieldColumn::GradientDown, y);
+      one(FieldColumn::Gain, -0.5 * (x * x + y * y));
+      one(FieldColumn::Saddle, 0.5 * (a * a - b * b));
+      one(FieldColumn::Diagonal, 2.0 * a * b);
+      break;
+    }
     case P::Falloff:
     {
       // About another center than the model's: the same polynomial.

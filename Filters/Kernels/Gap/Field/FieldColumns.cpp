@@ -48,6 +48,27 @@ const double* linesOf(const Eigen::ArrayXXd* profile, int first, Eigen::Index ch
   return profile == nullptr ? nullptr : &(*profile)(first, channel);
 }
 
+// Derivatives of FieldModel::gradient.
+struct GradientSlope
+{
+  double right, down, bend;
+};
+
+GradientSlope gradientSlope(const FieldModel& model, double x, double y)
+{
+  const double right = model.at(FieldParameter::GradientRight, 0);
+  const double down = model.at(FieldParameter::GradientDown, 0);
+  const double size = std::hypot(right, down);
+  if (!(size > 0.0))
+  {
+    return { x, y, 0.0 };
+  }
+  const double along = (right * x + down * y) / size;
+  const double turn = 2.0 * model.at(FieldParameter::GradientBend, 0) * along / size;
+  return { x + turn * (x - right * along / size), y + turn * (y - down * along / size),
+    along * along };
+}
+
 // The channel before, for the lag; that of the last call where it was this one.
 void findBefore(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
   const FieldBlock& block, Eigen::Index channel, const std::vector<double>& factors,
@@ -162,8 +183,10 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     out[FieldColumn::Gain] = u;
     out[FieldColumn::One] = answer.byOffset;
     const double even = direct / std::fmax(model.gradient(x, y), LeastFactor);
-    out[FieldColumn::GradientRight] = x * even;
-    out[FieldColumn::GradientDown] = y * even;
+    const GradientSlope slope = gradientSlope(model, x, y);
+    out[FieldColumn::GradientRight] = slope.right * even;
+    out[FieldColumn::GradientDown] = slope.down * even;
+    out[FieldColumn::GradientBend] = slope.bend * even;
     const double offX = x - model.at(P::CenterX, 0);
     const double offY = y - model.at(P::CenterY, 0);
     const double square = offX * offX + offY * offY;

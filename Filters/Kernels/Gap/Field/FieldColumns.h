@@ -20,6 +20,7 @@ enum Index : int
   One,
   GradientRight, // x u
   GradientDown,  // y u
+  GradientBend,  // n^2 u, n the place along the gradient; 0 without gradient
   RadiusSquared, // rho^2 u, rho from the center of vignetting
   RadiusFourth,
   RadiusSixth,

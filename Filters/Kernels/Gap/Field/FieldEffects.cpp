@@ -11,7 +11,8 @@ namespace msi
 
 namespace
 {
-constexpr double LeastBlur = 1e-4; // pixels^2
+constexpr double LeastBlur = 1e-4;   // pixels^2
+constexpr double LeastSquare = 1e-8; // of a gradient
 
 struct Named
 {
@@ -36,6 +37,8 @@ Named nameOf(FieldParameter parameter)
       return { "right", "1" };
     case P::GradientDown:
       return { "down", "1" };
+    case P::GradientBend:
+      return { "bend", "1" };
     case P::Falloff:
       return { "falloff", "1" };
     case P::Fourth:
@@ -117,6 +120,14 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice,
   return parameters;
 }
 
+// What a parameter's value and its error are multiplied by for the library.
+double libraryScale(FieldParameter parameter, const FieldModel& model)
+{
+  const double square = std::pow(model.at(FieldParameter::GradientRight, 0), 2) +
+    std::pow(model.at(FieldParameter::GradientDown, 0), 2);
+  return parameter == FieldParameter::GradientBend ? 1.0 / std::fmax(square, LeastSquare) : 1.0;
+}
+
 bool isFree(const FieldChoice& choice)
 {
   return choice.terms.front().parameter == FieldParameter::SurroundFirst;
@@ -158,8 +169,9 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
     const Named named = nameOf(term.parameter);
     for (Eigen::Index k = 0; k < (term.perChannel ? K : 1); ++k)
     {
-      double value = model.at(term.parameter, k);
-      double deviation = error[next++];
+      const double scale = libraryScale(term.parameter, model);
+      double value = scale * model.at(term.parameter, k);
+      double deviation = scale * error[next++];
       if (term.parameter == FieldParameter::BlurVariance)
       {
         value = std::sqrt(std::fmax(value, 0.0));
@@ -217,7 +229,7 @@ std::vector<CameraEffect> fieldCorrection(
     {
       for (Eigen::Index k = 0; k < (term.perChannel ? K : 1); ++k)
       {
-        const double value = model.at(term.parameter, k);
+        const double value = libraryScale(term.parameter, model) * model.at(term.parameter, k);
         const bool blur = term.parameter == FieldParameter::BlurVariance;
         const std::string name = nameOf(term.parameter).name;
         put(term.perChannel ? withChannel(name, channels[static_cast<std::size_t>(k)]) : name,

@@ -38,10 +38,10 @@ FieldShape FieldFitter::shape() const
 {
   const FieldModel& model = Statistics.model;
   return { model.at(FieldParameter::TailRadius, 0), model.at(FieldParameter::CenterX, 0),
-    model.at(FieldParameter::CenterY, 0) };
+    model.at(FieldParameter::CenterY, 0), 0.0, 0.0 };
 }
 
-FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
+FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDetail detail) const
 {
   const FieldModel& model = Statistics.model;
   const auto K = static_cast<std::size_t>(Data.channels());
@@ -54,6 +54,12 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
   {
     shape.centerX = start.centerX;
     shape.centerY = start.centerY;
+  }
+  if (model.isNeutral(FieldParameter::GradientRight) &&
+    model.isNeutral(FieldParameter::GradientDown))
+  {
+    shape.gradientRight = start.gradientRight;
+    shape.gradientDown = start.gradientDown;
   }
   std::vector<Bound> terms;
   std::vector<char> known(FieldParameters, 0);
@@ -136,27 +142,35 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
     fit.next[bound.term.parameter] =
       again ? Eigen::ArrayXd(fit.next[bound.term.parameter] + value - before) : value;
   }
-  fit.blockEnergy.setZero(static_cast<Eigen::Index>(Data.blocks.size()));
+  const auto energyOf = [](const Eigen::MatrixXd& normal, const Eigen::VectorXd& change)
+  {
+    return normal(Columns, Columns) - 2.0 * change.dot(normal.col(Columns).head(Columns)) +
+      change.dot(normal.topLeftCorner(Columns, Columns) * change);
+  };
+  fit.blockEnergy.setZero(
+    detail == FieldDetail::Blocks ? static_cast<Eigen::Index>(Data.blocks.size()) : 0);
   for (int fold = 0; fold < FieldFolds; ++fold)
   {
+    const std::vector<Eigen::MatrixXd>& own = Fold[static_cast<std::size_t>(fold)];
     std::vector<Eigen::MatrixXd> others = Total;
     for (std::size_t k = 0; k < K; ++k)
     {
-      others[k] -= Fold[static_cast<std::size_t>(fold)][k];
+      others[k] -= own[k];
     }
     const std::vector<Eigen::VectorXd> change = solve(others, terms, values, shape);
-    for (std::size_t b = 0; b < Data.blocks.size(); ++b)
+    for (std::size_t k = 0; k < K; ++k)
+    {
+      fit.energy += energyOf(own[k], change[k]);
+    }
+    for (std::size_t b = 0; detail == FieldDetail::Blocks && b < Data.blocks.size(); ++b)
     {
       for (std::size_t k = 0; Data.blocks[b].fold == fold && k < K; ++k)
       {
-        const Eigen::MatrixXd& normal = Statistics.at(b, static_cast<Eigen::Index>(k)).normal;
-        fit.blockEnergy[static_cast<Eigen::Index>(b)] += normal(Columns, Columns) -
-          2.0 * change[k].dot(normal.col(Columns).head(Columns)) +
-          change[k].dot(normal.topLeftCorner(Columns, Columns) * change[k]);
+        fit.blockEnergy[static_cast<Eigen::Index>(b)] +=
+          energyOf(Statistics.at(b, static_cast<Eigen::Index>(k)).normal, change[k]);
       }
     }
   }
-  fit.energy = fit.blockEnergy.sum();
   return fit;
 }
 

@@ -87,7 +87,7 @@ FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, con
   return best;
 }
 
-FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set)
+FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set, FieldDetail detail)
 {
   const FieldModel& model = fitter.statistics().model;
   const bool tail = contains(set, "local_stray_light", "neighbours") &&
@@ -99,7 +99,7 @@ FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set)
   std::optional<FieldFit> best;
   const auto tryOut = [&](const FieldShape& shape)
   {
-    FieldFit fit = fitter.fit(set, shape);
+    FieldFit fit = fitter.fit(set, shape, detail);
     if (!best || fit.energy < best->energy)
     {
       best = std::move(fit);
@@ -111,17 +111,31 @@ FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set)
   {
     if (tail)
     {
-      tryOut({ radius, 0.0, 0.0 });
+      tryOut({ radius, 0.0, 0.0, 0.0, 0.0 });
     }
   }
-  const double reach = start.radius;
+  if (hasTerm(set, FieldParameter::GradientBend) &&
+    model.isNeutral(FieldParameter::GradientRight) && model.isNeutral(FieldParameter::GradientDown))
+  {
+    FieldShape bent = start;
+    const double right = best->next.at(FieldParameter::GradientRight, 0);
+    const double down = best->next.at(FieldParameter::GradientDown, 0);
+    const double size = std::hypot(right, down);
+    if (size > 0.0)
+    {
+      bent.gradientRight = right / size;
+      bent.gradientDown = down / size;
+      tryOut(bent);
+    }
+  }
+  const FieldShape found = start;
   for (const double right : Centers)
   {
     for (const double down : Centers)
     {
       if (center)
       {
-        tryOut({ reach, right, down });
+        tryOut({ found.radius, right, down, found.gradientRight, found.gradientDown });
       }
     }
   }
@@ -142,8 +156,8 @@ std::vector<std::string> indistinctEffects(
     double information = 0.0;
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
-      const Eigen::VectorXd column = fitter.coefficients(
-        choice.terms.front().parameter, k, { neutralValue(FieldParameter::TailRadius), 0.0, 0.0 });
+      const Eigen::VectorXd column = fitter.coefficients(choice.terms.front().parameter, k,
+        { neutralValue(FieldParameter::TailRadius), 0.0, 0.0, 0.0, 0.0 });
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
         information += column.dot(

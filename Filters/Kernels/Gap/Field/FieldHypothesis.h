@@ -32,7 +32,8 @@ FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, con
   const FieldModel& start, const FieldLoop& loop);
 
 // One step; the radius of a tail and the center of vignetting that the model does not have yet are the best of several.
-FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set);
+FieldFit linearFit(
+  const FieldFitter& fitter, const FieldSet& set, FieldDetail detail = FieldDetail::Blocks);
 
 // Effects among `choices` whose parameters this scene does not show.
 std::vector<std::string> indistinctEffects(

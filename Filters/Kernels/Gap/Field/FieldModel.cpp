@@ -50,7 +50,12 @@ bool FieldModel::hasVignetting() const
 
 double FieldModel::gradient(double x, double y) const noexcept
 {
-  return 1.0 + at(FieldParameter::GradientRight, 0) * x + at(FieldParameter::GradientDown, 0) * y;
+  const double right = at(FieldParameter::GradientRight, 0);
+  const double down = at(FieldParameter::GradientDown, 0);
+  const double bend = at(FieldParameter::GradientBend, 0);
+  const double plane = right * x + down * y;
+  const double square = right * right + down * down;
+  return 1.0 + plane + (bend != 0.0 && square > 0.0 ? bend * plane * plane / square : 0.0);
 }
 
 double FieldModel::vignetting(double x, double y) const noexcept

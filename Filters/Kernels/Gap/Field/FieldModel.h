@@ -42,7 +42,8 @@ enum class FieldParameter
   ConservingGlare,
   GradientRight,
   GradientDown,
-  Falloff, // loss at rho = 1 that grows with rho^2, rho from the center
+  GradientBend, // times the square of the place along the gradient's direction
+  Falloff,      // loss at rho = 1 that grows with rho^2, rho from the center
   Fourth,
   Sixth,
   CenterX,
@@ -97,7 +98,7 @@ struct FieldModel
   }
   bool isNeutral(FieldParameter parameter) const;
   bool hasVignetting() const;
-  // 1 + right x + down y
+  // 1 + g n + bend n^2, n the place along the gradient (right, down), g its length
   double gradient(double x, double y) const noexcept;
   // 1 - falloff rho^2 - fourth rho^4 - sixth rho^6, not below zero
   double vignetting(double x, double y) const noexcept;

@@ -123,13 +123,17 @@ std::vector<FieldSet> FieldRevision::otherLight() const
     const FieldChoice* gradient = nullptr;
     for (const FieldChoice& choice : Choices)
     {
-      gradient = choice.effect == "illumination_gradient" ? &choice : gradient;
+      const bool plane = choice.effect == "illumination_gradient" && choice.form == "plane";
+      gradient = plane ? &choice : gradient;
     }
     if (gradient == nullptr || contains(rest, "illumination_gradient") == off)
     {
       continue;
     }
-    rest.erase(std::remove(rest.begin(), rest.end(), gradient), rest.end());
+    rest.erase(
+      std::remove_if(rest.begin(), rest.end(),
+        [](const FieldChoice* choice) { return choice->effect == "illumination_gradient"; }),
+      rest.end());
     for (const FieldChoice& choice : Choices)
     {
       if (choice.effect == mine->effect && choice.form == mine->form &&

@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldSearch.h"
 
-#include "Kernels/Gap/Field/FieldRevision.h"
+#include "Kernels/Gap/Field/FieldExchange.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,23 +11,37 @@ namespace msi
 
 namespace
 {
-constexpr double LeastClip = 0.7;
 constexpr int BackwardRounds = 4;
+constexpr int PairRounds = 2;
 constexpr std::size_t FullFits = 2;
 
-class Search : public FieldRevision
+class Search : public FieldExchange
 {
 public:
-  using FieldRevision::FieldRevision;
+  using FieldExchange::FieldExchange;
 
   FieldSearchResult run(int maximumEffects, const std::function<bool()>& stop)
   {
-    while (static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow(maximumEffects))
+    const auto growAll = [&]
     {
-      chooseForm();
-    }
-    for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
+      while (
+        static_cast<int>(Current.set.size()) < maximumEffects && !stop() && grow(maximumEffects))
+      {
+        chooseForm();
+      }
+    };
+    const auto revise = [&]
     {
+      for (int round = 0; round < BackwardRounds && !stop() && (exchange() || drop()); ++round)
+      {
+      }
+    };
+    growAll();
+    revise();
+    for (int round = 0; round < PairRounds && !stop() && exchangePairs(maximumEffects); ++round)
+    {
+      growAll();
+      revise();
     }
     tryTrend();
     return result();
@@ -77,9 +91,7 @@ private:
     const auto tryOut = [&](const FieldSet& set, const FieldModel& start)
     {
       FieldHypothesis hypothesis = refit(set, start);
-      // What bends the curve does not clip.
-      if (!contains(set, "saturation") ||
-        hypothesis.statistics->model.at(FieldParameter::Clip, 0) >= LeastClip)
+      if (clips(hypothesis))
       {
         fitted.push_back(std::move(hypothesis));
       }

@@ -14,6 +14,7 @@ namespace
 {
 constexpr double PricePart = 0.0005; // for a parameter
 constexpr double LargestPricePart = 0.001;
+constexpr double LeastClip = 0.7;
 }
 
 namespace
@@ -96,6 +97,24 @@ bool FieldSearchState::available(const FieldSet& set, const FieldChoice& choice)
     return false;
   }
   return compatible(set, choice);
+}
+
+bool FieldSearchState::clips(const FieldHypothesis& hypothesis)
+{
+  return !contains(hypothesis.set, "saturation") ||
+    hypothesis.statistics->model.at(FieldParameter::Clip, 0) >= LeastClip;
+}
+
+FieldStatistics FieldSearchState::nominalStatistics() const
+{
+  const FieldModel& current = Current.statistics->model;
+  FieldModel model(Data.channels());
+  model.rowPeriod = current.rowPeriod;
+  model.columnPeriod = current.columnPeriod;
+  model.rows = current.rows;
+  model.columns = current.columns;
+  model[FieldParameter::ClipLevel] = current[FieldParameter::ClipLevel];
+  return fieldStatistics(Data, model, &Result.weights, Loop);
 }
 
 void FieldSearchState::findStarts()

@@ -39,6 +39,10 @@ protected:
   }
   // Beside the effects of `set`, with a start where it needs one.
   bool available(const FieldSet& set, const FieldChoice& choice) const;
+  // What bends the curve does not clip: false where the hypothesis has a saturation that does.
+  static bool clips(const FieldHypothesis& hypothesis);
+  // With the starts that Current has for stripes and clipping.
+  FieldStatistics nominalStatistics() const;
   // Looks for stripes and clipping in what is left.
   void findStarts();
   // Goes on from here, with weights for what is left.

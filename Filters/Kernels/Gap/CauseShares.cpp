@@ -1,6 +1,7 @@
 #include "Kernels/Gap/CauseShares.h"
 
 #include "Kernels/Gap/ChannelStructure.h"
+#include "Kernels/Gap/GapCertainty.h"
 #include "Kernels/Gap/Shapley.h"
 #include "Kernels/Gap/Shrink.h"
 
@@ -142,27 +143,13 @@ Eigen::MatrixXd contributions(const EffectFitter& fitter, const EffectFit& fit)
   return columns;
 }
 
-// For each effect the part of what it does, 0..1, that the others undo: as far as they point against it, and are as large
-// as it there. What no other can reach is not undone, however large the others are.
-std::vector<double> undoneParts(
+// Scalar products of what the effects do and, last, of what they do together.
+Eigen::MatrixXd productsOf(
   const EffectFitter& fitter, const EffectFit& fit, const Eigen::MatrixXd& contribution)
 {
-  const Eigen::VectorXd all = fitter.weighted(fit.predicted - fitter.data().simulated);
-  std::vector<double> undone;
-  for (Eigen::Index e = 0; e < contribution.cols(); ++e)
-  {
-    const double size = contribution.col(e).norm();
-    const Eigen::VectorXd others = all - contribution.col(e);
-    const double against = -contribution.col(e).dot(others);
-    if (!(against > 0.0))
-    {
-      undone.push_back(0.0);
-      continue;
-    }
-    const double reached = against / others.norm(); // of `size`, along the others
-    undone.push_back(reached / size * std::fmin(reached, others.norm()) / size);
-  }
-  return undone;
+  Eigen::MatrixXd columns(contribution.rows(), contribution.cols() + 1);
+  columns << contribution, fitter.weighted(fit.predicted - fitter.data().simulated);
+  return columns.transpose() * columns;
 }
 
 // For each effect the part of what it does, 0..1, that other effects on the same medium do alike. Two that are that
@@ -250,7 +237,7 @@ std::vector<CauseShare> causeShares(
   const std::vector<double> share = sharesOf(fit.set, alone);
   const double sum = std::accumulate(share.begin(), share.end(), 0.0);
   const Eigen::MatrixXd contribution = contributions(fitter, fit);
-  const std::vector<double> undone = undoneParts(fitter, fit, contribution);
+  const std::vector<double> undone = undoneParts(productsOf(fitter, fit, contribution));
   const std::vector<double> alike = alikeParts(fit.set, contribution);
   std::vector<CauseShare> shares;
   for (std::size_t e = 0; e < fit.set.size(); ++e)

@@ -128,17 +128,7 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
       "What the causes do shows in a few samples only, and the others cannot confirm it: "
       "more samples like these would.");
   }
-  if (report.uncredited.empty())
-  {
-    return;
-  }
-  std::string names;
-  for (const std::string& name : report.uncredited)
-  {
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  notes.push_back("The corrected simulator also has " + names +
-    ": with it the readings are predicted better, but it is not believed to be a cause.");
+  noteUncredited(notes, report.uncredited);
 }
 
 void noteSaturation(std::vector<std::string>& notes, const GapData& data)
@@ -155,6 +145,21 @@ void noteSaturation(std::vector<std::string>& notes, const GapData& data)
       ": they look clipped and say little about any other effect."));
   }
 }
+}
+
+void noteUncredited(std::vector<std::string>& notes, const std::vector<std::string>& effects)
+{
+  if (effects.empty())
+  {
+    return;
+  }
+  std::string names;
+  for (const std::string& name : effects)
+  {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  notes.push_back("The corrected simulator also has " + names +
+    ": with it the readings are predicted better, but it is not believed to be a cause.");
 }
 
 void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,

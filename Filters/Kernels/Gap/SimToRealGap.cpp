@@ -3,6 +3,7 @@
 #include "Kernels/Gap/EffectSearch.h"
 #include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/GapCauses.h"
+#include "Kernels/Gap/GapCertainty.h"
 #include "Kernels/Gap/GapData.h"
 #include "Kernels/Gap/GapEvidence.h"
 #include "Kernels/Gap/GapNoise.h"
@@ -23,12 +24,7 @@ namespace msi
 
 namespace
 {
-constexpr double ExplainedShrink = 0.85;
-constexpr double DoubtfulRest = 0.05;    // of the gap's size
-constexpr double ExplainedShare = 0.7;   // of the causes together
-constexpr double LeastCertain = 0.2;     // of a shrink below one half
 constexpr double UnconfirmedShare = 0.4; // of what samples left out cannot confirm
-constexpr double PartlyShrink = 0.25;
 constexpr int MostChangePoints = 6;
 
 // Progress over jobs that may run on several threads.
@@ -252,14 +248,8 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const double alone = shrinkOf(fitter, found.best); // all samples took part in the choice
   if (causes && shrink > 0.0 && noticeable(data, before, after, integration))
   {
-    // What is left has a cause that is not known, and may overlap with those found by as much as its own size: of what
-    // they do, only that part is certain.
-    const double certain = shrink * std::fmax(2.0 * shrink - 1.0, LeastCertain);
-    // Wrong causes that cancel one another mimic one that is not known, but not to the last; right ones may cancel and
-    // leave nothing.
-    const double left = 1.0 - report.gap.shrinkInterval[1];
-    const double doubt = std::fmin(std::fmax(left / DoubtfulRest, 0.0), 1.0);
-    const double share = credit(report, fitter, found, choices, certain, doubt);
+    const double share = credit(
+      report, fitter, found, choices, certainPart(shrink), doubtOf(report.gap.shrinkInterval));
     report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
     report.verdict = shrink >= ExplainedShrink && share >= ExplainedShare ? GapVerdict::Explained
       : shrink >= PartlyShrink && !report.causes.empty() ? GapVerdict::PartlyExplained

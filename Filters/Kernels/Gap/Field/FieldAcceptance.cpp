@@ -11,8 +11,8 @@ namespace
 // Deviations over groups of blocks. An effect that clears what is left may concern few of them, as saturation does:
 // from a tenth of what is left to all of it less and less is asked for.
 constexpr double Significant = 3.0;
-constexpr double SignificantWhereCleared = 2.0;
-constexpr double Cleared = 0.8; // of the energy beyond noise
+constexpr double SignificantWhereCleared = 2.0; // or where one takes another's place
+constexpr double Cleared = 0.8;                 // of the energy beyond noise
 constexpr double StaysIn = 0.85;
 // What an effect must be worth.
 constexpr double PriceOfEffect = 3.0;  // prices
@@ -21,6 +21,7 @@ constexpr double RelevantOfRest = 0.1; // and of what is left of it
 constexpr double MostOfRest =
   0.5; // this alone will do where what is left is not much less than noise
 constexpr double BesideNoise = 0.5; // of what noise allows
+constexpr double OverNoise = 0.1;   // of it, where an effect clears what is left
 constexpr double RelevantBesides =
   0.03; // of the gap's energy, where an effect of the edges is there
 
@@ -32,7 +33,7 @@ bool isOfEdges(const std::string& effect)
 
 bool clears(double gain, double excess, double chance)
 {
-  return gain > Cleared * excess && excess >= chance;
+  return gain > Cleared * excess && excess >= OverNoise * chance;
 }
 
 double leastDeviations(double gain, double excess, double chance)
@@ -49,6 +50,15 @@ double leastDeviations(double gain, double excess, double chance)
 double FieldAcceptance::cost(const FieldFit& fit) const
 {
   return fit.energy + price * static_cast<double>(parameterCount(fit.set, data.channels()));
+}
+
+bool FieldAcceptance::mayReplace(const FieldFit& current, const FieldFit& fit) const
+{
+  const double gain = cost(current) - cost(fit);
+  return gain > price ||
+    (gain > 0.0 &&
+      parameterCount(fit.set, data.channels()) <= parameterCount(current.set, data.channels()) &&
+      deviationsOf(data, current.blockEnergy - fit.blockEnergy) >= SignificantWhereCleared);
 }
 
 bool FieldAcceptance::mayJoin(const FieldFit& current, const FieldFit& fit, double chance) const
@@ -73,6 +83,7 @@ bool FieldAcceptance::mayJoin(const FieldFit& current, const FieldFit& fit, doub
   }
   const double part = besides ? RelevantBesides : RelevantPart;
   return (gain >= part * gapEnergy && gain >= RelevantOfRest * excess) ||
+    (!besides && clears(gain, excess, chance)) ||
     (!besides && excess >= BesideNoise * chance && gain >= MostOfRest * excess);
 }
 

@@ -15,7 +15,7 @@ constexpr Eigen::Index ProfileParameters = 3;
 std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
 {
   using P = FieldParameter;
-  const FieldTerm glare{ P::Glare, false, -0.1, 0.5, 0.01 };
+  const FieldTerm glare{ P::Glare, false, 0.0, 0.5, 0.01 };
   const FieldTerm right{ P::Right, true, -20.0, 20.0, 0.5 };
   const FieldTerm down{ P::Down, true, -20.0, 20.0, 0.5 };
   const FieldTerm magnification{ P::Magnification, true, -0.02, 0.02, 0.001 };
@@ -46,7 +46,7 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
     { "dark_offset", "common", { { P::Dark, false, -0.2, 0.2, 0.005 } } },
     { "dark_offset", "per_channel", { { P::Dark, true, -0.2, 0.2, 0.005 } } },
     { "veiling_glare", "common", { glare } },
-    { "veiling_glare", "conserving", { { P::ConservingGlare, false, -0.1, 0.5, 0.01 } } },
+    { "veiling_glare", "conserving", { { P::ConservingGlare, false, 0.0, 0.5, 0.01 } } },
     { "veiling_glare", "per_channel", { perChannel(glare) } },
     { "local_stray_light", "neighbours",
       { { P::TailFraction, false, -0.1, 0.6, 0.01 }, { P::TailRadius, false, 1.0, 64.0, 4.0 } } },

@@ -12,6 +12,7 @@ namespace
 constexpr std::size_t LargestSet = 4;
 constexpr std::size_t Leading = 8; // effects that are tried beside every other
 constexpr std::size_t Refitted = 2;
+constexpr double NothingLeft = 0.1; // of what noise allows
 
 bool sameEffects(const FieldSet& a, const FieldSet& b)
 {
@@ -93,8 +94,12 @@ bool FieldExchange::exchangePairs(int maximumEffects)
   {
     return false;
   }
-  const auto largest = static_cast<std::size_t>(maximumEffects);
   const FieldFitter here(Data, *Current.statistics);
+  if (Current.set.size() == 1 && Current.fit.energy < (1.0 + NothingLeft) * here.chance())
+  {
+    return false;
+  }
+  const auto largest = static_cast<std::size_t>(maximumEffects);
   std::vector<FieldFit> others = promising(here, cost(Current.fit) - Result.price, largest);
   const FieldStatistics nominal = nominalStatistics();
   const FieldFitter start(Data, nominal);

@@ -96,6 +96,10 @@ public:
   // Sandwich over groups of blocks.
   Eigen::VectorXd standardErrors(const FieldSet& set) const;
 
+  // Scalar products, weighted, of what each effect of the set does to the training blocks at the model and, last, of what
+  // they do together; to first order.
+  Eigen::MatrixXd contributionProducts(const FieldSet& set) const;
+
   // What one term changes in the columns of a channel.
   Eigen::VectorXd coefficients(
     FieldParameter parameter, Eigen::Index channel, const FieldShape& shape) const;

@@ -7,11 +7,15 @@
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
+#include "Kernels/Gap/GapCauses.h"
+#include "Kernels/Gap/GapCertainty.h"
+#include "Kernels/Gap/GapNotes.h"
 #include "Kernels/Gap/SeparatingCapture.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace msi
@@ -19,11 +23,10 @@ namespace msi
 
 namespace
 {
-constexpr double ExplainedShrink = 0.85;
-constexpr double PartlyShrink = 0.25;
 constexpr double UnexplainedRms = 1.1;    // of the noise floor
 constexpr double UnexplainedBlocks = 2.0; // squared block means over what noise allows
 constexpr double ExplainedBlocks = 1.5;
+constexpr double ExactDoubt = 0.5;
 constexpr double FewUsable = 0.5;
 
 struct TestEnergies
@@ -96,6 +99,18 @@ bool has(const FieldSet& set, const char* effect)
 {
   return std::any_of(set.begin(), set.end(),
     [effect](const FieldChoice* choice) { return choice->effect == effect; });
+}
+
+// Gains and offsets are what they are: no other formula of them leaves a rest. What they leave has another cause, and they
+// may stand for a part of that.
+bool areExact(const FieldSet& set)
+{
+  return std::all_of(set.begin(), set.end(),
+    [](const FieldChoice* choice)
+    {
+      return choice->effect == "exposure_gain" || choice->effect == "channel_gain" ||
+        choice->effect == "dark_offset";
+    });
 }
 
 std::vector<std::string> notesOn(
@@ -220,15 +235,18 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   // Effects that account for little are candidates, not causes.
   if (!found.set.empty() && (shrink >= PartlyShrink || (noiseAlone && shrink > 0.0)))
   {
-    report.verdict =
-      shrink >= ExplainedShrink || noiseAlone ? GapVerdict::Explained : GapVerdict::PartlyExplained;
-    // What is left has a cause that is not known and may overlap with those found.
-    const double certain = report.verdict == GapVerdict::Explained
-      ? shrink
-      : shrink * std::fmin(shrink / ExplainedShrink, 1.0);
-    report.causes = fieldCauses(data, found, choices, certain);
+    const double doubt = noiseAlone ? 0.0 : doubtOf(report.gap.shrinkInterval);
+    const double certain = (noiseAlone ? shrink : certainPart(shrink)) *
+      (areExact(found.set) ? 1.0 - ExactDoubt * doubt : 1.0);
+    report.causes = fieldCauses(data, found, choices, certain, doubt);
+    report.uncredited = takeUncredited(report.causes);
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
-    report.unexplained.share = std::clamp(1.0 - certain, 0.0, 1.0);
+    const double share = std::accumulate(report.causes.begin(), report.causes.end(), 0.0,
+      [](double sum, const GapCause& cause) { return sum + cause.share; });
+    report.verdict = noiseAlone || (shrink >= ExplainedShrink && share >= ExplainedShare)
+      ? GapVerdict::Explained
+      : GapVerdict::PartlyExplained;
+    report.unexplained.share = std::clamp(1.0 - share, 0.0, 1.0);
     report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
   }
   else
@@ -257,6 +275,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     }
   }
   report.notes = notesOn(data, found, report.causes.empty() ? FieldSet() : found.set);
+  noteUncredited(report.notes, report.uncredited);
   say(1.0, "done");
   return gap;
 }

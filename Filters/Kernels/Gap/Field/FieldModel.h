@@ -132,4 +132,11 @@ constexpr bool isShape(FieldParameter parameter) noexcept
   return parameter == FieldParameter::TailRadius || parameter == FieldParameter::ClipLevel;
 }
 
+// What says where or how far another parameter acts: it does nothing of its own.
+constexpr bool isPlace(FieldParameter parameter) noexcept
+{
+  return isShape(parameter) || parameter == FieldParameter::CenterX ||
+    parameter == FieldParameter::CenterY;
+}
+
 } // namespace msi

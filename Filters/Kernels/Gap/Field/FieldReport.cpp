@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
+#include "Kernels/Gap/GapCertainty.h"
 #include "Kernels/Gap/Shapley.h"
 #include "Kernels/Gap/Shrink.h"
 
@@ -34,7 +35,7 @@ FieldSet subsetOf(const FieldSet& set, std::size_t subset)
 }
 
 std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult& found,
-  const std::vector<FieldChoice>& choices, double total)
+  const std::vector<FieldChoice>& choices, double total, double doubt)
 {
   const FieldFitter fitter(data, found.after);
   const FieldSet& set = found.set;
@@ -54,6 +55,7 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
     part = std::fmax(part, 0.0);
     sum += part;
   }
+  const std::vector<double> undone = undoneParts(fitter.contributionProducts(set));
   const FieldFit best = fitter.fit(set);
   const Eigen::VectorXd error = fitter.standardErrors(set);
   const auto costOf = [&](const FieldFit& fit)
@@ -67,7 +69,8 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
     GapCause cause;
     cause.effect = set[e]->effect;
     cause.form = libraryForm(*set[e]);
-    cause.share = sum > 0.0 ? total * share[e] / sum : 0.0;
+    cause.undone = undone[e];
+    cause.share = sum > 0.0 ? total * share[e] / sum * (1.0 - doubt * undone[e]) : 0.0;
     cause.shrink = reached[std::size_t(1) << e];
     cause.parameters = fieldParameters(*set[e], found, data.pair.channels, error, next);
     FieldSet rest = set;

@@ -12,7 +12,7 @@ namespace msi
 
 // Cause by cause, the largest share first; the shares sum to `total`.
 std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult& found,
-  const std::vector<FieldChoice>& choices, double total);
+  const std::vector<FieldChoice>& choices, double total, double doubt);
 
 std::vector<GapCandidate> fieldCandidates(
   const FieldData& data, const FieldSearchResult& found, std::uint64_t seed);

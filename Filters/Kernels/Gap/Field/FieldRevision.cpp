@@ -14,7 +14,7 @@ constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpl
 
 void FieldRevision::consider(FieldFit fit, std::optional<FieldFit>& best) const
 {
-  if (cost(fit) < cost(Current.fit) - Result.price && (!best || cost(fit) < cost(*best)))
+  if (acceptance().mayReplace(Current.fit, fit) && (!best || cost(fit) < cost(*best)))
   {
     best = std::move(fit);
   }
@@ -27,7 +27,7 @@ bool FieldRevision::takeOver(const std::optional<FieldFit>& best)
     return false;
   }
   const FieldHypothesis other = refit(best->set, best->next);
-  if (cost(other.fit) >= cost(Current.fit) - Result.price)
+  if (!acceptance().mayReplace(Current.fit, other.fit))
   {
     return false;
   }

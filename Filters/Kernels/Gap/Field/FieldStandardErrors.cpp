@@ -78,4 +78,31 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
   return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
+Eigen::MatrixXd FieldFitter::contributionProducts(const FieldSet& set) const
+{
+  const FieldModel& model = Statistics.model;
+  const auto count = static_cast<Eigen::Index>(set.size());
+  const FieldShape shape = this->shape();
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count + 1, count + 1);
+  for (Eigen::Index k = 0; k < Data.channels(); ++k)
+  {
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Columns, count + 1);
+    for (Eigen::Index e = 0; e < count; ++e)
+    {
+      for (const FieldTerm& term : set[static_cast<std::size_t>(e)]->terms)
+      {
+        if (!isPlace(term.parameter))
+        {
+          columns.col(e) += (model.at(term.parameter, k) - neutralValue(term.parameter)) *
+            coefficients(term.parameter, k, shape);
+        }
+      }
+    }
+    columns.col(count) = columns.leftCols(count).rowwise().sum();
+    products += columns.transpose() *
+      Total[static_cast<std::size_t>(k)].topLeftCorner(Columns, Columns) * columns;
+  }
+  return products;
+}
+
 } // namespace msi

@@ -14,11 +14,16 @@ constexpr std::size_t Leading = 8; // effects that are tried beside every other
 constexpr std::size_t Refitted = 2;
 constexpr double NothingLeft = 0.1; // of what noise allows
 
+// The effects of `part`, in whatever form.
+bool hasAll(const FieldSet& set, const FieldSet& part)
+{
+  return std::all_of(part.begin(), part.end(),
+    [&set](const FieldChoice* choice) { return contains(set, choice->effect.c_str()); });
+}
+
 bool sameEffects(const FieldSet& a, const FieldSet& b)
 {
-  return a.size() == b.size() &&
-    std::all_of(a.begin(), a.end(),
-      [&b](const FieldChoice* choice) { return contains(b, choice->effect.c_str()); });
+  return a.size() == b.size() && hasAll(a, b);
 }
 
 // All but one of the set, and all but two.
@@ -77,7 +82,8 @@ std::vector<FieldFit> FieldExchange::promising(
   std::vector<FieldFit> best;
   for (FieldFit& fit : found)
   {
-    const bool known = sameEffects(fit.set, Current.set) ||
+    // What only adds to the set is for growing to find.
+    const bool known = hasAll(fit.set, Current.set) ||
       std::any_of(best.begin(), best.end(),
         [&fit](const FieldFit& other) { return sameEffects(fit.set, other.set); });
     if (best.size() < Refitted && !known && fit.set.size() <= largest && cost(fit) < most)
@@ -86,6 +92,24 @@ std::vector<FieldFit> FieldExchange::promising(
     }
   }
   return best;
+}
+
+bool FieldExchange::newOnesCount(const FieldHypothesis& hypothesis) const
+{
+  const FieldFitter fitter(Data, *hypothesis.statistics);
+  for (std::size_t e = 0; e < hypothesis.set.size(); ++e)
+  {
+    const FieldChoice* choice = hypothesis.set[e];
+    const FieldSet rest = withoutOne(hypothesis.set, e);
+    FieldFit fit = hypothesis.fit;
+    fit.set = joined(rest, *choice);
+    if (!contains(Current.set, choice->effect.c_str()) &&
+      !acceptance().mayJoin(fitter.fit(rest), fit, fitter.chance()))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool FieldExchange::exchangePairs(int maximumEffects)
@@ -113,7 +137,7 @@ bool FieldExchange::exchangePairs(int maximumEffects)
   {
     fitted.push_back(refit(other.set, other.next));
     if (clips(fitted.back()) && cost(fitted.back().fit) < cost(Current.fit) - Result.price &&
-      (best == nullptr || cost(fitted.back().fit) < cost(best->fit)))
+      (best == nullptr || cost(fitted.back().fit) < cost(best->fit)) && newOnesCount(fitted.back()))
     {
       best = &fitted.back();
     }

@@ -19,6 +19,8 @@ protected:
   bool exchangePairs(int maximumEffects);
 
 private:
+  // Each effect that is new would also join the others.
+  bool newOnesCount(const FieldHypothesis& hypothesis) const;
   // The best sets by linear prediction from a fitter's model, each with other effects, that cost less than `most`.
   std::vector<FieldFit> promising(
     const FieldFitter& fitter, double most, std::size_t largest) const;

@@ -243,7 +243,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
     const double share = std::accumulate(report.causes.begin(), report.causes.end(), 0.0,
       [](double sum, const GapCause& cause) { return sum + cause.share; });
-    report.verdict = noiseAlone || (shrink >= ExplainedShrink && share >= ExplainedShare)
+    report.verdict = noiseAlone || (shrink >= ExplainedShrink && share >= ExplainedShare * shrink)
       ? GapVerdict::Explained
       : GapVerdict::PartlyExplained;
     report.unexplained.share = std::clamp(1.0 - share, 0.0, 1.0);

@@ -43,15 +43,31 @@ TEST(FieldGap, GlareGoesWithTheMeanOfTheScene)
 TEST(FieldGap, OffsetsOfChannelsMayBeGlare)
 {
   const TestScene scene(4);
-  const double offset[] = { 0.004, 0.012, -0.006 };
+  const double offset[] = { 0.004, 0.012, 0.006 };
   const TestPair pair =
     changed(scene, 14, [&](double u, int k, int, int, double) { return u + offset[k]; });
   const GapReport report = diagnose(pair);
-  expectFirst(report, "dark_offset", "channel");
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_EQ(report.where.front().axis, "channel");
+  ASSERT_EQ(report.causes.size(), 1U);
   expectParameter(report, "dark_offset", "offset[C2]", 0.012, 0.0005);
   EXPECT_EQ(report.causes.front().equivalent, std::vector<std::string>{ "veiling_glare" });
   ASSERT_TRUE(report.nextCapture);
   EXPECT_EQ(report.nextCapture->capture, "lens cap");
+}
+
+// Light that is scattered adds; a dark signal that was taken off twice is missing.
+TEST(FieldGap, NegativeOffsetsAreNoGlare)
+{
+  const TestScene scene(42);
+  const double offset[] = { 0.004, 0.012, -0.006 };
+  const TestPair pair =
+    changed(scene, 52, [&](double u, int k, int, int, double) { return u + offset[k]; });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "dark_offset", "channel");
+  expectParameter(report, "dark_offset", "offset[C3]", -0.006, 0.0005);
+  EXPECT_TRUE(report.causes.front().equivalent.empty());
 }
 
 TEST(FieldGap, GainOfAChannel)
@@ -116,6 +132,38 @@ TEST(FieldGap, NonlinearityIsAPowerOrACompression)
   const GapReport bent = diagnose(
     changed(scene, 44, [](double u, int, int, int, double) { return u / (1.0 + 0.3 * u); }));
   expectFirst(bent, "detector_nonlinearity", "level");
+}
+
+// Nearly another curve with another gain, which effect by effect comes first.
+TEST(FieldGap, AnOffsetAndACurve)
+{
+  const TestScene scene(43);
+  const GapReport report = diagnose(
+    changed(scene, 53, [](double u, int, int, int, double) { return 0.06 + u - 0.18 * u * u; }));
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  EXPECT_EQ(report.causes.size(), 2U);
+  expectParameter(report, "dark_offset", "offset", 0.06, 0.001);
+  expectParameter(report, "detector_nonlinearity", "square", -0.18, 0.005);
+}
+
+// A gain in place of each channel's curve leaves what a gain cannot leave.
+TEST(FieldGap, ACurveThatMayNotBeNamedIsNotBlamedOnGainsAndOffsets)
+{
+  const TestScene scene(44);
+  msi::GapOptions options;
+  options.without = { "detector_nonlinearity" };
+  const TestPair pair =
+    changed(scene, 54, [](double u, int, int, int, double) { return std::pow(u, 1.2); });
+  const GapReport report = msi::diagnoseField(pair.pair(), options)->report;
+  SCOPED_TRACE(describe(report));
+  EXPECT_NE(report.verdict, GapVerdict::Explained);
+  EXPECT_NE(report.verdict, GapVerdict::NoGap);
+  EXPECT_GT(report.unexplained.share, 0.5);
+  for (const auto& cause : report.causes)
+  {
+    EXPECT_LT(cause.share, 0.5);
+  }
 }
 
 // Counts of a camera whose white is 3200 of 65535, with an offset of 96, under uneven light.

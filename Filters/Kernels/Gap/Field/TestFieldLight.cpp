@@ -34,6 +34,24 @@ TEST(FieldGap, GradientIsAPlane)
   expectParameter(report, "illumination_gradient", "down", -0.03, 0.002);
 }
 
+// A lamp that is near: the inverse square of the distance is 1 + s + 3/4 s^2 but for higher orders.
+TEST(FieldGap, GradientThatBends)
+{
+  const TestScene scene(45);
+  const TestPair pair = changed(scene, 55,
+    [&](double u, int, int x, int y, double)
+    {
+      const double s = 0.2 * scene.fieldX(x) - 0.1 * scene.fieldY(y);
+      return u * (1.0 + s + 0.75 * s * s);
+    });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "illumination_gradient", "position");
+  EXPECT_EQ(report.causes.front().form, "bent");
+  expectParameter(report, "illumination_gradient", "right", 0.2, 0.002);
+  expectParameter(report, "illumination_gradient", "down", -0.1, 0.002);
+  expectParameter(report, "illumination_gradient", "bend", 0.75, 0.05);
+}
+
 // Seen against a white in the same light, the middle is too bright and the border too dark.
 TEST(FieldGap, FalloffAboutItsMean)
 {

@@ -32,7 +32,7 @@ struct FieldGap
 //   unknown name in `without`.
 // NaN in a channel of either image takes the pixel out in that channel, in the simulated one also its neighbours to
 //   two pixels; gaps in the simulated image are filled along rows for what reads the surround.
-// Cost: about 3 s on one core for 8 channels, whatever the number of pixels, and one reading of the images beside;
+// Cost: about 4 s on one core for 8 channels, whatever the number of pixels, and one reading of the images beside;
 //   linear in the channels. Memory: a copy of the simulated image where it has gaps, else of at most
 //   2 million pixels.
 std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options = {});

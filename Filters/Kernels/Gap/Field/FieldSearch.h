@@ -35,7 +35,7 @@ struct FieldSearchResult
 // Forward: the effect that lowers the cross-validated energy of the training blocks most (and the price of
 // its parameters) is added where the gain is significant from block to block and a relevant part of the gap; each
 // time the two best by linear prediction are fitted in full. Backward: effects are exchanged or dropped where
-// that costs nothing. stop() is asked now and then; true ends the search early.
+// that costs nothing; at last up to two at once take the place of up to two. stop() is asked now and then; true ends the search early.
 FieldSearchResult searchField(const FieldData& data, const std::vector<FieldChoice>& choices,
   int maximumEffects, const FieldLoop& loop, const std::function<bool()>& stop);
 

@@ -61,6 +61,12 @@ bool FieldAcceptance::mayReplace(const FieldFit& current, const FieldFit& fit) c
       deviationsOf(data, current.blockEnergy - fit.blockEnergy) >= SignificantWhereCleared);
 }
 
+bool FieldAcceptance::mayExchange(const FieldFit& current, const FieldFit& fit) const
+{
+  return cost(current) - cost(fit) > price &&
+    deviationsOf(data, current.blockEnergy - fit.blockEnergy) >= Significant;
+}
+
 bool FieldAcceptance::mayJoin(const FieldFit& current, const FieldFit& fit, double chance) const
 {
   const double gain = current.energy - fit.energy;

@@ -17,6 +17,9 @@ struct FieldAcceptance
   // Whether `fit` takes the place of `current`: worth a parameter more, or significant from group to group with no more
   // parameters.
   bool mayReplace(const FieldFit& current, const FieldFit& fit) const;
+  // Whether other effects, `fit`, take the place of those of `current`: worth a parameter more, and significant from
+  // group to group; among many pairs some look better by chance.
+  bool mayExchange(const FieldFit& current, const FieldFit& fit) const;
   // The last effect of `fit` beside those of `current`: significant from group to group, worth its parameters, and a relevant
   // part of the gap and of what is left of it. chance: what noise allows of the energies.
   bool mayJoin(const FieldFit& current, const FieldFit& fit, double chance) const;

@@ -136,7 +136,7 @@ bool FieldExchange::exchangePairs(int maximumEffects)
   for (const FieldFit& other : others)
   {
     fitted.push_back(refit(other.set, other.next));
-    if (clips(fitted.back()) && cost(fitted.back().fit) < cost(Current.fit) - Result.price &&
+    if (clips(fitted.back()) && acceptance().mayExchange(Current.fit, fitted.back().fit) &&
       (best == nullptr || cost(fitted.back().fit) < cost(best->fit)) && newOnesCount(fitted.back()))
     {
       best = &fitted.back();

@@ -74,6 +74,33 @@ std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& b
   return shrink;
 }
 
+// Numbers of single channels that follow one curve over the channels.
+struct ChannelCurve
+{
+  double fraction; // of their energy
+  bool certain;    // hardly by chance
+};
+
+ChannelCurve curveOf(const EffectSet& set, std::size_t position)
+{
+  const std::vector<double>& value = set.effects[position].parameters;
+  const auto channels = static_cast<Eigen::Index>(value.size());
+  const double neutral = set.choices[position].form->parameters.front().neutral;
+  const Eigen::VectorXd deviation =
+    Eigen::Map<const Eigen::VectorXd>(value.data(), channels).array() - neutral;
+  const double fraction = commonFraction(deviation);
+  const double chance = chanceOfFraction(fraction, CommonDirections, static_cast<int>(channels));
+  return { fraction, chance < StructuredChance };
+}
+
+// What all channels have in common is no small error of each; of gains that is a cause of its own, exposure or lamp.
+bool isSmallError(const EffectSet& set, std::size_t position)
+{
+  const EffectChoice& choice = set.choices[position];
+  return choice.smallError() &&
+    (choice.effect->name == "channel_gain" || !curveOf(set, position).certain);
+}
+
 // The small errors that every camera has in each channel take what the other effects leave: any of them also does, with
 // its many parameters, most of what a single number common to the channels does. But where the others do more once these
 // errors are out of the way, they get what they do then. The two groups share by energy: by size what comes last would
@@ -84,7 +111,7 @@ std::vector<double> sharesOf(const EffectSet& set, const std::vector<double>& sh
   std::vector<std::size_t> small;
   for (std::size_t e = 0; e < set.size(); ++e)
   {
-    (set.choices[e].smallError() ? small : leading).push_back(e);
+    (isSmallError(set, e) ? small : leading).push_back(e);
   }
   const auto together = [](const std::vector<std::size_t>& effects)
   {
@@ -197,13 +224,8 @@ double gainsCredible(const EffectSet& set, std::size_t position)
   {
     return 1.0;
   }
-  const std::vector<double>& gain = set.effects[position].parameters;
-  const auto channels = static_cast<Eigen::Index>(gain.size());
-  const Eigen::VectorXd deviation =
-    Eigen::Map<const Eigen::VectorXd>(gain.data(), channels).array() - 1.0;
-  const double fraction = commonFraction(deviation);
-  const double chance = chanceOfFraction(fraction, CommonDirections, static_cast<int>(channels));
-  return chance < StructuredChance ? std::sqrt(1.0 - fraction) : 1.0;
+  const ChannelCurve curve = curveOf(set, position);
+  return curve.certain ? std::sqrt(1.0 - curve.fraction) : 1.0;
 }
 
 // A change over the session that a plain gain does better is none.

@@ -133,13 +133,20 @@ EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
     const EffectChoice& mine = fit.set.choices[position];
     const bool widens = mine.effect->name == "filter_bandwidth";
     const bool brightens = mine.leveled || (widens && !mine.whiteAfter && !mine.form->keepsWhite);
-    if (exposure == choices.end() || !brightens || fit.set.has(*exposure))
+    if (exposure == choices.end() || !brightens)
     {
       continue;
     }
     EffectSet set = fit.set;
-    set.remove(position);
-    set.add(*exposure, fitter.data().camera);
+    if (fit.set.has(*exposure))
+    {
+      set.choices[position].whiteAfter = widens;
+    }
+    else
+    {
+      set.remove(position);
+      set.add(*exposure, fitter.data().camera);
+    }
     EffectFit other = fitter.fit(std::move(set), FinalIterations);
     if (nearlyAsGood(other, fit, gapEnergy))
     {

@@ -24,7 +24,8 @@ EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy);
 
 // A passband that widens and is not balanced again is brighter, and so is a lamp with a level of its own: where plain
-// exposure does as well, it is that.
+// exposure does as well, it is that; beside an exposure what is brighter is the exposure's, and the passband's white is
+// balanced.
 EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy);
 

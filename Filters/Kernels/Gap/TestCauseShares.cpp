@@ -93,6 +93,18 @@ TEST(CauseShares, ACauseThatSmallErrorsHideGetsWhatItDoesBesideThem)
   EXPECT_NEAR(shares[1].share, beside / energy(shared.shrink()), 0.01);
 }
 
+// Offsets that are the same in all channels are no small errors: they share like any other cause.
+TEST(CauseShares, NumbersOfChannelsThatFollowOneCurveAreACause)
+{
+  const msi::CameraEffect darks{ "dark_offset", "per_channel", "",
+    { 0.02, 0.02, 0.02, 0.02, 0.02, 0.02, 0.02 } };
+  const msi::CameraEffect glare{ "veiling_glare", "", "", {} };
+  const Shared shared({ darks }, { glare, darks });
+  ASSERT_GT(shared.shrinkBy(glare), 0.3);
+  const double ahead = shared.shrinkBy(darks) - shared.shrinkBy(glare);
+  EXPECT_NEAR(shared.shares(0.0)[1].share, 0.5 + 0.5 * ahead / shared.shrink(), 0.01);
+}
+
 TEST(CauseShares, AGainThatStaysIsNoDrift)
 {
   const msi::CameraEffect gains{ "channel_gain", "", "",

@@ -11,7 +11,6 @@ namespace msi
 
 namespace
 {
-constexpr int Iterations = 6;
 constexpr int FormsFitted = 2; // of one effect
 }
 
@@ -35,10 +34,10 @@ std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& cu
     forms.push_back(effect.choice);
     EffectSet set = current.set;
     set.add(effect.choice, fitter.data().camera, effect.start);
-    EffectFit fit = fitter.fit(std::move(set), Iterations);
+    EffectFit fit = fitter.fit(std::move(set), SearchIterations);
     if (std::isfinite(fit.energy))
     {
-      fits.push_back(withSecondary(fitter, std::move(fit), current.set.size(), Iterations));
+      fits.push_back(withSecondary(fitter, std::move(fit), current.set.size(), SearchIterations));
     }
   }
   return fits;

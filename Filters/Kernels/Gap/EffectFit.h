@@ -11,6 +11,10 @@
 namespace msi
 {
 
+// Of one fit, at most: of a set among many, and of one that stays.
+constexpr int SearchIterations = 6;
+constexpr int FinalIterations = 20;
+
 struct EffectFit
 {
   EffectSet set;

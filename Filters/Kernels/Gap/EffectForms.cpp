@@ -10,8 +10,6 @@ namespace msi
 
 namespace
 {
-constexpr int Iterations = 6;
-constexpr int FinalIterations = 20;
 constexpr double RicherFormPart = 0.0002; // of the gap's energy, a parameter
 constexpr double FormDeviations = 4.0;    // dispersions by which another form must be better
 // What a simpler cause may be worse by: part of the gap's energy, dispersions.
@@ -73,17 +71,17 @@ EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
     {
       EffectSet set = rest;
       set.add(form.choice, fitter.data().camera, form.start);
-      EffectFit other = fitter.fit(std::move(set), Iterations);
+      EffectFit other = fitter.fit(std::move(set), SearchIterations);
       const std::size_t last = other.set.size() - 1;
-      other = withSecondary(fitter, std::move(other), last, Iterations);
+      other = withSecondary(fitter, std::move(other), last, SearchIterations);
       if (betterForm(other, fit, gapEnergy))
       {
         // Keep the position: the loop runs over it.
         other.set.moveLastTo(position);
-        fit = fitter.fit(other.set, Iterations);
+        fit = fitter.fit(other.set, SearchIterations);
       }
     }
-    fit = withSecondary(fitter, std::move(fit), position, Iterations);
+    fit = withSecondary(fitter, std::move(fit), position, SearchIterations);
   }
   return fitter.fit(fit.set, FinalIterations);
 }
@@ -104,7 +102,8 @@ EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
   {
     return fit;
   }
-  const EffectFit alone = chooseForms(fitter, fitter.fit(leading, Iterations), choices, gapEnergy);
+  const EffectFit alone =
+    chooseForms(fitter, fitter.fit(leading, SearchIterations), choices, gapEnergy);
   EffectSet set;
   std::size_t next = 0;
   for (const EffectChoice& choice : fit.set.choices)
@@ -132,15 +131,16 @@ EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
   {
     const EffectChoice& mine = fit.set.choices[position];
     const bool widens = mine.effect->name == "filter_bandwidth";
-    const bool brightens = mine.leveled || (widens && !mine.whiteAfter && !mine.form->keepsWhite);
-    if (exposure == choices.end() || !brightens)
+    const bool unbalanced = widens && !mine.whiteAfter && !mine.form->keepsWhite;
+    const bool exposed = exposure != choices.end() && fit.set.has(*exposure);
+    if (exposure == choices.end() || !(unbalanced || (mine.leveled && !exposed)))
     {
       continue;
     }
     EffectSet set = fit.set;
-    if (fit.set.has(*exposure))
+    if (exposed)
     {
-      set.choices[position].whiteAfter = widens;
+      set.choices[position].whiteAfter = true;
     }
     else
     {

@@ -13,7 +13,6 @@ namespace msi
 
 namespace
 {
-constexpr int Iterations = 6;
 constexpr int MostExchanges = 3;
 constexpr int ExchangesFitted = 3; // for each effect that may go
 constexpr int ExchangesFormed = 6; // the best of a round in the forms that suit them
@@ -46,7 +45,7 @@ std::vector<EffectSet> partsToKeep(const EffectSet& set, bool pairs)
 std::vector<EffectFit> exchangesOf(const EffectFitter& fitter, const EffectSet& part,
   const std::vector<EffectChoice>& fresh, double gapEnergy, double present)
 {
-  const EffectFit kept = fitter.fit(part, Iterations);
+  const EffectFit kept = fitter.fit(part, SearchIterations);
   const std::vector<ScreenedEffect> screened =
     screenEffects(fitter, kept, fresh, FormPart * gapEnergy);
   const auto promises = [&](const ScreenedEffect& effect)
@@ -67,7 +66,7 @@ EffectFit withoutMenders(const EffectFitter& fitter, EffectFit fit,
     EffectSet rest = fit.set;
     rest.remove(position);
     EffectFit other =
-      chooseForms(fitter, fitter.fit(std::move(rest), Iterations), choices, gapEnergy);
+      chooseForms(fitter, fitter.fit(std::move(rest), SearchIterations), choices, gapEnergy);
     if (costOf(fitter, other, gapEnergy, fit.dispersion) <
       costOf(fitter, fit, gapEnergy, fit.dispersion))
     {
@@ -84,7 +83,7 @@ EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEn
   {
     EffectSet rest = fit.set;
     rest.remove(position);
-    EffectFit other = fitter.fit(std::move(rest), Iterations);
+    EffectFit other = fitter.fit(std::move(rest), SearchIterations);
     const double loss = other.energy - fit.energy;
     if (costOf(fitter, other, gapEnergy, fit.dispersion) <=
         costOf(fitter, fit, gapEnergy, fit.dispersion) ||

@@ -14,7 +14,6 @@ namespace msi
 
 namespace
 {
-constexpr int FinalIterations = 20;
 constexpr double IdlePart = 0.001; // of the gap's energy
 
 // One fit for each set of causes, the cheapest.

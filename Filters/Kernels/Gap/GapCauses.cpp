@@ -16,7 +16,6 @@ namespace msi
 
 namespace
 {
-constexpr int Iterations = 6;
 constexpr int AlternativesFitted = 8;
 constexpr std::size_t EquivalentNamed = 2;
 constexpr double LeastPart = 0.03;           // of the causes together
@@ -46,7 +45,7 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
     [&](const EffectChoice& choice) {
       return choice.effect->name != best.set.choices[position].effect->name && !rest.has(choice);
     });
-  const EffectFit without = fitter.fit(rest, Iterations);
+  const EffectFit without = fitter.fit(rest, SearchIterations);
   const std::vector<EffectFit> alternatives = extendFit(fitter, without,
     screenEffects(fitter, without, others, FormPart * found.gapEnergy), AlternativesFitted);
   struct Rival
@@ -123,17 +122,24 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
   return causes;
 }
 
-std::vector<std::string> takeUncredited(std::vector<GapCause>& causes)
+double creditCauses(GapReport& report, std::vector<GapCause> causes)
 {
-  const double all = std::accumulate(causes.begin(), causes.end(), 0.0,
-    [](double sum, const GapCause& cause) { return sum + cause.share; });
+  const auto sumOf = [](const std::vector<GapCause>& some)
+  {
+    return std::accumulate(some.begin(), some.end(), 0.0,
+      [](double sum, const GapCause& cause) { return sum + cause.share; });
+  };
+  const double all = sumOf(causes);
   const auto first = std::stable_partition(causes.begin(), causes.end(),
     [all](const GapCause& cause) { return cause.share > LeastPart * all; });
-  std::vector<std::string> names;
-  std::transform(
-    first, causes.end(), std::back_inserter(names), [](const GapCause& c) { return c.effect; });
+  report.uncredited.clear();
+  std::transform(first, causes.end(), std::back_inserter(report.uncredited),
+    [](const GapCause& cause) { return cause.effect; });
   causes.erase(first, causes.end());
-  return names;
+  report.causes = std::move(causes);
+  const double share = sumOf(report.causes);
+  report.unexplained.share = std::clamp(1.0 - share, 0.0, 1.0);
+  return share;
 }
 
 std::vector<GapCandidate> describeCandidates(

@@ -8,6 +8,7 @@ namespace msi
 namespace
 {
 constexpr double DoubtfulRest = 0.05; // of the gap's size
+constexpr double LeastOthers = 1e-30; // of an effect's own square
 constexpr double LeastCertain = 0.2;  // of a shrink below one half
 }
 
@@ -36,8 +37,9 @@ std::vector<double> undoneParts(const Eigen::MatrixXd& products)
       continue;
     }
     const double size = std::sqrt(square);
-    const double others =
-      std::sqrt(std::fmax(products(all, all) - 2.0 * products(e, all) + square, 0.0));
+    // Not zero where the others point against it, but for rounding.
+    const double others = std::sqrt(
+      std::fmax(products(all, all) - 2.0 * products(e, all) + square, LeastOthers * square));
     const double reached = against / others; // of `size`, along the others
     undone.push_back(reached / size * std::fmin(reached, others) / size);
   }

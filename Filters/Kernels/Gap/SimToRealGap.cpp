@@ -94,17 +94,9 @@ private:
 double credit(GapReport& report, const EffectFitter& fitter, const SearchResult& found,
   const std::vector<EffectChoice>& choices, double certain, double doubt)
 {
-  report.causes = describeCauses(fitter, found, choices, certain, doubt);
-  report.uncredited = takeUncredited(report.causes);
   report.correction = found.best.set.simulated();
   report.whiteAfterEffects = found.best.set.whiteAfterEffects();
-  double share = 0.0;
-  for (const GapCause& cause : report.causes)
-  {
-    share += cause.share;
-  }
-  report.unexplained.share = std::fmin(std::fmax(1.0 - share, 0.0), 1.0);
-  return share;
+  return creditCauses(report, describeCauses(fitter, found, choices, certain, doubt));
 }
 
 std::string whereIs(const AxisShares& shares)

@@ -8,12 +8,6 @@
 namespace msi
 {
 
-namespace
-{
-constexpr int Iterations = 6;
-constexpr int FinalIterations = 20;
-}
-
 EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy)
 {
@@ -31,7 +25,7 @@ EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
     }
     EffectSet set = fit.set;
     set.add(*small, fitter.data().camera);
-    EffectFit other = fitter.fit(std::move(set), Iterations);
+    EffectFit other = fitter.fit(std::move(set), SearchIterations);
     const double gain = fit.energy - other.energy;
     if (gain > ChanceOfMany * other.dispersion && gain > RelevantPart * gapEnergy)
     {
@@ -53,7 +47,7 @@ EffectFit splitGains(
   const EffectChoice gain = *gains;
   EffectSet rest = fit.set;
   rest.remove(static_cast<std::size_t>(gains - fit.set.choices.begin()));
-  const EffectFit without = fitter.fit(rest, Iterations);
+  const EffectFit without = fitter.fit(rest, SearchIterations);
   double least = StructuredChance;
   EffectSet best;
   for (const EffectChoice& choice : choices)
@@ -66,7 +60,7 @@ EffectFit splitGains(
     }
     EffectSet set = rest;
     set.add(choice, fitter.data().camera);
-    const EffectFit special = fitter.fit(set, Iterations);
+    const EffectFit special = fitter.fit(set, SearchIterations);
     const double fraction = (without.energy - special.energy) / (without.energy - fit.energy);
     const double chance =
       chanceOfFraction(fraction, static_cast<int>(special.parameters() - without.parameters()),

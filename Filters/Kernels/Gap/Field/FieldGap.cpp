@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace msi
@@ -95,12 +94,6 @@ std::string whereIs(const std::vector<GapAxis>& axes)
   return cell.rfind(axis.axis, 0) == 0 ? cell : axis.axis + " " + cell;
 }
 
-bool has(const FieldSet& set, const char* effect)
-{
-  return std::any_of(set.begin(), set.end(),
-    [effect](const FieldChoice* choice) { return choice->effect == effect; });
-}
-
 // Gains and offsets are what they are: no other formula of them leaves a rest. What they leave has another cause, and they
 // may stand for a part of that.
 bool areExact(const FieldSet& set)
@@ -147,7 +140,7 @@ std::vector<std::string> notesOn(
             "beside them in the simulated one";
     notes.push_back(text.str());
   }
-  if (!data.filled.empty() && has(set, "local_stray_light"))
+  if (!data.filled.empty() && contains(set, "local_stray_light"))
   {
     notes.emplace_back("the surround of the usable pixels is partly not simulated; "
                        "local_stray_light takes it to be like its neighbours in the row");
@@ -165,13 +158,13 @@ std::vector<std::string> notesOn(
       notes.push_back(text.str());
     }
   }
-  if ((has(set, "vignetting") && has(set, "illumination_gradient")) ||
+  if ((contains(set, "vignetting") && contains(set, "illumination_gradient")) ||
     hasTerm(set, FieldParameter::CenterX))
   {
     notes.emplace_back("vignetting about a center off the middle looks like vignetting with "
                        "illumination_gradient; the chart rotated by 180 degrees separates them");
   }
-  if (has(set, "dark_offset") != has(set, "veiling_glare"))
+  if (contains(set, "dark_offset") != contains(set, "veiling_glare"))
   {
     notes.emplace_back("an offset of each channel may be dark_offset or veiling_glare: one image "
                        "cannot tell unless the offsets go with the channels' means");
@@ -238,15 +231,11 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     const double doubt = noiseAlone ? 0.0 : doubtOf(report.gap.shrinkInterval);
     const double certain = (noiseAlone ? shrink : certainPart(shrink)) *
       (areExact(found.set) ? 1.0 - ExactDoubt * doubt : 1.0);
-    report.causes = fieldCauses(data, found, choices, certain, doubt);
-    report.uncredited = takeUncredited(report.causes);
+    const double share = creditCauses(report, fieldCauses(data, found, choices, certain, doubt));
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
-    const double share = std::accumulate(report.causes.begin(), report.causes.end(), 0.0,
-      [](double sum, const GapCause& cause) { return sum + cause.share; });
     report.verdict = noiseAlone || (shrink >= ExplainedShrink && share >= ExplainedShare * shrink)
       ? GapVerdict::Explained
       : GapVerdict::PartlyExplained;
-    report.unexplained.share = std::clamp(1.0 - share, 0.0, 1.0);
     report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
   }
   else

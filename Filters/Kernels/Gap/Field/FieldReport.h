@@ -10,7 +10,7 @@
 namespace msi
 {
 
-// Cause by cause, the largest share first; the shares sum to `total`.
+// Cause by cause, the largest share first; the shares sum to `total`, less what the others undo of each times `doubt`.
 std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult& found,
   const std::vector<FieldChoice>& choices, double total, double doubt);
 

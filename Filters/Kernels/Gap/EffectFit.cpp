@@ -116,13 +116,21 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
   const Eigen::ArrayXd rootWeight = flat(Weight).sqrt();
   const auto whiten = [&](const Eigen::MatrixXd& predicted) -> Eigen::ArrayXd
   { return (rootWeight > 0.0).select(rootWeight * (flat(Data.observed) - flat(predicted)), 0.0); };
-  fit.predicted = respond(Data.camera, Data.scene, fit.set);
-  Eigen::ArrayXd residual = whiten(fit.predicted);
+  std::optional<StagedResponse> here = stagedResponse(Data.camera, Data.scene, fit.set);
+  if (!here)
+  {
+    fit.predicted = respond(Data.camera, Data.scene, fit.set);
+    fit.jacobian = Eigen::MatrixXd::Zero(Data.observed.size(), count);
+    fit.information = prior.matrix().asDiagonal();
+    crossValidate(fit);
+    return fit;
+  }
+  Eigen::ArrayXd residual = whiten(here->response());
   double damping = 1e-6;
   bool fresh = false;
   for (fit.iterations = 0; fit.iterations < maximumIterations; ++fit.iterations)
   {
-    fit.jacobian = jacobian(Data.camera, Data.scene, fit.set, fit.predicted, fit.free);
+    fit.jacobian = jacobian(*here, fit.set, fit.free);
     fresh = true;
     const Eigen::ArrayXd root = huber(residual, rootWeight);
     const Eigen::VectorXd values = valuesOf(fit.set, fit.free);
@@ -160,22 +168,21 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
         (values + step).array().cwiseMax(lower).cwiseMin(upper).matrix();
       EffectSet moved = fit.set;
       setValues(moved, fit.free, trial);
-      Eigen::MatrixXd predicted = respond(Data.camera, Data.scene, moved);
-      Eigen::ArrayXd trialResidual = whiten(predicted);
-      after = huberCost(trialResidual, root) + (prior * (trial.array() - neutral).square()).sum();
-      if (after < before)
+      std::optional<StagedResponse> there = stagedResponse(*here, moved);
+      if (there)
       {
-        better = true;
-        fit.set = std::move(moved);
-        fit.predicted = std::move(predicted);
-        residual = std::move(trialResidual);
-        fresh = false;
-        damping = std::fmax(damping * 0.1, 1e-9);
+        Eigen::ArrayXd trialResidual = whiten(there->response());
+        after = huberCost(trialResidual, root) + (prior * (trial.array() - neutral).square()).sum();
+        better = after < before;
+        if (better)
+        {
+          fit.set = std::move(moved);
+          here = std::move(there);
+          residual = std::move(trialResidual);
+          fresh = false;
+        }
       }
-      else
-      {
-        damping = std::fmax(damping * 30.0, 1e-3);
-      }
+      damping = better ? std::fmax(damping * 0.1, 1e-9) : std::fmax(damping * 30.0, 1e-3);
     }
     if (!better || before - after < Converged * before)
     {
@@ -184,8 +191,9 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
   }
   if (!fresh)
   {
-    fit.jacobian = jacobian(Data.camera, Data.scene, fit.set, fit.predicted, fit.free);
+    fit.jacobian = jacobian(*here, fit.set, fit.free);
   }
+  fit.predicted = here->response();
   fit.information = normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), Members);
   fit.information.diagonal().array() += prior;
   crossValidate(fit);

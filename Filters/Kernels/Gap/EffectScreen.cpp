@@ -86,6 +86,12 @@ std::vector<ScreenedEffect> screenEffects(const EffectFitter& fitter, const Effe
   const double before = residual.squaredNorm();
   const OrderBreaks breaks(fitter, current.predicted);
   const std::size_t position = current.set.size();
+  const std::optional<StagedResponse> present =
+    stagedResponse(data.camera, data.scene, current.set);
+  if (!present)
+  {
+    return {};
+  }
 
   std::vector<ScreenedEffect> screened;
   for (const EffectChoice& choice : choices)
@@ -108,15 +114,17 @@ std::vector<ScreenedEffect> screenEffects(const EffectFitter& fitter, const Effe
       free.erase(std::remove_if(free.begin(), free.end(),
                    [position](const FreeParameter& p) { return p.effect < position; }),
         free.end());
-      Eigen::MatrixXd base = current.predicted;
-      Eigen::VectorXd here = residual;
-      if (!start.empty())
+      const std::optional<StagedResponse> base = stagedResponse(*present, set);
+      if (!base)
       {
-        base = respond(data.camera, data.scene, set);
-        here = remainder.cleared(flatten(data.observed - base)).col(0);
+        continue;
       }
-      const Eigen::MatrixXd columns =
-        remainder.cleared(jacobian(data.camera, data.scene, set, base, free));
+      const bool there =
+        start.empty() && set.whiteAfterEffects() == current.set.whiteAfterEffects();
+      const Eigen::VectorXd here = there
+        ? residual
+        : Eigen::VectorXd(remainder.cleared(flatten(data.observed - base->response())));
+      const Eigen::MatrixXd columns = remainder.cleared(jacobian(*base, set, free));
       const double gain = before - remainder.leftAfter(here, columns, free);
       best.parameters =
         columns.cols() + static_cast<Eigen::Index>(set.steps() - current.set.steps());

@@ -227,9 +227,37 @@ Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, con
   }
 }
 
-Eigen::MatrixXd jacobian(const CameraModel& camera, const SampleScene& scene, const EffectSet& set,
-  const Eigen::MatrixXd& base, const std::vector<FreeParameter>& free)
+std::optional<StagedResponse> stagedResponse(
+  const CameraModel& camera, const SampleScene& scene, const EffectSet& set)
 {
+  try
+  {
+    return StagedResponse(
+      camera, scene, set.simulated(), CameraSimulatorOptions{ set.whiteAfterEffects() });
+  }
+  catch (const std::invalid_argument&)
+  {
+    return std::nullopt;
+  }
+}
+
+std::optional<StagedResponse> stagedResponse(const StagedResponse& related, const EffectSet& set)
+{
+  try
+  {
+    return StagedResponse(
+      related, set.simulated(), CameraSimulatorOptions{ set.whiteAfterEffects() });
+  }
+  catch (const std::invalid_argument&)
+  {
+    return std::nullopt;
+  }
+}
+
+Eigen::MatrixXd jacobian(
+  const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free)
+{
+  const Eigen::MatrixXd& base = here.response();
   const Eigen::Index reach = set.reach();
   const Eigen::Index colors = 2 * reach + 1;
   const Eigen::Index channels = base.rows();
@@ -260,7 +288,14 @@ Eigen::MatrixXd jacobian(const CameraModel& camera, const SampleScene& scene, co
           setValue(moved, free[p], valueOf(set, free[p]) + stepOf(free[p]));
         }
       }
-      const Eigen::MatrixXd change = respond(camera, scene, moved) - base;
+      const std::optional<StagedResponse> there = stagedResponse(here, moved);
+      if (!there)
+      {
+        continue;
+      }
+      // Samples without reflectance have no derivative.
+      Eigen::MatrixXd change = there->response() - base;
+      change = change.array().isFinite().select(change, 0.0);
       for (std::size_t p = first; p < last; ++p)
       {
         if (perChannel && free[p].channel % colors != color)
@@ -279,8 +314,6 @@ Eigen::MatrixXd jacobian(const CameraModel& camera, const SampleScene& scene, co
     }
     first = last;
   }
-  // Samples without reflectance have no derivative.
-  columns = columns.array().isFinite().select(columns, 0.0);
   return columns;
 }
 

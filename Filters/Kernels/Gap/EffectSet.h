@@ -4,6 +4,7 @@
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/SampleScene.h"
+#include "Kernels/Camera/StagedResponse.h"
 
 #include <Eigen/Core>
 
@@ -94,12 +95,17 @@ void setValues(
 // Noise-free response of the camera with these effects, K x S.
 Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
 
-// Derivative of the response by the free parameters of the effects from position `first` on, one column a
-// parameter, rows in the order of the K x S response. `base` is the response itself.
+// The same for a fit, which asks for many that are alike. Empty where a channel is left without light.
+std::optional<StagedResponse> stagedResponse(
+  const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
+std::optional<StagedResponse> stagedResponse(const StagedResponse& related, const EffectSet& set);
+
+// Derivative of the response `here`, that of the set, by these of its parameters: one column a parameter, rows in the
+// order of the K x S response; 0 where there is none.
 // Forward differences. The parameters of one channel move that channel only (with channel_crosstalk also
 // its neighbours), so all channels are moved at once.
-Eigen::MatrixXd jacobian(const CameraModel& camera, const SampleScene& scene, const EffectSet& set,
-  const Eigen::MatrixXd& base, const std::vector<FreeParameter>& free);
+Eigen::MatrixXd jacobian(
+  const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free);
 
 // The effects of the library that this scene can show in its mean response, form by form, without those named;
 // those of lamp and filters also with the white taken after them.

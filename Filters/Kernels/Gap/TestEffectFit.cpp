@@ -132,9 +132,10 @@ TEST(EffectSet, JacobianIsTheDerivative)
 {
   msi::EffectSet set;
   set.add(choiceOf({ "filter_shift", "per_channel", "", {} }), sevenChannels());
-  const Eigen::MatrixXd base = msi::respond(sevenChannels(), rasterScene(), set);
+  const msi::SampleScene scene = rasterScene();
   const auto free = set.freeParameters(sevenChannels());
-  const Eigen::MatrixXd columns = msi::jacobian(sevenChannels(), rasterScene(), set, base, free);
+  const Eigen::MatrixXd columns =
+    msi::jacobian(*msi::stagedResponse(sevenChannels(), scene, set), set, free);
   ASSERT_EQ(columns.cols(), 7);
   msi::EffectSet up = set;
   msi::EffectSet down = set;

@@ -27,7 +27,7 @@ TEST(NormalMatrix, IsThePlainProduct)
     }
     const auto free = set.freeParameters(data.camera);
     const Eigen::MatrixXd columns =
-      msi::jacobian(data.camera, data.scene, set, data.simulated, free);
+      msi::jacobian(*msi::stagedResponse(data.camera, data.scene, set), set, free);
     std::vector<Eigen::Index> samples(40);
     std::iota(samples.begin(), samples.end(), 20);
     Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(data.channels(), data.samples());

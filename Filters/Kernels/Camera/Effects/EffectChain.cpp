@@ -29,96 +29,212 @@ namespace
 
 EffectChain::EffectChain(
   CameraModel camera, std::vector<CameraEffect> effects, bool whiteAfterEffects)
-  : Camera(std::move(camera))
+  : Camera(std::make_shared<const CameraModel>(std::move(camera)))
   , Effects(std::move(effects))
-  , Responsivity(Camera.responsivity())
-  , Dark(Camera.dark().array())
+  , WhiteAfterEffects(whiteAfterEffects)
+  , Dark(Camera->dark().array())
 {
-  // In the order of the library, whatever the order in which they were given.
-  std::vector<const CameraEffect*> ordered;
-  for (const CameraEffect& effect : Effects)
-  {
-    ordered.push_back(&effect);
-  }
-  std::stable_sort(ordered.begin(), ordered.end(),
-    [](const CameraEffect* a, const CameraEffect* b)
-    { return findEffect(a->name) < findEffect(b->name); });
-  for (std::size_t i = 0; i < ordered.size(); ++i)
-  {
-    if (i > 0 && ordered[i]->name == ordered[i - 1]->name &&
-      ordered[i]->medium == ordered[i - 1]->medium)
-    {
-      rejectTwice(*ordered[i]);
-    }
-    add(*ordered[i]);
-  }
-  if (whiteAfterEffects && Responsivity != Camera.responsivity())
-  {
-    balanceWhite();
-  }
-  const bool onImage = std::any_of(Active.begin(), Active.end(),
-    [](const CameraEffect* effect)
-    { return findEffect(effect->name)->stage == EffectStage::Image; });
-  DarkInIntegral =
-    OnIrradiance.empty() && BeforeDark.empty() && !VeilingGlare && !LocalStrayLight && !onImage;
-  const Eigen::VectorXd dark =
-    DarkInIntegral ? Camera.dark() : Eigen::VectorXd::Zero(Camera.channelCount());
-  Integral = cameraResponse(Responsivity, dark);
+  build(nullptr);
 }
 
-void EffectChain::add(const CameraEffect& effect)
+EffectChain::EffectChain(
+  const EffectChain& related, std::vector<CameraEffect> effects, bool whiteAfterEffects)
+  : Camera(related.Camera)
+  , Effects(std::move(effects))
+  , WhiteAfterEffects(whiteAfterEffects)
+  , Media(related.Media)
+  , Dark(related.Dark)
 {
-  const bool newMedium = !effect.medium.empty() && mediumNumber(effect.medium) < 0;
-  const int medium = newMedium ? static_cast<int>(Media.size()) : mediumNumber(effect.medium);
-  const BoundEffect bound(effect, Camera, medium);
-  if (bound.isNeutral())
+  build(&related);
+}
+
+void EffectChain::build(const EffectChain* related)
+{
+  for (std::size_t e = 0; e < Effects.size(); ++e)
   {
-    return;
+    const Step* known = related != nullptr ? related->stepLike(Effects[e]) : nullptr;
+    Steps.push_back(known != nullptr ? *known : bind(e));
+    Steps.back().effect = e;
+  }
+  // In the order of the library, whatever the order in which they were given.
+  std::stable_sort(Steps.begin(), Steps.end(),
+    [](const Step& a, const Step& b) { return a.definition < b.definition; });
+  requireOnce();
+  for (const Step& step : Steps)
+  {
+    if (!step.neutral)
+    {
+      place(step);
+    }
+  }
+  const bool onImage = std::any_of(Steps.begin(), Steps.end(),
+    [](const Step& step) { return !step.neutral && step.definition->stage == EffectStage::Image; });
+  DarkInIntegral =
+    OnIrradiance.empty() && BeforeDark.empty() && !VeilingGlare && !LocalStrayLight && !onImage;
+
+  if (related != nullptr && OnResponsivity == related->OnResponsivity &&
+    WhiteAfterEffects == related->WhiteAfterEffects)
+  {
+    Responsivity = related->Responsivity;
+    if (DarkInIntegral == related->DarkInIntegral)
+    {
+      Integral = related->Integral;
+      return;
+    }
+  }
+  else
+  {
+    auto responsivity = std::make_shared<Eigen::MatrixXd>(Camera->responsivity());
+    for (const auto& step : OnResponsivity)
+    {
+      step->apply(*responsivity);
+    }
+    if (WhiteAfterEffects && *responsivity != Camera->responsivity())
+    {
+      balanceWhite(*responsivity);
+    }
+    Responsivity = std::move(responsivity);
+  }
+  const Eigen::VectorXd dark =
+    DarkInIntegral ? Camera->dark() : Eigen::VectorXd::Zero(Camera->channelCount());
+  Integral = std::make_shared<const AffineTransform>(cameraResponse(*Responsivity, dark));
+}
+
+EffectChain::Step EffectChain::bind(std::size_t effect)
+{
+  const std::string& name = Effects[effect].medium;
+  const bool newMedium = !name.empty() && mediumNumber(name) < 0;
+  const int medium = newMedium ? static_cast<int>(Media.size()) : mediumNumber(name);
+  const BoundEffect bound(Effects[effect], *Camera, medium);
+  Step step{ effect, &bound.definition(), bound.isNeutral(), medium, nullptr, nullptr, nullptr };
+  if (step.neutral)
+  {
+    return step;
   }
   if (newMedium)
   {
-    Media.push_back(effect.medium);
+    Media.push_back(name);
   }
-  Active.push_back(&effect);
-  const EffectDefinition& definition = bound.definition();
-  const EffectEntry& entry = entryOf(definition);
-  NeedsPosition = NeedsPosition || definition.need == EffectNeed::Position;
-  NeedsOrder = NeedsOrder || definition.need == EffectNeed::Order;
+  const EffectEntry& entry = entryOf(bound.definition());
   if (entry.makeResponsivity != nullptr)
   {
-    entry.makeResponsivity(bound)->apply(Responsivity);
-  }
-  if (entry.makeSurround != nullptr)
-  {
-    (definition.name == "veiling_glare" ? VeilingGlare : LocalStrayLight) =
-      entry.makeSurround(bound);
+    step.onResponsivity = entry.makeResponsivity(bound);
   }
   if (entry.makeBlock != nullptr)
   {
-    BlockOperators& place = definition.stage == EffectStage::Reflectance ? OnReflectance
-      : definition.stage == EffectStage::Irradiance                      ? OnIrradiance
-      : entry.afterDark                                                  ? AfterDark
-                                                                         : BeforeDark;
-    place.push_back(entry.makeBlock(bound));
+    step.onBlock = entry.makeBlock(bound);
+  }
+  if (entry.makeSurround != nullptr)
+  {
+    step.withSurround = entry.makeSurround(bound);
+  }
+  return step;
+}
+
+const EffectChain::Step* EffectChain::stepLike(const CameraEffect& effect) const noexcept
+{
+  const auto found = std::find_if(Steps.begin(), Steps.end(),
+    [&](const Step& step)
+    {
+      const CameraEffect& mine = Effects[step.effect];
+      return mine.parameters == effect.parameters && mine.name == effect.name &&
+        mine.form == effect.form && mine.medium == effect.medium;
+    });
+  return found == Steps.end() ? nullptr : &*found;
+}
+
+void EffectChain::requireOnce() const
+{
+  for (auto step = Steps.begin(); step != Steps.end(); ++step)
+  {
+    const CameraEffect& mine = Effects[step->effect];
+    const bool twice = std::any_of(Steps.begin(), step,
+      [&](const Step& other) {
+        return other.definition == step->definition && Effects[other.effect].medium == mine.medium;
+      });
+    if (twice)
+    {
+      rejectTwice(mine);
+    }
   }
 }
 
-void EffectChain::balanceWhite()
+void EffectChain::place(const Step& step)
 {
-  const Eigen::VectorXd nominal = Camera.whiteResponse();
-  const Eigen::VectorXd real = Responsivity.rowwise().sum();
+  const EffectDefinition& definition = *step.definition;
+  NeedsPosition = NeedsPosition || definition.need == EffectNeed::Position;
+  NeedsOrder = NeedsOrder || definition.need == EffectNeed::Order;
+  if (step.onResponsivity)
+  {
+    OnResponsivity.push_back(step.onResponsivity);
+  }
+  if (step.withSurround)
+  {
+    (definition.name == "veiling_glare" ? VeilingGlare : LocalStrayLight) = step.withSurround;
+  }
+  if (step.onBlock)
+  {
+    BlockOperators& operators = definition.stage == EffectStage::Reflectance ? OnReflectance
+      : definition.stage == EffectStage::Irradiance                          ? OnIrradiance
+      : entryOf(definition).afterDark                                        ? AfterDark
+                                                                             : BeforeDark;
+    operators.push_back(step.onBlock);
+  }
+}
+
+void EffectChain::balanceWhite(Eigen::MatrixXd& responsivity) const
+{
+  const Eigen::VectorXd nominal = Camera->whiteResponse();
+  const Eigen::VectorXd real = responsivity.rowwise().sum();
   for (Eigen::Index k = 0; k < real.size(); ++k)
   {
     if (!(real[k] > 0.0))
     {
       std::ostringstream message;
-      message << "with its effects channel " << Camera.channels()[static_cast<std::size_t>(k)]
+      message << "with its effects channel " << Camera->channels()[static_cast<std::size_t>(k)]
               << " answers a perfect white with " << real[k]
               << "; a white balance needs a value above zero";
       throw std::invalid_argument(message.str());
     }
   }
-  Responsivity.array().colwise() *= nominal.array() / real.array();
+  responsivity.array().colwise() *= nominal.array() / real.array();
+}
+
+std::vector<int> EffectChain::mediaReflectedOtherwise(const EffectChain& related) const
+{
+  std::vector<int> media;
+  const auto addMissing = [&media](const EffectChain& here, const EffectChain& there)
+  {
+    for (const Step& step : here.Steps)
+    {
+      const auto& others = there.OnReflectance;
+      if (step.definition->stage == EffectStage::Reflectance && step.onBlock &&
+        std::find(others.begin(), others.end(), step.onBlock) == others.end())
+      {
+        media.push_back(step.medium);
+      }
+    }
+  };
+  addMissing(*this, related);
+  addMissing(related, *this);
+  return media;
+}
+
+bool EffectChain::integratesLike(const EffectChain& related) const noexcept
+{
+  return Integral == related.Integral;
+}
+
+bool EffectChain::illuminatesLike(const EffectChain& related) const noexcept
+{
+  return OnIrradiance == related.OnIrradiance && VeilingGlare == related.VeilingGlare &&
+    LocalStrayLight == related.LocalStrayLight;
+}
+
+bool EffectChain::detectsLike(const EffectChain& related) const noexcept
+{
+  return BeforeDark == related.BeforeDark && AfterDark == related.AfterDark &&
+    DarkInIntegral == related.DarkInIntegral;
 }
 
 int EffectChain::mediumNumber(const std::string& medium) const noexcept
@@ -129,13 +245,13 @@ int EffectChain::mediumNumber(const std::string& medium) const noexcept
 
 std::optional<BoundEffect> EffectChain::active(std::string_view name) const
 {
-  const auto found = std::find_if(Active.begin(), Active.end(),
-    [name](const CameraEffect* effect) { return effect->name == name; });
-  if (found == Active.end())
+  const auto found = std::find_if(Steps.begin(), Steps.end(),
+    [name](const Step& step) { return !step.neutral && step.definition->name == name; });
+  if (found == Steps.end())
   {
     return std::nullopt;
   }
-  return BoundEffect(**found, Camera, mediumNumber((*found)->medium));
+  return BoundEffect(Effects[found->effect], *Camera, found->medium);
 }
 
 NoiseGenerator EffectChain::noiseGenerator(CameraNoise noise, std::uint64_t seed) const

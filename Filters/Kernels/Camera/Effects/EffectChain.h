@@ -25,10 +25,14 @@ public:
   // Errors: as BoundEffect; and std::invalid_argument where the white balance after the effects finds a
   // channel without light.
   EffectChain(CameraModel camera, std::vector<CameraEffect> effects, bool whiteAfterEffects);
+  // The same camera with other effects: shares with `related` the operators of the effects that both have, and what
+  // follows from those alone.
+  EffectChain(
+    const EffectChain& related, std::vector<CameraEffect> effects, bool whiteAfterEffects);
 
-  const CameraModel& camera() const noexcept { return Camera; }
+  const CameraModel& camera() const noexcept { return *Camera; }
   const std::vector<CameraEffect>& effects() const noexcept { return Effects; }
-  const Eigen::MatrixXd& responsivity() const noexcept { return Responsivity; }
+  const Eigen::MatrixXd& responsivity() const noexcept { return *Responsivity; }
 
   // The media that effects act on: ColumnContext::medium counts in this list.
   const std::vector<std::string>& media() const noexcept { return Media; }
@@ -54,7 +58,7 @@ public:
   template <typename Scalar>
   void integrate(const Scalar* reflectance, Scalar* signal, Eigen::Index count) const noexcept
   {
-    Integral.apply(reflectance, signal, count);
+    Integral->apply(reflectance, signal, count);
   }
   template <typename Scalar>
   void illuminate(Block<Scalar> signal, const ColumnContext& columns) const noexcept
@@ -74,8 +78,37 @@ public:
     runAll(AfterDark, signal, columns);
   }
 
+  bool illuminates() const noexcept // does anything between integral and detector
+  {
+    return !OnIrradiance.empty() || VeilingGlare || LocalStrayLight;
+  }
+  bool detects() const noexcept
+  {
+    return !BeforeDark.empty() || !DarkInIntegral || !AfterDark.empty();
+  }
+
+  // Of a chain and one related to it; true: it shares the operators, so its steps give the same bits.
+  std::vector<int> mediaReflectedOtherwise(const EffectChain& related) const;
+  bool integratesLike(const EffectChain& related) const noexcept;
+  bool illuminatesLike(const EffectChain& related) const noexcept; // stray light and glare, too
+  bool detectsLike(const EffectChain& related) const noexcept;
+
 private:
-  using BlockOperators = std::vector<std::unique_ptr<BlockOperator>>;
+  template <typename Operator>
+  using Shared = std::shared_ptr<const Operator>;
+  using BlockOperators = std::vector<Shared<BlockOperator>>;
+
+  // One of the effects; without any operator where it is neutral, or where the simulators treat it themselves.
+  struct Step
+  {
+    std::size_t effect; // in Effects
+    const EffectDefinition* definition;
+    bool neutral;
+    int medium; // -1: all
+    Shared<ResponsivityOperator> onResponsivity;
+    Shared<BlockOperator> onBlock;
+    Shared<SurroundOperator> withSurround;
+  };
 
   template <typename Scalar>
   static void runAll(
@@ -87,26 +120,31 @@ private:
     }
   }
 
-  void add(const CameraEffect& effect);
-  void balanceWhite();
+  void build(const EffectChain* related);
+  Step bind(std::size_t effect);
+  const Step* stepLike(const CameraEffect& effect) const noexcept; // nullptr: there is none
+  void requireOnce() const;
+  void place(const Step& step);
+  void balanceWhite(Eigen::MatrixXd& responsivity) const;
 
-  CameraModel Camera;
+  Shared<CameraModel> Camera;
   std::vector<CameraEffect> Effects;
-  std::vector<const CameraEffect*> Active;
+  bool WhiteAfterEffects;
   std::vector<std::string> Media;
-  Eigen::MatrixXd Responsivity;
+  std::vector<Step> Steps; // in the order of the library
   BlockOperators OnReflectance;
+  std::vector<Shared<ResponsivityOperator>> OnResponsivity;
   BlockOperators OnIrradiance;
   BlockOperators BeforeDark;
   BlockOperators AfterDark;
-  std::unique_ptr<SurroundOperator> VeilingGlare;
-  std::unique_ptr<SurroundOperator> LocalStrayLight;
+  Shared<SurroundOperator> VeilingGlare;
+  Shared<SurroundOperator> LocalStrayLight;
   bool NeedsPosition = false;
   bool NeedsOrder = false;
   // Nothing acts between integral and dark response: one sum, as the ideal camera does it.
   bool DarkInIntegral = true;
-  AffineTransform Integral =
-    AffineTransform::identity(1); // until all effects are in the responsivity
+  Shared<Eigen::MatrixXd> Responsivity;
+  Shared<AffineTransform> Integral;
   ChannelValues Dark;
 };
 

@@ -1,0 +1,213 @@
+#include "Kernels/Camera/Effects/SceneRun.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+// Per scene the mean signal of its samples; a sample with a NaN takes no part.
+Eigen::MatrixXd sceneMeans(const Eigen::MatrixXd& signal, const SampleScene& scene)
+{
+  const auto scenes = static_cast<Eigen::Index>(scene.scenes().size());
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(signal.rows(), scenes);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(scenes);
+  for (Eigen::Index j = 0; j < signal.cols(); ++j)
+  {
+    if (signal.col(j).allFinite())
+    {
+      const int number = scene.scene()[static_cast<std::size_t>(j)];
+      mean.col(number) += signal.col(j);
+      count[number] += 1.0;
+    }
+  }
+  return mean * count.cwiseMax(1.0).cwiseInverse().asDiagonal();
+}
+
+Eigen::MatrixXd ownSceneMean(const Eigen::MatrixXd& signal, const SampleScene& scene)
+{
+  const Eigen::MatrixXd means = sceneMeans(signal, scene);
+  Eigen::MatrixXd surround(signal.rows(), signal.cols());
+  for (Eigen::Index j = 0; j < signal.cols(); ++j)
+  {
+    surround.col(j) = means.col(scene.scene()[static_cast<std::size_t>(j)]);
+  }
+  return surround;
+}
+
+// The mean of a sample's neighbours; itself where it has none.
+Eigen::MatrixXd neighbourMean(const Eigen::MatrixXd& signal, const SampleScene& scene)
+{
+  Eigen::MatrixXd surround(signal.rows(), signal.cols());
+  for (Eigen::Index j = 0; j < signal.cols(); ++j)
+  {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(signal.rows());
+    double count = 0.0;
+    for (const int neighbour : scene.neighbours()[static_cast<std::size_t>(j)])
+    {
+      if (signal.col(neighbour).allFinite())
+      {
+        sum += signal.col(neighbour);
+        count += 1.0;
+      }
+    }
+    surround.col(j) = count > 0.0 ? Eigen::VectorXd(sum / count) : Eigen::VectorXd(signal.col(j));
+  }
+  return surround;
+}
+
+// The mean of a sample's surround, weighted exp(-distance / reach); itself where it has none. reach: pitches.
+Eigen::MatrixXd tailMean(const Eigen::MatrixXd& signal, const SampleScene& scene, double reach)
+{
+  std::vector<double> weight;
+  weight.reserve(scene.distances().size());
+  for (const double pitches : scene.distances())
+  {
+    weight.push_back(std::exp(-pitches / reach));
+  }
+  const auto finite = signal.array().isFinite().colwise().all().eval();
+  Eigen::MatrixXd surround(signal.rows(), signal.cols());
+  for (Eigen::Index j = 0; j < signal.cols(); ++j)
+  {
+    auto sum = surround.col(j);
+    sum.setZero();
+    double weights = 0.0;
+    for (const SampleScene::Other& other : scene.surround()[static_cast<std::size_t>(j)])
+    {
+      if (finite[other.sample])
+      {
+        const double own = weight[static_cast<std::size_t>(other.distance)];
+        sum += own * signal.col(other.sample);
+        weights += own;
+      }
+    }
+    if (weights > 0.0)
+    {
+      sum /= weights;
+    }
+    else
+    {
+      sum = signal.col(j);
+    }
+  }
+  return surround;
+}
+
+// Those chosen of one value a sample; empty where not known.
+Eigen::VectorXd chosen(const Eigen::VectorXd& values, const std::vector<Eigen::Index>& samples)
+{
+  return values.size() > 0 ? Eigen::VectorXd(values(samples)) : Eigen::VectorXd();
+}
+}
+
+SceneRun::SceneRun(const EffectChain& chain, const SampleScene& scene)
+  : Chain(chain)
+  , Scene(scene)
+  , All(true)
+{
+  require();
+  Medium.reserve(scene.medium().size());
+  for (const int medium : scene.medium())
+  {
+    Medium.push_back(chain.mediumNumber(scene.media()[static_cast<std::size_t>(medium)]));
+  }
+}
+
+SceneRun::SceneRun(
+  const EffectChain& chain, const SampleScene& scene, std::vector<Eigen::Index> samples)
+  : Chain(chain)
+  , Scene(scene)
+  , All(false)
+  , Samples(std::move(samples))
+  , FieldX(chosen(scene.fieldX(), Samples))
+  , FieldY(chosen(scene.fieldY(), Samples))
+  , Time(chosen(scene.time(), Samples))
+{
+  require();
+  Medium.reserve(Samples.size());
+  for (const Eigen::Index sample : Samples)
+  {
+    const int medium = scene.medium()[static_cast<std::size_t>(sample)];
+    Medium.push_back(chain.mediumNumber(scene.media()[static_cast<std::size_t>(medium)]));
+  }
+}
+
+void SceneRun::require() const
+{
+  std::ostringstream message;
+  if (Scene.wavelengths() != Chain.camera().wavelengths())
+  {
+    const WavelengthGrid& ours = Chain.camera().wavelengths();
+    message << "the scene has " << Scene.wavelengths().size() << " wavelengths from "
+            << Scene.wavelengths().front() << " to " << Scene.wavelengths().back()
+            << " nm, the camera " << ours.size() << " from " << ours.front() << " to "
+            << ours.back() << "; resample one of them";
+  }
+  else if (Chain.needsPosition() && !Scene.hasPositions())
+  {
+    message << "an effect of the camera depends on the position, but the scene has no x and y";
+  }
+  else if (Chain.needsOrder() && !Scene.hasOrder())
+  {
+    message << "session_drift depends on the capture order, but the scene has no order";
+  }
+  else
+  {
+    return;
+  }
+  throw std::invalid_argument(message.str());
+}
+
+ColumnContext SceneRun::columns() const noexcept
+{
+  return { Medium.data(), All ? Scene.fieldX().data() : FieldX.data(),
+    All ? Scene.fieldY().data() : FieldY.data(), All ? Scene.time().data() : Time.data() };
+}
+
+Eigen::MatrixXd SceneRun::reflected() const
+{
+  Eigen::MatrixXd reflectance =
+    All ? Scene.reflectance() : Eigen::MatrixXd(Scene.reflectance()(Eigen::all, Samples));
+  Chain.reflect<double>(reflectance, columns());
+  return reflectance;
+}
+
+Eigen::MatrixXd SceneRun::integral() const
+{
+  return All && !Chain.needsMedium() ? integral(Scene.reflectance()) : integral(reflected());
+}
+
+Eigen::MatrixXd SceneRun::integral(const Eigen::MatrixXd& reflected) const
+{
+  Eigen::MatrixXd signal(Chain.camera().channelCount(), reflected.cols());
+  Chain.integrate(reflected.data(), signal.data(), reflected.cols());
+  return signal;
+}
+
+void SceneRun::illuminate(Eigen::MatrixXd& signal) const
+{
+  Chain.illuminate<double>(signal, columns());
+  if (const SurroundOperator* glare = Chain.veilingGlare())
+  {
+    glare->apply(signal, ConstBlock<double>(ownSceneMean(signal, Scene)));
+  }
+  if (const SurroundOperator* stray = Chain.localStrayLight())
+  {
+    const std::optional<BoundEffect> effect = Chain.active("local_stray_light");
+    const Eigen::MatrixXd mean = effect->form().name == "tail"
+      ? tailMean(signal, Scene, effect->value("reach"))
+      : neighbourMean(signal, Scene);
+    stray->apply(signal, ConstBlock<double>(mean));
+  }
+}
+
+void SceneRun::detect(Eigen::MatrixXd& signal) const
+{
+  Chain.detect<double>(signal, columns());
+}
+
+} // namespace msi

@@ -1,0 +1,42 @@
+// A chain of effects at work on the samples of a scene, stage by stage. Internal to the simulator.
+#pragma once
+
+#include "Kernels/Camera/Effects/EffectChain.h"
+#include "Kernels/Camera/SampleScene.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace msi
+{
+
+// Shapes: N wavelengths, K channels, P samples: those of the scene, or those chosen, in their order.
+// Both are referred to, not copied.
+class SceneRun
+{
+public:
+  // Errors: std::invalid_argument for a scene on another grid or without what an effect needs.
+  SceneRun(const EffectChain& chain, const SampleScene& scene);
+  // Of these samples alone; illuminate() is not for them, stray light needs all.
+  SceneRun(const EffectChain& chain, const SampleScene& scene, std::vector<Eigen::Index> samples);
+
+  Eigen::MatrixXd reflected() const; // N x P
+  Eigen::MatrixXd integral() const;  // K x P
+  Eigen::MatrixXd integral(const Eigen::MatrixXd& reflected) const;
+  void illuminate(Eigen::MatrixXd& signal) const; // with stray light and glare
+  void detect(Eigen::MatrixXd& signal) const;
+
+private:
+  void require() const;
+  ColumnContext columns() const noexcept;
+
+  const EffectChain& Chain;
+  const SampleScene& Scene;
+  bool All;
+  std::vector<Eigen::Index> Samples; // where not All
+  std::vector<int> Medium;           // of the chain
+  Eigen::VectorXd FieldX, FieldY, Time;
+};
+
+} // namespace msi

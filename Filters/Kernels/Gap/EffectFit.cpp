@@ -1,5 +1,6 @@
 #include "Kernels/Gap/EffectFit.h"
 
+#include "Kernels/Gap/ColumnProducts.h"
 #include "Kernels/Gap/NormalMatrix.h"
 
 #include <Eigen/Cholesky>
@@ -140,7 +141,7 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
     Eigen::MatrixXd normal =
       normalMatrix(fit.jacobian, trust.square(), fit.free, fit.set.reach(), Members);
     Eigen::VectorXd gradient =
-      fit.jacobian.transpose() * (rootWeight * residual * root.square()).matrix();
+      columnProducts(fit.jacobian, (rootWeight * residual * root.square()).matrix());
     normal.diagonal().array() += prior;
     gradient.array() -= prior * (values.array() - neutral);
     // A parameter at its bound that wants further out stays.

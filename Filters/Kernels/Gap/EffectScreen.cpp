@@ -1,5 +1,6 @@
 #include "Kernels/Gap/EffectScreen.h"
 
+#include "Kernels/Gap/ColumnProducts.h"
 #include "Kernels/Gap/OrderBreaks.h"
 
 #include <Eigen/Cholesky>
@@ -28,27 +29,33 @@ public:
       Basis = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
     }
   }
-  Eigen::MatrixXd cleared(const Eigen::MatrixXd& columns) const
+  // Of one column, with nothing where there is no weight.
+  Eigen::VectorXd cleared(const Eigen::VectorXd& column) const
   {
-    Eigen::MatrixXd rest = RootWeight.matrix().asDiagonal() * columns;
-    rest = (RootWeight > 0.0).replicate(1, rest.cols()).select(rest.array(), 0.0);
+    Eigen::VectorXd rest = (RootWeight > 0.0).select(RootWeight * column.array(), 0.0);
     if (Basis.cols() > 0)
     {
-      rest -= Basis * (Basis.transpose() * rest);
+      rest -= Basis * columnProducts(Basis, rest);
     }
     return rest;
   }
-  // Squared error left after one linear step with these columns.
+  // Squared error left of a cleared residual after one linear step with these columns of a jacobian.
   double leftAfter(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
     const std::vector<FreeParameter>& free) const
   {
-    Eigen::MatrixXd normal = columns.transpose() * columns;
+    const Eigen::MatrixXd weighted = RootWeight.matrix().asDiagonal() * columns;
+    Eigen::MatrixXd normal = columnProducts(weighted, weighted);
+    if (Basis.cols() > 0)
+    {
+      const Eigen::MatrixXd along = columnProducts(Basis, weighted);
+      normal -= along.transpose() * along;
+    }
     for (Eigen::Index p = 0; p < columns.cols(); ++p)
     {
       const double spread = free[static_cast<std::size_t>(p)].spread;
       normal(p, p) += 1.0 / (spread * spread);
     }
-    const Eigen::VectorXd gradient = columns.transpose() * residual;
+    const Eigen::VectorXd gradient = columnProducts(weighted, residual);
     return residual.squaredNorm() - gradient.dot(normal.ldlt().solve(gradient));
   }
 
@@ -81,8 +88,7 @@ std::vector<ScreenedEffect> screenEffects(const EffectFitter& fitter, const Effe
   const Remainder remainder(fitter, current);
   const auto flatten = [](const Eigen::MatrixXd& m) -> Eigen::VectorXd
   { return Eigen::Map<const Eigen::VectorXd>(m.data(), m.size()); };
-  const Eigen::VectorXd residual =
-    remainder.cleared(flatten(data.observed - current.predicted)).col(0);
+  const Eigen::VectorXd residual = remainder.cleared(flatten(data.observed - current.predicted));
   const double before = residual.squaredNorm();
   const OrderBreaks breaks(fitter, current.predicted);
   const std::size_t position = current.set.size();
@@ -121,10 +127,9 @@ std::vector<ScreenedEffect> screenEffects(const EffectFitter& fitter, const Effe
       }
       const bool there =
         start.empty() && set.whiteAfterEffects() == current.set.whiteAfterEffects();
-      const Eigen::VectorXd here = there
-        ? residual
-        : Eigen::VectorXd(remainder.cleared(flatten(data.observed - base->response())));
-      const Eigen::MatrixXd columns = remainder.cleared(jacobian(*base, set, free));
+      const Eigen::VectorXd here =
+        there ? residual : remainder.cleared(flatten(data.observed - base->response()));
+      const Eigen::MatrixXd columns = jacobian(*base, set, free);
       const double gain = before - remainder.leftAfter(here, columns, free);
       best.parameters =
         columns.cols() + static_cast<Eigen::Index>(set.steps() - current.set.steps());

@@ -1,5 +1,7 @@
 #include "Kernels/Gap/NormalMatrix.h"
 
+#include "Kernels/Gap/ColumnProducts.h"
+
 #include <cmath>
 #include <cstdlib>
 
@@ -13,6 +15,7 @@ Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
   const Eigen::Index channels = weight.rows();
   const auto count = static_cast<Eigen::Index>(samples.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+  Eigen::ArrayXd root(count);
   std::vector<Eigen::Index> active;
   Eigen::MatrixXd columns;
   for (Eigen::Index k = 0; k < channels; ++k)
@@ -25,26 +28,21 @@ Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
         active.push_back(static_cast<Eigen::Index>(p));
       }
     }
-    const auto width = static_cast<Eigen::Index>(active.size());
-    columns.resize(count, width);
-    for (Eigen::Index a = 0; a < width; ++a)
+    for (Eigen::Index i = 0; i < count; ++i)
     {
+      root[i] = std::sqrt(weight(k, samples[static_cast<std::size_t>(i)]));
+    }
+    columns.resize(count, static_cast<Eigen::Index>(active.size()));
+    for (std::size_t a = 0; a < active.size(); ++a)
+    {
+      const double* from = jacobian.col(active[a]).data() + k;
+      double* to = columns.col(static_cast<Eigen::Index>(a)).data();
       for (Eigen::Index i = 0; i < count; ++i)
       {
-        const Eigen::Index j = samples[static_cast<std::size_t>(i)];
-        columns(i, a) =
-          std::sqrt(weight(k, j)) * jacobian(j * channels + k, active[static_cast<std::size_t>(a)]);
+        to[i] = root[i] * from[samples[static_cast<std::size_t>(i)] * channels];
       }
     }
-    const Eigen::MatrixXd product = columns.transpose() * columns;
-    for (Eigen::Index a = 0; a < width; ++a)
-    {
-      for (Eigen::Index b = 0; b < width; ++b)
-      {
-        normal(active[static_cast<std::size_t>(a)], active[static_cast<std::size_t>(b)]) +=
-          product(a, b);
-      }
-    }
+    normal(active, active) += columnProducts(columns, columns);
   }
   return normal;
 }

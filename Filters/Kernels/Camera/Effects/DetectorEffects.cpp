@@ -1,5 +1,6 @@
 // The detector's curve, offset and end.
 #include "Kernels/Camera/Effects/EffectEntry.h"
+#include "Kernels/Camera/Effects/PowerKernel.h"
 #include "Kernels/Camera/Effects/SaturationKernel.h"
 
 #include <algorithm>
@@ -12,6 +13,19 @@ namespace msi
 
 namespace
 {
+// Calls body(values, count) for all values, together where they lie one after the other, else column by column.
+template <typename Scalar, typename Body>
+void forRuns(Block<Scalar> block, Body body) noexcept
+{
+  const bool together = block.outerStride() == block.rows();
+  const Eigen::Index runs = together ? std::min<Eigen::Index>(block.cols(), 1) : block.cols();
+  const Eigen::Index columns = together ? block.cols() : 1;
+  for (Eigen::Index j = 0; j < runs; ++j)
+  {
+    body(block.col(j).data(), static_cast<std::size_t>(block.rows() * columns));
+  }
+}
+
 class DetectorNonlinearity : public BlockOperatorOf<DetectorNonlinearity>
 {
 public:
@@ -50,9 +64,17 @@ public:
         u /= Scalar(1) + linear * u;
         break;
       case Gamma:
-        // One value at a time: packets of pow() and their remainders round differently.
-        signal = signal.unaryExpr(
-          [linear](Scalar value) { return value > Scalar(0) ? std::pow(value, linear) : value; });
+        if constexpr (std::is_same_v<Scalar, double>)
+        {
+          forRuns(
+            signal, [this](double* values, std::size_t count) { raise(Linear, values, count); });
+        }
+        else
+        {
+          // One value at a time: packets of pow() and their remainders round differently.
+          signal = signal.unaryExpr(
+            [linear](Scalar value) { return value > Scalar(0) ? std::pow(value, linear) : value; });
+        }
         break;
     }
   }
@@ -102,6 +124,13 @@ public:
   {
     if (Gradual)
     {
+      if constexpr (std::is_same_v<Scalar, double>)
+      {
+        forRuns(response,
+          [this](double* values, std::size_t count)
+          { saturateGradually(Level, Sharpness, values, count); });
+        return;
+      }
       response = response.unaryExpr(
         [level = static_cast<Scalar>(Level), p = static_cast<Scalar>(Sharpness)](Scalar u)
         {
@@ -112,12 +141,11 @@ public:
     }
     if constexpr (std::is_same_v<Scalar, float>)
     {
-      for (Eigen::Index j = 0; j < response.cols(); j += columnsTogether(response))
-      {
-        saturate(static_cast<float>(Level), static_cast<float>(Softness * Softness),
-          response.col(j).data(),
-          static_cast<std::size_t>(response.rows() * columnsTogether(response)));
-      }
+      forRuns(response,
+        [this](float* values, std::size_t count) {
+          saturate(
+            static_cast<float>(Level), static_cast<float>(Softness * Softness), values, count);
+        });
     }
     else
     {
@@ -132,12 +160,6 @@ public:
   }
 
 private:
-  // All where they lie one after the other.
-  static Eigen::Index columnsTogether(const Block<float>& block) noexcept
-  {
-    return block.outerStride() == block.rows() ? std::max<Eigen::Index>(1, block.cols()) : 1;
-  }
-
   double Level;
   bool Gradual;
   double Softness;

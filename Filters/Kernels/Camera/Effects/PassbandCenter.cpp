@@ -1,6 +1,6 @@
 #include "Kernels/Camera/Effects/PassbandCenter.h"
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -39,19 +39,20 @@ double passbandCenter(
     first = std::clamp<Eigen::Index>(peak - 1, 0, count - 3);
     last = first + 2;
   }
-  const Eigen::Index points = last - first + 1;
   const double scale = 0.5 * (grid[last] - grid[first]);
   const double middle = 0.5 * (grid[last] + grid[first]);
-  Eigen::MatrixXd columns(points, 3);
-  Eigen::VectorXd logarithm(points);
-  for (Eigen::Index i = 0; i < points; ++i)
+  // Weighted by the values, and scaled to -1..1: so few powers that normal equations lose nothing that matters.
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = first; i <= last; ++i)
   {
-    const double value = relative[first + i] / highest;
-    const double x = (grid[first + i] - middle) / scale;
-    columns.row(i) << value, value * x, value * x * x;
-    logarithm[i] = value * std::log(std::fmax(value, 1e-9));
+    const double value = relative[i] / highest;
+    const double x = (grid[i] - middle) / scale;
+    const Eigen::Vector3d row(value, value * x, value * x * x);
+    normal += row * row.transpose();
+    gradient += value * std::log(std::fmax(value, 1e-9)) * row;
   }
-  const Eigen::Vector3d parabola = columns.colPivHouseholderQr().solve(logarithm);
+  const Eigen::Vector3d parabola = normal.ldlt().solve(gradient);
   if (!(parabola[2] < 0.0))
   {
     return grid[peak];

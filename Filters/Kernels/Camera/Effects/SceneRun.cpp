@@ -1,5 +1,7 @@
 #include "Kernels/Camera/Effects/SceneRun.h"
 
+#include "Kernels/Camera/Effects/ColumnSumKernel.h"
+
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -71,30 +73,45 @@ Eigen::MatrixXd tailMean(const Eigen::MatrixXd& signal, const SampleScene& scene
   }
   const auto finite = signal.array().isFinite().colwise().all().eval();
   Eigen::MatrixXd surround(signal.rows(), signal.cols());
+  std::vector<const double*> others;
+  std::vector<double> weights;
   for (Eigen::Index j = 0; j < signal.cols(); ++j)
   {
-    auto sum = surround.col(j);
-    sum.setZero();
-    double weights = 0.0;
+    others.clear();
+    weights.clear();
+    double sum = 0.0;
     for (const SampleScene::Other& other : scene.surround()[static_cast<std::size_t>(j)])
     {
       if (finite[other.sample])
       {
-        const double own = weight[static_cast<std::size_t>(other.distance)];
-        sum += own * signal.col(other.sample);
-        weights += own;
+        others.push_back(signal.col(other.sample).data());
+        weights.push_back(weight[static_cast<std::size_t>(other.distance)]);
+        sum += weights.back();
       }
     }
-    if (weights > 0.0)
+    if (sum > 0.0)
     {
-      sum /= weights;
+      weightedColumnSum(others.data(), weights.data(), others.size(), surround.col(j).data(),
+        static_cast<std::size_t>(signal.rows()));
+      surround.col(j) /= sum;
     }
     else
     {
-      sum = signal.col(j);
+      surround.col(j) = signal.col(j);
     }
   }
   return surround;
+}
+
+// The chain's number of each medium of the scene.
+std::vector<int> mediaIn(const EffectChain& chain, const SampleScene& scene)
+{
+  std::vector<int> numbers;
+  for (const std::string& medium : scene.media())
+  {
+    numbers.push_back(chain.mediumNumber(medium));
+  }
+  return numbers;
 }
 
 // Those chosen of one value a sample; empty where not known.
@@ -110,10 +127,14 @@ SceneRun::SceneRun(const EffectChain& chain, const SampleScene& scene)
   , All(true)
 {
   require();
-  Medium.reserve(scene.medium().size());
-  for (const int medium : scene.medium())
+  if (chain.needsMedium())
   {
-    Medium.push_back(chain.mediumNumber(scene.media()[static_cast<std::size_t>(medium)]));
+    const std::vector<int> known = mediaIn(chain, scene);
+    Medium.reserve(scene.medium().size());
+    for (const int medium : scene.medium())
+    {
+      Medium.push_back(known[static_cast<std::size_t>(medium)]);
+    }
   }
 }
 
@@ -128,11 +149,12 @@ SceneRun::SceneRun(
   , Time(chosen(scene.time(), Samples))
 {
   require();
+  const std::vector<int> known = mediaIn(chain, scene);
   Medium.reserve(Samples.size());
   for (const Eigen::Index sample : Samples)
   {
-    const int medium = scene.medium()[static_cast<std::size_t>(sample)];
-    Medium.push_back(chain.mediumNumber(scene.media()[static_cast<std::size_t>(medium)]));
+    Medium.push_back(
+      known[static_cast<std::size_t>(scene.medium()[static_cast<std::size_t>(sample)])]);
   }
 }
 
@@ -172,7 +194,10 @@ Eigen::MatrixXd SceneRun::reflected() const
 {
   Eigen::MatrixXd reflectance =
     All ? Scene.reflectance() : Eigen::MatrixXd(Scene.reflectance()(Eigen::all, Samples));
-  Chain.reflect<double>(reflectance, columns());
+  if (Chain.needsMedium())
+  {
+    Chain.reflect<double>(reflectance, columns());
+  }
   return reflectance;
 }
 

@@ -35,7 +35,7 @@ private:
   const SampleScene& Scene;
   bool All;
   std::vector<Eigen::Index> Samples; // where not All
-  std::vector<int> Medium;           // of the chain
+  std::vector<int> Medium;           // of the chain, where it asks for it
   Eigen::VectorXd FieldX, FieldY, Time;
 };
 

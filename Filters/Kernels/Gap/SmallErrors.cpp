@@ -4,6 +4,8 @@
 #include "Kernels/Gap/EffectCost.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 namespace msi
 {
@@ -48,16 +50,18 @@ EffectFit splitGains(
   EffectSet rest = fit.set;
   rest.remove(static_cast<std::size_t>(gains - fit.set.choices.begin()));
   const EffectFit without = fitter.fit(rest, SearchIterations);
-  double least = StructuredChance;
-  EffectSet best;
-  for (const EffectChoice& choice : choices)
-  {
-    const bool common =
-      choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift";
-    if (!common || choice.whiteAfter || rest.has(choice))
+  std::vector<EffectChoice> common;
+  std::copy_if(choices.begin(), choices.end(), std::back_inserter(common),
+    [&rest](const EffectChoice& choice)
     {
-      continue;
-    }
+      return !choice.whiteAfter && !rest.has(choice) &&
+        (choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift");
+    });
+  // The best of many is as good as a single one by chance more often.
+  double least = StructuredChance / std::fmax(static_cast<double>(common.size()), 1.0);
+  EffectSet best;
+  for (const EffectChoice& choice : common)
+  {
     EffectSet set = rest;
     set.add(choice, fitter.data().camera);
     const EffectFit special = fitter.fit(set, SearchIterations);

@@ -43,7 +43,8 @@ Eigen::MatrixXd CameraSimulator::respond(const SampleScene& scene) const
 {
   const SceneRun run(Self->Chain, scene);
   Eigen::MatrixXd response = run.integral();
-  run.illuminate(response);
+  std::shared_ptr<const TailWeights> tail;
+  run.illuminate(response, tail);
   run.detect(response);
   return response;
 }

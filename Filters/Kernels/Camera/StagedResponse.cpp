@@ -106,6 +106,10 @@ void StagedResponse::reflectAndIntegrate(const StagedResponse* related)
 
 void StagedResponse::illuminate(const StagedResponse* related)
 {
+  if (related != nullptr)
+  {
+    Tail = related->Tail;
+  }
   if (!Chain->illuminates())
   {
     Illuminated = Integral;
@@ -118,7 +122,7 @@ void StagedResponse::illuminate(const StagedResponse* related)
   else
   {
     Eigen::MatrixXd signal = *Integral;
-    SceneRun(*Chain, *Scene).illuminate(signal);
+    SceneRun(*Chain, *Scene).illuminate(signal, Tail);
     Illuminated = keep(std::move(signal));
   }
 }

@@ -12,6 +12,7 @@ namespace msi
 {
 
 class EffectChain;
+class TailWeights;
 
 // CameraSimulator::respond, with what the light is after each stage kept. A response that is made from a related one
 // takes over the stages before the first effect that is another; of an effect on one medium only the samples of that
@@ -46,6 +47,7 @@ private:
   Stage Reflected; // N x S; empty: the scene's own, or not kept
   Stage Integral;  // K x S, as the rest
   Stage Illuminated;
+  std::shared_ptr<const TailWeights> Tail; // of the stray light; empty: none used yet
   Stage Detected;
 };
 

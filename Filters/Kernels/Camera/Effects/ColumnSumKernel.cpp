@@ -6,6 +6,8 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 HWY_BEFORE_NAMESPACE();
 namespace msi
 {
@@ -13,49 +15,71 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// `Vectors` vectors of rows from `first` on.
-template <int Vectors, class D>
-HWY_INLINE void sumRows(D d, const double* const* columns, const double* weights, std::size_t count,
-  double* sum, std::size_t first)
+struct Terms
 {
-  const std::size_t lanes = hn::Lanes(d);
+  const double* columns;
+  std::size_t rows;
+  const int* chosen;
+  const double* weights;
+  std::size_t count;
+};
+
+// Rows from `first` on, one vector from there and three more from `second`, `third`, `fourth` on: apart, for the sums of
+// one vector wait for one another. Vectors may overlap; what they share comes out the same.
+template <class D>
+HWY_INLINE void sumFour(D d, const Terms& terms, double* sum, std::size_t first, std::size_t second,
+  std::size_t third, std::size_t fourth)
+{
   auto sum0 = hn::Zero(d);
   auto sum1 = sum0;
-  for (std::size_t i = 0; i < count; ++i)
+  auto sum2 = sum0;
+  auto sum3 = sum0;
+  for (std::size_t i = 0; i < terms.count; ++i)
   {
-    const auto weight = hn::Set(d, weights[i]);
-    const double* rows = columns[i] + first;
-    sum0 = hn::Add(sum0, hn::Mul(weight, hn::LoadU(d, rows)));
-    if constexpr (Vectors == 2)
-    {
-      sum1 = hn::Add(sum1, hn::Mul(weight, hn::LoadU(d, rows + lanes)));
-    }
+    const auto weight = hn::Set(d, terms.weights[i]);
+    const double* column = terms.columns + static_cast<std::size_t>(terms.chosen[i]) * terms.rows;
+    sum0 = hn::Add(sum0, hn::Mul(weight, hn::LoadU(d, column + first)));
+    sum1 = hn::Add(sum1, hn::Mul(weight, hn::LoadU(d, column + second)));
+    sum2 = hn::Add(sum2, hn::Mul(weight, hn::LoadU(d, column + third)));
+    sum3 = hn::Add(sum3, hn::Mul(weight, hn::LoadU(d, column + fourth)));
   }
   hn::StoreU(sum0, d, sum + first);
-  if constexpr (Vectors == 2)
+  hn::StoreU(sum1, d, sum + second);
+  hn::StoreU(sum2, d, sum + third);
+  hn::StoreU(sum3, d, sum + fourth);
+}
+
+// All rows; at least as many as the vector has lanes.
+template <class D>
+HWY_INLINE void sumRows(D d, const Terms& terms, double* sum)
+{
+  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t last = terms.rows - lanes;
+  for (std::size_t first = 0; first < terms.rows; first += 4 * lanes)
   {
-    hn::StoreU(sum1, d, sum + first + lanes);
+    sumFour(d, terms, sum, std::min(first, last), std::min(first + lanes, last),
+      std::min(first + 2 * lanes, last), std::min(first + 3 * lanes, last));
   }
 }
 
-void sumAll(const double* const* columns, const double* weights, std::size_t count, double* sum,
-  std::size_t rows)
+void sumAll(const double* columns, std::size_t rows, const int* chosen, const double* weights,
+  std::size_t count, double* sum)
 {
+  const Terms terms{ columns, rows, chosen, weights, count };
   const hn::ScalableTag<double> d;
+  const hn::CappedTag<double, 2> two;
   const hn::CappedTag<double, 1> one;
-  const std::size_t lanes = hn::Lanes(d);
-  std::size_t first = 0;
-  for (; first + 2 * lanes <= rows; first += 2 * lanes)
+  if (rows >= hn::Lanes(d))
   {
-    sumRows<2>(d, columns, weights, count, sum, first);
+    sumRows(d, terms, sum);
   }
-  for (; first + lanes <= rows; first += lanes)
+  else if (rows >= hn::Lanes(two))
   {
-    sumRows<1>(d, columns, weights, count, sum, first);
+    sumRows(two, terms, sum);
   }
-  for (; first < rows; ++first)
+  else
   {
-    sumRows<1>(one, columns, weights, count, sum, first);
+    sumRows(one, terms, sum);
   }
 }
 
@@ -69,10 +93,10 @@ namespace msi
 
 HWY_EXPORT(sumAll);
 
-void weightedColumnSum(const double* const* columns, const double* weights, std::size_t count,
-  double* sum, std::size_t rows) noexcept
+void weightedColumnSum(const double* columns, std::size_t rows, const int* chosen,
+  const double* weights, std::size_t count, double* sum) noexcept
 {
-  HWY_DYNAMIC_DISPATCH(sumAll)(columns, weights, count, sum, rows);
+  HWY_DYNAMIC_DISPATCH(sumAll)(columns, rows, chosen, weights, count, sum);
 }
 
 } // namespace msi

@@ -6,9 +6,9 @@
 namespace msi
 {
 
-// sum[k] = weights[0] columns[0][k] + weights[1] columns[1][k] + ..., in this order, every product and sum rounded once.
-// SIMD chosen at run time (Highway).
-void weightedColumnSum(const double* const* columns, const double* weights, std::size_t count,
-  double* sum, std::size_t rows) noexcept;
+// sum = weights[0] column(chosen[0]) + weights[1] column(chosen[1]) + ..., in this order, every product and sum rounded
+// once. columns: `rows` values a column, one column after the other. SIMD chosen at run time (Highway).
+void weightedColumnSum(const double* columns, std::size_t rows, const int* chosen,
+  const double* weights, std::size_t count, double* sum) noexcept;
 
 } // namespace msi

@@ -1,7 +1,5 @@
 #include "Kernels/Camera/Effects/SceneRun.h"
 
-#include "Kernels/Camera/Effects/ColumnSumKernel.h"
-
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -62,45 +60,14 @@ Eigen::MatrixXd neighbourMean(const Eigen::MatrixXd& signal, const SampleScene& 
   return surround;
 }
 
-// The mean of a sample's surround, weighted exp(-distance / reach); itself where it has none. reach: pitches.
-Eigen::MatrixXd tailMean(const Eigen::MatrixXd& signal, const SampleScene& scene, double reach)
+std::vector<char> finiteIn(const Eigen::MatrixXd& signal)
 {
-  std::vector<double> weight;
-  weight.reserve(scene.distances().size());
-  for (const double pitches : scene.distances())
-  {
-    weight.push_back(std::exp(-pitches / reach));
-  }
-  const auto finite = signal.array().isFinite().colwise().all().eval();
-  Eigen::MatrixXd surround(signal.rows(), signal.cols());
-  std::vector<const double*> others;
-  std::vector<double> weights;
+  std::vector<char> finite(static_cast<std::size_t>(signal.cols()));
   for (Eigen::Index j = 0; j < signal.cols(); ++j)
   {
-    others.clear();
-    weights.clear();
-    double sum = 0.0;
-    for (const SampleScene::Other& other : scene.surround()[static_cast<std::size_t>(j)])
-    {
-      if (finite[other.sample])
-      {
-        others.push_back(signal.col(other.sample).data());
-        weights.push_back(weight[static_cast<std::size_t>(other.distance)]);
-        sum += weights.back();
-      }
-    }
-    if (sum > 0.0)
-    {
-      weightedColumnSum(others.data(), weights.data(), others.size(), surround.col(j).data(),
-        static_cast<std::size_t>(signal.rows()));
-      surround.col(j) /= sum;
-    }
-    else
-    {
-      surround.col(j) = signal.col(j);
-    }
+    finite[static_cast<std::size_t>(j)] = signal.col(j).allFinite() ? 1 : 0;
   }
-  return surround;
+  return finite;
 }
 
 // The chain's number of each medium of the scene.
@@ -213,7 +180,7 @@ Eigen::MatrixXd SceneRun::integral(const Eigen::MatrixXd& reflected) const
   return signal;
 }
 
-void SceneRun::illuminate(Eigen::MatrixXd& signal) const
+void SceneRun::illuminate(Eigen::MatrixXd& signal, std::shared_ptr<const TailWeights>& tail) const
 {
   Chain.illuminate<double>(signal, columns());
   if (const SurroundOperator* glare = Chain.veilingGlare())
@@ -223,10 +190,20 @@ void SceneRun::illuminate(Eigen::MatrixXd& signal) const
   if (const SurroundOperator* stray = Chain.localStrayLight())
   {
     const std::optional<BoundEffect> effect = Chain.active("local_stray_light");
-    const Eigen::MatrixXd mean = effect->form().name == "tail"
-      ? tailMean(signal, Scene, effect->value("reach"))
-      : neighbourMean(signal, Scene);
-    stray->apply(signal, ConstBlock<double>(mean));
+    if (effect->form().name == "tail")
+    {
+      const double reach = effect->value("reach");
+      std::vector<char> usable = finiteIn(signal);
+      if (!tail || !tail->areFor(reach, usable))
+      {
+        tail = std::make_shared<const TailWeights>(Scene, reach, std::move(usable));
+      }
+      stray->apply(signal, ConstBlock<double>(tail->mean(signal)));
+    }
+    else
+    {
+      stray->apply(signal, ConstBlock<double>(neighbourMean(signal, Scene)));
+    }
   }
 }
 

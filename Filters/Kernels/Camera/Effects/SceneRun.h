@@ -2,10 +2,12 @@
 #pragma once
 
 #include "Kernels/Camera/Effects/EffectChain.h"
+#include "Kernels/Camera/Effects/TailWeights.h"
 #include "Kernels/Camera/SampleScene.h"
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
 
 namespace msi
@@ -24,7 +26,8 @@ public:
   Eigen::MatrixXd reflected() const; // N x P
   Eigen::MatrixXd integral() const;  // K x P
   Eigen::MatrixXd integral(const Eigen::MatrixXd& reflected) const;
-  void illuminate(Eigen::MatrixXd& signal) const; // with stray light and glare
+  // With stray light and glare. tail: weights to use where they fit; those that were used.
+  void illuminate(Eigen::MatrixXd& signal, std::shared_ptr<const TailWeights>& tail) const;
   void detect(Eigen::MatrixXd& signal) const;
 
 private:

@@ -9,6 +9,8 @@ namespace msi
 namespace
 {
 constexpr double RestLength = 20.0; // nm
+// Of the largest: far below the last bit of the sum, and most of a passband's flanks.
+constexpr double NegligibleWeight = 1e-20;
 }
 
 MovedSpectrum::MovedSpectrum(const WavelengthGrid& grid)
@@ -52,38 +54,26 @@ MovedSpectrum::Slope MovedSpectrum::slopeAt(Eigen::Index node) const
   return slope;
 }
 
-template <typename Row>
-void MovedSpectrum::addSlope(double weight, Eigen::Index node, Row&& out) const
+void MovedSpectrum::addBeyond(double weight, Eigen::Index end, double distance, Parts& parts) const
 {
-  const Slope& slope = Slopes[static_cast<std::size_t>(node)];
-  for (Eigen::Index q = 0; q < Points; ++q)
-  {
-    out[slope.first + q] += weight * slope.weight[static_cast<std::size_t>(q)];
-  }
+  parts.value[end] += weight;
+  parts.slope[end] += weight * distance / (1.0 + std::abs(distance) / RestLength);
 }
 
-template <typename Row>
-void MovedSpectrum::addBeyond(double weight, Eigen::Index end, double distance, Row&& out) const
-{
-  out[end] += weight;
-  addSlope(weight * distance / (1.0 + std::abs(distance) / RestLength), end, out);
-}
-
-template <typename Row>
-void MovedSpectrum::add(double weight, double at, Row&& out) const
+void MovedSpectrum::add(double weight, double at, Parts& parts) const
 {
   const Eigen::Index last = Grid.size() - 1;
   if (last == 0)
   {
-    out[0] += weight;
+    parts.value[0] += weight;
   }
   else if (at <= Grid.front())
   {
-    addBeyond(weight, 0, at - Grid.front(), out);
+    addBeyond(weight, 0, at - Grid.front(), parts);
   }
   else if (at >= Grid.back())
   {
-    addBeyond(weight, last, at - Grid.back(), out);
+    addBeyond(weight, last, at - Grid.back(), parts);
   }
   else
   {
@@ -92,19 +82,39 @@ void MovedSpectrum::add(double weight, double at, Row&& out) const
     const double width = Grid[j + 1] - Grid[j];
     const double t = (at - Grid[j]) / width;
     const double blend = t * t * (3.0 - 2.0 * t);
-    out[j] += weight * (1.0 - blend);
-    out[j + 1] += weight * blend;
-    addSlope(weight * width * t * (1.0 - t) * (1.0 - t), j, out);
-    addSlope(-weight * width * t * t * (1.0 - t), j + 1, out);
+    parts.value[j] += weight * (1.0 - blend);
+    parts.value[j + 1] += weight * blend;
+    parts.slope[j] += weight * width * t * (1.0 - t) * (1.0 - t);
+    parts.slope[j + 1] -= weight * width * t * t * (1.0 - t);
   }
+}
+
+Eigen::RowVectorXd MovedSpectrum::rowOf(const Parts& parts) const
+{
+  Eigen::RowVectorXd row = parts.value;
+  for (Eigen::Index node = 0; node < Grid.size(); ++node)
+  {
+    const double weight = parts.slope[node];
+    if (weight != 0.0)
+    {
+      const Slope& slope = Slopes[static_cast<std::size_t>(node)];
+      for (Eigen::Index q = 0; q < Points; ++q)
+      {
+        row[slope.first + q] += weight * slope.weight[static_cast<std::size_t>(q)];
+      }
+    }
+  }
+  return row;
 }
 
 Eigen::MatrixXd MovedSpectrum::operation(const Eigen::ArrayXd& at) const
 {
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(at.size(), Grid.size());
+  Eigen::MatrixXd rows(at.size(), Grid.size());
   for (Eigen::Index i = 0; i < at.size(); ++i)
   {
-    add(1.0, at[i], rows.row(i));
+    Parts parts(Grid.size());
+    add(1.0, at[i], parts);
+    rows.row(i) = rowOf(parts);
   }
   return rows;
 }
@@ -112,15 +122,16 @@ Eigen::MatrixXd MovedSpectrum::operation(const Eigen::ArrayXd& at) const
 Eigen::RowVectorXd MovedSpectrum::weighted(
   const Eigen::ArrayXd& weights, const Eigen::ArrayXd& at) const
 {
-  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(Grid.size());
+  Parts parts(Grid.size());
+  const double least = NegligibleWeight * weights.abs().maxCoeff();
   for (Eigen::Index i = 0; i < at.size(); ++i)
   {
-    if (weights[i] != 0.0)
+    if (std::abs(weights[i]) > least)
     {
-      add(weights[i], at[i], sum);
+      add(weights[i], at[i], parts);
     }
   }
-  return sum;
+  return rowOf(parts);
 }
 
 } // namespace msi

@@ -36,13 +36,20 @@ private:
     std::array<double, SlopePoints> weight;
   };
   Slope slopeAt(Eigen::Index node) const;
-  // out(j) += weight x T(row, j) of one wavelength.
-  template <typename Row>
-  void add(double weight, double at, Row&& out) const;
-  template <typename Row>
-  void addSlope(double weight, Eigen::Index node, Row&& out) const;
-  template <typename Row>
-  void addBeyond(double weight, Eigen::Index end, double distance, Row&& out) const;
+  // How much of the values at the grid's wavelengths, and of the slopes there.
+  struct Parts
+  {
+    explicit Parts(Eigen::Index size)
+      : value(Eigen::RowVectorXd::Zero(size))
+      , slope(Eigen::RowVectorXd::Zero(size))
+    {
+    }
+    Eigen::RowVectorXd value;
+    Eigen::RowVectorXd slope;
+  };
+  void add(double weight, double at, Parts& parts) const;
+  void addBeyond(double weight, Eigen::Index end, double distance, Parts& parts) const;
+  Eigen::RowVectorXd rowOf(const Parts& parts) const;
 
   WavelengthGrid Grid;
   Eigen::Index Points;

@@ -60,12 +60,12 @@ std::vector<double> subsetShrinks(const EffectFitter& fitter, const EffectFit& b
     else
     {
       const EffectSet part = subsetOf(best.set, subset);
-      reached = shrinkOf(fitter, fitter.fit(part, SearchIterations));
+      reached = shrinkOf(fitter, fitter.fit(part, SearchFit));
       // Without the others an effect may be far from where it is with them, and needs the freedom that they gave it.
       if (part.steps() == 0)
       {
         reached =
-          std::fmax(reached, shrinkOf(fitter, fitter.fit(atStart(part, fitter), SearchIterations)));
+          std::fmax(reached, shrinkOf(fitter, fitter.fit(atStart(part, fitter), SearchFit)));
       }
     }
     shrink.push_back(std::fmax(reached, 0.0));
@@ -246,7 +246,7 @@ bool refuted(const EffectFitter& fitter, const EffectFit& fit, std::size_t posit
   EffectSet set = fit.set;
   set.remove(position);
   set.add(plain, fitter.data().camera);
-  const EffectFit other = fitter.fit(std::move(set), SearchIterations);
+  const EffectFit other = fitter.fit(std::move(set), SearchFit);
   return other.energy + RefutedDeviations * other.dispersion < fit.energy;
 }
 }

@@ -34,10 +34,10 @@ std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& cu
     forms.push_back(effect.choice);
     EffectSet set = current.set;
     set.add(effect.choice, fitter.data().camera, effect.start);
-    EffectFit fit = fitter.fit(std::move(set), SearchIterations);
+    EffectFit fit = fitter.fit(std::move(set), SearchFit);
     if (std::isfinite(fit.energy))
     {
-      fits.push_back(withSecondary(fitter, std::move(fit), current.set.size(), SearchIterations));
+      fits.push_back(withSecondary(fitter, std::move(fit), current.set.size(), SearchFit));
     }
   }
   return fits;

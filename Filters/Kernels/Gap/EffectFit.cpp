@@ -15,7 +15,7 @@ namespace
 {
 constexpr int InnerFolds = 5;
 constexpr double HuberCut = 5.0;
-constexpr double Converged = 1e-5;
+constexpr double Remaining = 10.0; // times the last gain: what further iterations may gain at most
 
 using Flat = Eigen::Map<const Eigen::ArrayXd>;
 
@@ -95,7 +95,7 @@ EffectFit EffectFitter::nominal() const
   return fit;
 }
 
-EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
+EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
 {
   if (start.size() == 0)
   {
@@ -129,7 +129,7 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
   Eigen::ArrayXd residual = whiten(here->response());
   double damping = 1e-6;
   bool fresh = false;
-  for (fit.iterations = 0; fit.iterations < maximumIterations; ++fit.iterations)
+  for (fit.iterations = 0; fit.iterations < effort.iterations; ++fit.iterations)
   {
     fit.jacobian = jacobian(*here, fit.set, fit.free);
     fresh = true;
@@ -185,7 +185,8 @@ EffectFit EffectFitter::fit(EffectSet start, int maximumIterations) const
       }
       damping = better ? std::fmax(damping * 0.1, 1e-9) : std::fmax(damping * 30.0, 1e-3);
     }
-    if (!better || before - after < Converged * before)
+    if (!better || before - after < effort.converged * before ||
+      after - Remaining * (before - after) > effort.unwanted)
     {
       break;
     }

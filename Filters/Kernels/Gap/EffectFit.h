@@ -6,14 +6,25 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <vector>
 
 namespace msi
 {
 
-// Of one fit, at most: of a set among many, and of one that stays.
-constexpr int SearchIterations = 6;
-constexpr int FinalIterations = 20;
+// How far a fit is taken.
+struct FitEffort
+{
+  int iterations;   // at most
+  double converged; // part of the error by which an iteration must better it, for another to follow
+  // Of no interest with more error than this: a fit that cannot get there any more stops where it is.
+  double unwanted = std::numeric_limits<double>::infinity();
+
+  FitEffort unwantedAbove(double error) const noexcept { return { iterations, converged, error }; }
+};
+constexpr FitEffort RoughFit{ 2, 1e-4 };
+constexpr FitEffort SearchFit{ 6, 1e-4 }; // of a set among many
+constexpr FitEffort FinalFit{ 20, 1e-5 }; // of one that stays
 
 struct EffectFit
 {
@@ -54,7 +65,7 @@ public:
   double noiseEnergy() const noexcept { return NoiseEnergy; } // what noise alone leaves of energy
 
   EffectFit nominal() const;
-  EffectFit fit(EffectSet start, int maximumIterations) const; // nominal() without effects
+  EffectFit fit(EffectSet start, const FitEffort& effort) const; // nominal() without effects
 
   // A change of the response, K x S, times the root of the weights, element by element.
   Eigen::VectorXd weighted(const Eigen::MatrixXd& change) const;

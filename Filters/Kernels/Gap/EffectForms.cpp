@@ -38,7 +38,7 @@ bool hasSecondary(const EffectChoice& choice)
 }
 
 EffectFit withSecondary(
-  const EffectFitter& fitter, EffectFit fit, std::size_t position, int iterations)
+  const EffectFitter& fitter, EffectFit fit, std::size_t position, const FitEffort& effort)
 {
   if (!hasSecondary(fit.set.choices[position]) || fit.set.secondaryFree[position] != 0)
   {
@@ -46,7 +46,8 @@ EffectFit withSecondary(
   }
   EffectSet freed = fit.set;
   freed.secondaryFree[position] = 1;
-  EffectFit other = fitter.fit(std::move(freed), iterations);
+  EffectFit other =
+    fitter.fit(std::move(freed), effort.unwantedAbove(std::fmin(effort.unwanted, fit.energy)));
   return other.energy + FormDeviations * other.dispersion < fit.energy ? other : fit;
 }
 
@@ -58,7 +59,7 @@ EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
     const EffectChoice mine = fit.set.choices[position];
     EffectSet rest = fit.set;
     rest.remove(position);
-    const EffectFit without = fitter.fit(rest, 2);
+    const EffectFit without = fitter.fit(rest, RoughFit);
     std::vector<EffectChoice> forms;
     std::copy_if(choices.begin(), choices.end(), std::back_inserter(forms),
       [&mine](const EffectChoice& choice)
@@ -71,19 +72,21 @@ EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,
     {
       EffectSet set = rest;
       set.add(form.choice, fitter.data().camera, form.start);
-      EffectFit other = fitter.fit(std::move(set), SearchIterations);
+      const FitEffort better = SearchFit.unwantedAbove(fit.energy);
+      // What a secondary parameter may still mend is not known yet.
+      EffectFit other = fitter.fit(std::move(set), hasSecondary(form.choice) ? SearchFit : better);
       const std::size_t last = other.set.size() - 1;
-      other = withSecondary(fitter, std::move(other), last, SearchIterations);
+      other = withSecondary(fitter, std::move(other), last, better);
       if (betterForm(other, fit, gapEnergy))
       {
         // Keep the position: the loop runs over it.
         other.set.moveLastTo(position);
-        fit = fitter.fit(other.set, SearchIterations);
+        fit = fitter.fit(other.set, SearchFit);
       }
     }
-    fit = withSecondary(fitter, std::move(fit), position, SearchIterations);
+    fit = withSecondary(fitter, std::move(fit), position, SearchFit);
   }
-  return fitter.fit(fit.set, FinalIterations);
+  return fitter.fit(fit.set, FinalFit);
 }
 
 EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
@@ -102,8 +105,7 @@ EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
   {
     return fit;
   }
-  const EffectFit alone =
-    chooseForms(fitter, fitter.fit(leading, SearchIterations), choices, gapEnergy);
+  const EffectFit alone = chooseForms(fitter, fitter.fit(leading, SearchFit), choices, gapEnergy);
   EffectSet set;
   std::size_t next = 0;
   for (const EffectChoice& choice : fit.set.choices)
@@ -118,7 +120,7 @@ EffectFit leadingForms(const EffectFitter& fitter, EffectFit fit,
     }
   }
   set.level = alone.set.level;
-  EffectFit other = fitter.fit(std::move(set), FinalIterations);
+  EffectFit other = fitter.fit(std::move(set), FinalFit);
   return nearlyAsGood(other, fit, gapEnergy) ? other : fit;
 }
 
@@ -147,7 +149,7 @@ EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
       set.remove(position);
       set.add(*exposure, fitter.data().camera);
     }
-    EffectFit other = fitter.fit(std::move(set), FinalIterations);
+    EffectFit other = fitter.fit(std::move(set), FinalFit);
     if (nearlyAsGood(other, fit, gapEnergy))
     {
       fit = std::move(other);

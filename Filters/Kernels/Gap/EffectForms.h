@@ -13,7 +13,7 @@ bool hasSecondary(const EffectChoice& choice);
 
 // With the secondary parameters of one effect free, where that predicts better.
 EffectFit withSecondary(
-  const EffectFitter& fitter, EffectFit fit, std::size_t position, int iterations);
+  const EffectFitter& fitter, EffectFit fit, std::size_t position, const FitEffort& effort);
 
 // Other forms of the effects in the set, and their secondary parameters.
 EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,

@@ -45,7 +45,7 @@ std::vector<EffectSet> partsToKeep(const EffectSet& set, bool pairs)
 std::vector<EffectFit> exchangesOf(const EffectFitter& fitter, const EffectSet& part,
   const std::vector<EffectChoice>& fresh, double gapEnergy, double present)
 {
-  const EffectFit kept = fitter.fit(part, SearchIterations);
+  const EffectFit kept = fitter.fit(part, SearchFit);
   const std::vector<ScreenedEffect> screened =
     screenEffects(fitter, kept, fresh, FormPart * gapEnergy);
   const auto promises = [&](const ScreenedEffect& effect)
@@ -66,7 +66,7 @@ EffectFit withoutMenders(const EffectFitter& fitter, EffectFit fit,
     EffectSet rest = fit.set;
     rest.remove(position);
     EffectFit other =
-      chooseForms(fitter, fitter.fit(std::move(rest), SearchIterations), choices, gapEnergy);
+      chooseForms(fitter, fitter.fit(std::move(rest), SearchFit), choices, gapEnergy);
     if (costOf(fitter, other, gapEnergy, fit.dispersion) <
       costOf(fitter, fit, gapEnergy, fit.dispersion))
     {
@@ -83,7 +83,7 @@ EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEn
   {
     EffectSet rest = fit.set;
     rest.remove(position);
-    EffectFit other = fitter.fit(std::move(rest), SearchIterations);
+    EffectFit other = fitter.fit(std::move(rest), SearchFit);
     const double loss = other.energy - fit.energy;
     if (costOf(fitter, other, gapEnergy, fit.dispersion) <=
         costOf(fitter, fit, gapEnergy, fit.dispersion) ||

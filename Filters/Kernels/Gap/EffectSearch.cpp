@@ -44,7 +44,7 @@ void dropIdle(const EffectFitter& fitter, SearchResult& result)
     {
       EffectSet rest = result.best.set;
       rest.remove(position);
-      result.best = fitter.fit(std::move(rest), FinalIterations);
+      result.best = fitter.fit(std::move(rest), FinalFit);
       result.causes -= position < result.causes ? 1 : 0;
     }
   }

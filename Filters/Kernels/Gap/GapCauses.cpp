@@ -45,7 +45,7 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
     [&](const EffectChoice& choice) {
       return choice.effect->name != best.set.choices[position].effect->name && !rest.has(choice);
     });
-  const EffectFit without = fitter.fit(rest, SearchIterations);
+  const EffectFit without = fitter.fit(rest, SearchFit);
   const std::vector<EffectFit> alternatives = extendFit(fitter, without,
     screenEffects(fitter, without, others, FormPart * found.gapEnergy), AlternativesFitted);
   struct Rival

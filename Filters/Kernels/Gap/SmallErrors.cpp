@@ -27,7 +27,7 @@ EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
     }
     EffectSet set = fit.set;
     set.add(*small, fitter.data().camera);
-    EffectFit other = fitter.fit(std::move(set), SearchIterations);
+    EffectFit other = fitter.fit(std::move(set), SearchFit);
     const double gain = fit.energy - other.energy;
     if (gain > ChanceOfMany * other.dispersion && gain > RelevantPart * gapEnergy)
     {
@@ -49,7 +49,7 @@ EffectFit splitGains(
   const EffectChoice gain = *gains;
   EffectSet rest = fit.set;
   rest.remove(static_cast<std::size_t>(gains - fit.set.choices.begin()));
-  const EffectFit without = fitter.fit(rest, SearchIterations);
+  const EffectFit without = fitter.fit(rest, SearchFit);
   std::vector<EffectChoice> common;
   std::copy_if(choices.begin(), choices.end(), std::back_inserter(common),
     [&rest](const EffectChoice& choice)
@@ -64,7 +64,7 @@ EffectFit splitGains(
   {
     EffectSet set = rest;
     set.add(choice, fitter.data().camera);
-    const EffectFit special = fitter.fit(set, SearchIterations);
+    const EffectFit special = fitter.fit(set, SearchFit);
     const double fraction = (without.energy - special.energy) / (without.energy - fit.energy);
     const double chance =
       chanceOfFraction(fraction, static_cast<int>(special.parameters() - without.parameters()),
@@ -80,7 +80,7 @@ EffectFit splitGains(
     return fit;
   }
   best.add(gain, fitter.data().camera);
-  return fitter.fit(std::move(best), FinalIterations);
+  return fitter.fit(std::move(best), FinalFit);
 }
 
 } // namespace msi

@@ -25,7 +25,7 @@ public:
       const msi::EffectDefinition* definition = msi::findEffect(effect.name);
       set.add({ definition, msi::findForm(*definition, effect.form), effect.medium }, Data.camera);
     }
-    Fit = Fitter.fit(std::move(set), 20);
+    Fit = Fitter.fit(std::move(set), msi::FinalFit);
   }
   std::vector<msi::CauseShare> shares(double doubt) const
   {
@@ -36,7 +36,7 @@ public:
     const msi::EffectDefinition* definition = msi::findEffect(effect.name);
     msi::EffectSet set;
     set.add({ definition, msi::findForm(*definition, effect.form), effect.medium }, Data.camera);
-    return msi::shrinkOf(Fitter, Fitter.fit(std::move(set), 20));
+    return msi::shrinkOf(Fitter, Fitter.fit(std::move(set), msi::FinalFit));
   }
   double shrink() const { return msi::shrinkOf(Fitter, Fit); }
 

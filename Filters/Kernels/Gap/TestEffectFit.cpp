@@ -44,7 +44,7 @@ TEST_P(EffectFitRecovers, PlantedParameterWithinItsStandardError)
   const msi::EffectFitter fitter(data, data.usable, 1);
   msi::EffectSet set;
   set.add(choiceOf(planted.effect), data.camera);
-  const msi::EffectFit fit = fitter.fit(std::move(set), 20);
+  const msi::EffectFit fit = fitter.fit(std::move(set), msi::FinalFit);
   const double error = std::sqrt(fitter.covariance(fit)(
     static_cast<Eigen::Index>(planted.parameter), static_cast<Eigen::Index>(planted.parameter)));
   const double truth = planted.effect.parameters[planted.parameter];
@@ -72,7 +72,7 @@ TEST(EffectFit, WithoutEffectsIsTheNominalCamera)
 {
   const msi::GapData data = dataOf(captureWith({ { "exposure_gain", "", "", { 1.05 } } }));
   const msi::EffectFitter fitter(data, data.usable, 1);
-  const msi::EffectFit fit = fitter.fit({}, 20);
+  const msi::EffectFit fit = fitter.fit({}, msi::FinalFit);
   EXPECT_EQ(fit.predicted, data.simulated);
   EXPECT_EQ(fit.energy, fitter.nominal().energy);
   EXPECT_EQ(fit.parameters(), 0);
@@ -87,7 +87,8 @@ TEST(EffectFit, ResistsReadingsThatAreWrongAltogether)
   const msi::EffectFitter fitter(data, data.usable, 1);
   msi::EffectSet set;
   set.add(choiceOf({ "exposure_gain", "", "", {} }), data.camera);
-  EXPECT_NEAR(fitter.fit(std::move(set), 20).set.effects.front().parameters[0], 1.05, 0.002);
+  EXPECT_NEAR(
+    fitter.fit(std::move(set), msi::FinalFit).set.effects.front().parameters[0], 1.05, 0.002);
 }
 
 // One Gauss-Newton step without a fold is exact for an effect that is linear: compared with fits that really leave
@@ -98,7 +99,7 @@ TEST(EffectFit, CrossValidationOfALinearEffectIsThatOfFitsWithoutTheFold)
   const msi::EffectFitter fitter(data, data.usable, 1);
   msi::EffectSet set;
   set.add(choiceOf({ "exposure_gain", "", "", {} }), data.camera);
-  const msi::EffectFit fit = fitter.fit(set, 20);
+  const msi::EffectFit fit = fitter.fit(set, msi::FinalFit);
   const std::vector<int> fold = msi::foldsOf(data, data.usable, 5, 1);
   for (int left = 0; left < 5; ++left)
   {
@@ -108,7 +109,7 @@ TEST(EffectFit, CrossValidationOfALinearEffectIsThatOfFitsWithoutTheFold)
       training[i] = fold[i] != left ? training[i] : 0;
     }
     const msi::EffectFitter without(data, training, 1);
-    const msi::EffectFit other = without.fit(set, 20);
+    const msi::EffectFit other = without.fit(set, msi::FinalFit);
     for (Eigen::Index i = 0; i < data.samples(); ++i)
     {
       if (fold[static_cast<std::size_t>(i)] == left)

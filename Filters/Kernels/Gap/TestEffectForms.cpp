@@ -22,7 +22,7 @@ TEST(EffectForms, WhatIsBrighterBesideAnExposureIsTheExposure)
   set.add({ exposure, &exposure->forms.front(), "" }, data.camera);
   const msi::EffectFit nominal = fitter.nominal();
   const msi::EffectFit fit = msi::preferExposure(
-    fitter, fitter.fit(set, 20), msi::choicesFor(data.scene, {}), nominal.energy);
+    fitter, fitter.fit(set, msi::FinalFit), msi::choicesFor(data.scene, {}), nominal.energy);
   ASSERT_EQ(fit.set.size(), 2U);
   EXPECT_TRUE(fit.set.choices[0].whiteAfter);
   EXPECT_NEAR(fit.set.effects[1].parameters[0], Gain, 0.005);

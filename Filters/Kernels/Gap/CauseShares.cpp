@@ -78,18 +78,27 @@ struct ChannelCurve
 {
   double fraction; // of their energy
   bool certain;    // hardly by chance
+  double size;     // of the curve, root mean square over the channels
 };
 
-ChannelCurve curveOf(const EffectSet& set, std::size_t position)
+// fromMean: their mean has a cause of its own, the curve is what is left.
+ChannelCurve curveOf(const EffectSet& set, std::size_t position, bool fromMean = false)
 {
   const std::vector<double>& value = set.effects[position].parameters;
   const auto channels = static_cast<Eigen::Index>(value.size());
   const double neutral = set.choices[position].form->parameters.front().neutral;
-  const Eigen::VectorXd deviation =
+  Eigen::VectorXd deviation =
     Eigen::Map<const Eigen::VectorXd>(value.data(), channels).array() - neutral;
+  if (fromMean)
+  {
+    deviation.array() -= deviation.mean();
+  }
+  const int known = fromMean ? 1 : 0;
   const double fraction = commonFraction(deviation);
-  const double chance = chanceOfFraction(fraction, CommonDirections, static_cast<int>(channels));
-  return { fraction, chance < StructuredChance };
+  const double chance =
+    chanceOfFraction(fraction, CommonDirections - known, static_cast<int>(channels) - known);
+  return { fraction, chance < StructuredChance,
+    std::sqrt(fraction * deviation.squaredNorm() / static_cast<double>(channels)) };
 }
 
 // What all channels have in common is no small error of each; of gains that is a cause of its own, exposure or lamp.
@@ -211,20 +220,38 @@ std::vector<double> alikeParts(const EffectSet& set, const Eigen::MatrixXd& cont
   return alike;
 }
 
-// The part of an effect's share that its own parameters do not belie: gains of single channels that follow one curve
-// over the channels are not errors of single channels, unless what is common to them has a cause of its own.
+// The part of an effect's share that gains of single channels do not belie. Where they follow one curve over the channels
+// they are no errors of single channels, unless the lamp is a cause beside them: something else is there. An exposure
+// beside them may be a part of it, as far as the curve is as large as the exposure.
 double gainsCredible(const EffectSet& set, std::size_t position)
 {
-  const auto common = [](const EffectChoice& choice)
-  { return choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift"; };
-  const EffectChoice& choice = set.choices[position];
-  if (choice.effect->name != "channel_gain" || !choice.smallError() ||
-    std::any_of(set.choices.begin(), set.choices.end(), common))
+  const auto placeOf = [&set](const auto& wanted)
+  {
+    return static_cast<std::size_t>(
+      std::find_if(set.choices.begin(), set.choices.end(), wanted) - set.choices.begin());
+  };
+  const auto called = [](const char* name)
+  { return [name](const EffectChoice& choice) { return choice.effect->name == name; }; };
+  const std::size_t gains = placeOf([](const EffectChoice& choice)
+    { return choice.effect->name == "channel_gain" && choice.smallError(); });
+  const std::size_t exposure = placeOf(called("exposure_gain"));
+  if ((position != gains && position != exposure) || gains == set.size() ||
+    placeOf(called("illuminant_drift")) != set.size())
   {
     return 1.0;
   }
-  const ChannelCurve curve = curveOf(set, position);
-  return curve.certain ? std::sqrt(1.0 - curve.fraction) : 1.0;
+  const bool exposed = exposure != set.size();
+  const ChannelCurve curve = curveOf(set, gains, exposed);
+  if (!curve.certain)
+  {
+    return 1.0;
+  }
+  if (position == gains)
+  {
+    return std::sqrt(1.0 - curve.fraction);
+  }
+  const double change = std::fabs(set.effects[exposure].parameters.front() - 1.0);
+  return std::fmax(1.0 - curve.size / std::fmax(change, 1e-12), 0.0);
 }
 
 // A change over the session that a plain gain does better is none.

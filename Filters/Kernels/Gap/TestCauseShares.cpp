@@ -105,6 +105,21 @@ TEST(CauseShares, NumbersOfChannelsThatFollowOneCurveAreACause)
   EXPECT_NEAR(shared.shares(0.0)[1].share, 0.5 + 0.5 * ahead / shared.shrink(), 0.01);
 }
 
+// A lamp that warmed and may not be blamed: an exposure and gains along a curve do the same.
+TEST(CauseShares, AnExposureBesideGainsAlongACurveMayBeAPartOfSomethingElse)
+{
+  const msi::CameraEffect lamp{ "illuminant_drift", "", "", { 0.1 } };
+  const msi::CameraEffect darker{ "exposure_gain", "", "", { 0.95 } };
+  const msi::CameraEffect gains{ "channel_gain", "", "",
+    { 1.03, 0.96, 1.02, 0.99, 1.05, 0.97, 1.01 } };
+  const Shared mimicked({ lamp, darker }, { darker, gains });
+  ASSERT_GT(mimicked.shrink(), 0.9);
+  EXPECT_LT(mimicked.shares(0.0)[0].share, 0.5);
+  EXPECT_LT(mimicked.shares(0.0)[1].share, 0.05);
+  const Shared real({ darker, gains }, { darker, gains });
+  EXPECT_NEAR(real.shares(0.0)[0].share + real.shares(0.0)[1].share, 1.0, 1e-12);
+}
+
 TEST(CauseShares, AGainThatStaysIsNoDrift)
 {
   const msi::CameraEffect gains{ "channel_gain", "", "",

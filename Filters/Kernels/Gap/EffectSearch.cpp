@@ -15,6 +15,7 @@ namespace msi
 namespace
 {
 constexpr double IdlePart = 0.001; // of the gap's energy
+constexpr double AlikePart = 0.05; // of the smaller change's energy, by which two changes differ
 
 // One fit for each set of causes, the cheapest.
 void keepBestForms(
@@ -33,6 +34,39 @@ void keepBestForms(
     }
   }
   fits = std::move(kept);
+}
+
+// The first ones that do not do the same, filled up with others: many effects darken a picture, and in a row of them what
+// only darkens a part of it would have no place.
+std::vector<EffectFit> differentOnes(
+  const EffectFitter& fitter, std::vector<EffectFit> fits, std::size_t count)
+{
+  std::vector<EffectFit> kept;
+  std::vector<EffectFit> others;
+  std::vector<Eigen::VectorXd> changes;
+  for (EffectFit& fit : fits)
+  {
+    const Eigen::VectorXd change = fitter.weighted(fit.predicted - fitter.data().simulated);
+    const bool known = std::any_of(changes.begin(), changes.end(),
+      [&change](const Eigen::VectorXd& other)
+      {
+        return (change - other).squaredNorm() <
+          AlikePart * std::fmin(change.squaredNorm(), other.squaredNorm());
+      });
+    if (!known && kept.size() < count)
+    {
+      changes.push_back(change);
+      kept.push_back(std::move(fit));
+    }
+    else
+    {
+      others.push_back(std::move(fit));
+    }
+  }
+  std::move(others.begin(),
+    others.begin() + static_cast<std::ptrdiff_t>(std::min(others.size(), count - kept.size())),
+    std::back_inserter(kept));
+  return kept;
 }
 
 // Beside effects that came later some do nothing any more.
@@ -96,8 +130,7 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
     {
       break;
     }
-    grown.resize(std::min(grown.size(), static_cast<std::size_t>(limits.width)));
-    beam = std::move(grown);
+    beam = differentOnes(fitter, std::move(grown), static_cast<std::size_t>(limits.width));
   }
   if (result.best.set.size() == 0 || stop())
   {

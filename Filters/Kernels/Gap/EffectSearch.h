@@ -27,7 +27,7 @@ struct SearchResult
   double gapEnergy = 0.0;         // weighted, beyond noise, before any effect
 };
 
-// Beam search by size; a set of one effect more must beat the best smaller one by significance, by the price of
+// Beam search by size, among sets that do different things; a set of one effect more must beat the best smaller one by significance, by the price of
 // its parameters and by a relevant part of the gap. Afterwards effects are dropped again where that
 // costs nothing, and the forms of those that stay are chosen by cross-validation alone.
 // stop() is asked now and then; true ends the search early.

@@ -104,5 +104,20 @@ Eigen::MatrixXd columnProducts(
   return products.transpose();
 }
 
+Eigen::MatrixXd columnProducts(const Eigen::Ref<const Eigen::MatrixXd>& columns)
+{
+  const auto multiplyEach = HWY_DYNAMIC_DISPATCH(multiplyAll);
+  const auto stride = static_cast<std::size_t>(columns.outerStride());
+  Eigen::MatrixXd products(columns.cols(), columns.cols());
+  for (Eigen::Index c = 0; c < columns.cols(); ++c)
+  {
+    multiplyEach(columns.col(c).data(), columns.col(c).data(), stride,
+      static_cast<std::size_t>(columns.rows()), static_cast<std::size_t>(columns.cols() - c),
+      products.col(c).data() + c);
+  }
+  products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
+  return products;
+}
+
 } // namespace msi
 #endif

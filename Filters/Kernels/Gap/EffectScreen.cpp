@@ -44,7 +44,7 @@ public:
     const std::vector<FreeParameter>& free) const
   {
     const Eigen::MatrixXd weighted = RootWeight.matrix().asDiagonal() * columns;
-    Eigen::MatrixXd normal = columnProducts(weighted, weighted);
+    Eigen::MatrixXd normal = columnProducts(weighted);
     if (Basis.cols() > 0)
     {
       const Eigen::MatrixXd along = columnProducts(Basis, weighted);

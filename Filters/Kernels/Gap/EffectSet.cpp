@@ -17,6 +17,24 @@ constexpr const char* Level = "exposure_gain";
 constexpr double FreeSpread = 10.0;     // typical sizes
 constexpr double SecondarySpread = 2.0; // typical sizes
 
+// (there - here) / step in the rows low..high of all samples; 0 for samples without reflectance.
+void derive(const Eigen::MatrixXd& there, const Eigen::MatrixXd& here, double step,
+  Eigen::Index low, Eigen::Index high, double* column)
+{
+  const bool whole = low == 0 && high == here.rows() - 1;
+  const Eigen::Index runs = whole ? 1 : here.cols();
+  const Eigen::Index count = whole ? here.size() : high - low + 1;
+  for (Eigen::Index j = 0; j < runs; ++j)
+  {
+    const Eigen::Index first = j * here.rows() + low;
+    for (Eigen::Index i = first; i < first + count; ++i)
+    {
+      const double change = (there.data()[i] - here.data()[i]) / step;
+      column[i] = std::isfinite(change) ? change : 0.0;
+    }
+  }
+}
+
 // The place of a step has no useful derivative.
 bool foundBySearch(const EffectParameter& parameter)
 {
@@ -261,8 +279,7 @@ Eigen::MatrixXd jacobian(
   const Eigen::Index reach = set.reach();
   const Eigen::Index colors = 2 * reach + 1;
   const Eigen::Index channels = base.rows();
-  Eigen::MatrixXd columns =
-    Eigen::MatrixXd::Zero(base.size(), static_cast<Eigen::Index>(free.size()));
+  Eigen::MatrixXd columns(base.size(), static_cast<Eigen::Index>(free.size()));
   const auto stepOf = [&](const FreeParameter& parameter)
   {
     const double value = valueOf(set, parameter);
@@ -289,27 +306,26 @@ Eigen::MatrixXd jacobian(
         }
       }
       const std::optional<StagedResponse> there = stagedResponse(here, moved);
-      if (!there)
-      {
-        continue;
-      }
-      // Samples without reflectance have no derivative.
-      Eigen::MatrixXd change = there->response() - base;
-      change = change.array().isFinite().select(change, 0.0);
       for (std::size_t p = first; p < last; ++p)
       {
         if (perChannel && free[p].channel % colors != color)
         {
           continue;
         }
-        const Eigen::Index low =
-          perChannel ? std::max<Eigen::Index>(free[p].channel - reach, 0) : 0;
-        const Eigen::Index high =
-          perChannel ? std::min<Eigen::Index>(free[p].channel + reach, channels - 1) : channels - 1;
-        Eigen::Map<Eigen::MatrixXd> column(
-          columns.col(static_cast<Eigen::Index>(p)).data(), channels, base.cols());
-        column.middleRows(low, high - low + 1) =
-          change.middleRows(low, high - low + 1) / stepOf(free[p]);
+        double* column = columns.col(static_cast<Eigen::Index>(p)).data();
+        if (perChannel || !there)
+        {
+          std::fill_n(column, base.size(), 0.0);
+        }
+        if (there)
+        {
+          const Eigen::Index low =
+            perChannel ? std::max<Eigen::Index>(free[p].channel - reach, 0) : 0;
+          const Eigen::Index high = perChannel
+            ? std::min<Eigen::Index>(free[p].channel + reach, channels - 1)
+            : channels - 1;
+          derive(there->response(), base, stepOf(free[p]), low, high, column);
+        }
       }
     }
     first = last;

@@ -42,7 +42,7 @@ Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
         to[i] = root[i] * from[samples[static_cast<std::size_t>(i)] * channels];
       }
     }
-    normal(active, active) += columnProducts(columns, columns);
+    normal(active, active) += columnProducts(columns);
   }
   return normal;
 }

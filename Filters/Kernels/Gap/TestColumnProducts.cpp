@@ -46,6 +46,15 @@ TEST(ColumnProducts, SumInAnOrderThatDependsOnNothingElse)
   }
 }
 
+TEST(ColumnProducts, OfOneMatrixAreTheSameBits)
+{
+  for (const Eigen::Index columns : { 1, 4, 7, 18 })
+  {
+    const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(75, columns);
+    EXPECT_EQ(msi::columnProducts(matrix), msi::columnProducts(matrix, matrix)) << columns;
+  }
+}
+
 TEST(ColumnProducts, TakeBlocksOfLargerMatrices)
 {
   const Eigen::MatrixXd whole = Eigen::MatrixXd::Random(40, 6);

@@ -54,9 +54,7 @@ StagedResponse::StagedResponse(CameraModel camera, const SampleScene& scene,
   , Chain(std::make_unique<const EffectChain>(
       std::move(camera), std::move(effects), options.whiteAfterEffects))
 {
-  reflectAndIntegrate(nullptr);
-  illuminate(nullptr);
-  detect(nullptr);
+  respond(nullptr);
 }
 
 StagedResponse::StagedResponse(
@@ -64,19 +62,45 @@ StagedResponse::StagedResponse(
   : Scene(related.Scene)
   , Chain(std::make_unique<const EffectChain>(
       *related.Chain, std::move(effects), options.whiteAfterEffects))
+  , Tail(related.Tail)
 {
-  reflectAndIntegrate(&related);
-  illuminate(&related);
-  detect(&related);
+  respond(&related);
 }
 
 StagedResponse::~StagedResponse() = default;
 StagedResponse::StagedResponse(StagedResponse&&) noexcept = default;
 StagedResponse& StagedResponse::operator=(StagedResponse&&) noexcept = default;
 
-void StagedResponse::reflectAndIntegrate(const StagedResponse* related)
+void StagedResponse::respond(const StagedResponse* related)
 {
   const SceneRun run(*Chain, *Scene);
+  reflectAndIntegrate(run, related);
+
+  const bool sameIntegral = related != nullptr && Integral == related->Integral;
+  Illuminated = !Chain->illuminates()                         ? Integral
+    : sameIntegral && Chain->illuminatesLike(*related->Chain) ? related->Illuminated
+                                                              : nullptr;
+  if (!Illuminated)
+  {
+    Eigen::MatrixXd signal = *Integral;
+    run.illuminate(signal, Tail);
+    Illuminated = keep(std::move(signal));
+  }
+
+  const bool sameLight = related != nullptr && Illuminated == related->Illuminated;
+  Detected = !Chain->detects()                         ? Illuminated
+    : sameLight && Chain->detectsLike(*related->Chain) ? related->Detected
+                                                       : nullptr;
+  if (!Detected)
+  {
+    Eigen::MatrixXd signal = *Illuminated;
+    run.detect(signal);
+    Detected = keep(std::move(signal));
+  }
+}
+
+void StagedResponse::reflectAndIntegrate(const SceneRun& run, const StagedResponse* related)
+{
   if (related == nullptr)
   {
     Reflected = Chain->needsMedium() ? keep(run.reflected()) : nullptr;
@@ -102,48 +126,6 @@ void StagedResponse::reflectAndIntegrate(const StagedResponse* related)
   Reflected = related->Reflected ? withColumns(related->Reflected, samples, some.reflected())
                                  : keep(run.reflected());
   Integral = keep(run.integral(*Reflected));
-}
-
-void StagedResponse::illuminate(const StagedResponse* related)
-{
-  if (related != nullptr)
-  {
-    Tail = related->Tail;
-  }
-  if (!Chain->illuminates())
-  {
-    Illuminated = Integral;
-  }
-  else if (related != nullptr && Integral == related->Integral &&
-    Chain->illuminatesLike(*related->Chain))
-  {
-    Illuminated = related->Illuminated;
-  }
-  else
-  {
-    Eigen::MatrixXd signal = *Integral;
-    SceneRun(*Chain, *Scene).illuminate(signal, Tail);
-    Illuminated = keep(std::move(signal));
-  }
-}
-
-void StagedResponse::detect(const StagedResponse* related)
-{
-  if (!Chain->detects())
-  {
-    Detected = Illuminated;
-  }
-  else if (related != nullptr && Illuminated == related->Illuminated &&
-    Chain->detectsLike(*related->Chain))
-  {
-    Detected = related->Detected;
-  }
-  else
-  {
-    Eigen::MatrixXd signal = *Illuminated;
-    SceneRun(*Chain, *Scene).detect(signal);
-    Detected = keep(std::move(signal));
-  }
 }
 
 } // namespace msi

@@ -12,6 +12,7 @@ namespace msi
 {
 
 class EffectChain;
+class SceneRun;
 class TailWeights;
 
 // CameraSimulator::respond, with what the light is after each stage kept. A response that is made from a related one
@@ -38,9 +39,8 @@ public:
 private:
   using Stage = std::shared_ptr<const Eigen::MatrixXd>;
 
-  void reflectAndIntegrate(const StagedResponse* related);
-  void illuminate(const StagedResponse* related);
-  void detect(const StagedResponse* related);
+  void respond(const StagedResponse* related);
+  void reflectAndIntegrate(const SceneRun& run, const StagedResponse* related);
 
   const SampleScene* Scene;
   std::unique_ptr<const EffectChain> Chain;

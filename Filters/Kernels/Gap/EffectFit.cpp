@@ -120,7 +120,7 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   std::optional<StagedResponse> here = stagedResponse(Data.camera, Data.scene, fit.set);
   if (!here)
   {
-    fit.predicted = respond(Data.camera, Data.scene, fit.set);
+    fit.predicted = noResponse(Data.camera, Data.scene);
     fit.jacobian = Eigen::MatrixXd::Zero(Data.observed.size(), count);
     fit.information = prior.matrix().asDiagonal();
     crossValidate(fit);

@@ -17,6 +17,25 @@ constexpr const char* Level = "exposure_gain";
 constexpr double FreeSpread = 10.0;     // typical sizes
 constexpr double SecondarySpread = 2.0; // typical sizes
 
+CameraSimulatorOptions optionsOf(const EffectSet& set)
+{
+  return { set.whiteAfterEffects() };
+}
+
+// Nothing for a trial that leaves a channel without light.
+template <typename Simulate>
+auto litOrNothing(Simulate simulate) -> std::optional<decltype(simulate())>
+{
+  try
+  {
+    return simulate();
+  }
+  catch (const std::invalid_argument&)
+  {
+    return std::nullopt;
+  }
+}
+
 // (there - here) / step in the rows low..high of all samples; 0 for samples without reflectance.
 void derive(const Eigen::MatrixXd& there, const Eigen::MatrixXd& here, double step,
   Eigen::Index low, Eigen::Index high, double* column)
@@ -233,43 +252,27 @@ void setValues(
 
 Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set)
 {
-  try
-  {
-    return CameraSimulator(camera, set.simulated(), { set.whiteAfterEffects() }).respond(scene);
-  }
-  catch (const std::invalid_argument&)
-  {
-    // A trial that leaves a channel without light: as bad as can be, for the fit to turn back from.
-    return Eigen::MatrixXd::Constant(
-      camera.channelCount(), scene.size(), std::numeric_limits<double>::quiet_NaN());
-  }
+  const auto response = litOrNothing(
+    [&] { return CameraSimulator(camera, set.simulated(), optionsOf(set)).respond(scene); });
+  return response ? *response : noResponse(camera, scene);
+}
+
+Eigen::MatrixXd noResponse(const CameraModel& camera, const SampleScene& scene)
+{
+  return Eigen::MatrixXd::Constant(
+    camera.channelCount(), scene.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
 std::optional<StagedResponse> stagedResponse(
   const CameraModel& camera, const SampleScene& scene, const EffectSet& set)
 {
-  try
-  {
-    return StagedResponse(
-      camera, scene, set.simulated(), CameraSimulatorOptions{ set.whiteAfterEffects() });
-  }
-  catch (const std::invalid_argument&)
-  {
-    return std::nullopt;
-  }
+  return litOrNothing(
+    [&] { return StagedResponse(camera, scene, set.simulated(), optionsOf(set)); });
 }
 
 std::optional<StagedResponse> stagedResponse(const StagedResponse& related, const EffectSet& set)
 {
-  try
-  {
-    return StagedResponse(
-      related, set.simulated(), CameraSimulatorOptions{ set.whiteAfterEffects() });
-  }
-  catch (const std::invalid_argument&)
-  {
-    return std::nullopt;
-  }
+  return litOrNothing([&] { return StagedResponse(related, set.simulated(), optionsOf(set)); });
 }
 
 Eigen::MatrixXd jacobian(

@@ -1,7 +1,6 @@
 // The detector's curve, offset and end.
+#include "Kernels/Camera/Effects/DetectorKernel.h"
 #include "Kernels/Camera/Effects/EffectEntry.h"
-#include "Kernels/Camera/Effects/PowerKernel.h"
-#include "Kernels/Camera/Effects/SaturationKernel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "Kernels/Camera/Effects/ColumnSumKernel.h"
 
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace msi
@@ -22,12 +21,14 @@ TailWeights::TailWeights(const SampleScene& scene, double reach, std::vector<cha
   for (const std::vector<SampleScene::Other>& surround : scene.surround())
   {
     First.push_back(Others.size());
+    Sums.push_back(0.0);
     for (const SampleScene::Other& other : surround)
     {
       if (Usable[static_cast<std::size_t>(other.sample)] != 0)
       {
         Others.push_back(other.sample);
         Weights.push_back(weight[static_cast<std::size_t>(other.distance)]);
+        Sums.back() += Weights.back();
       }
     }
   }
@@ -41,7 +42,7 @@ Eigen::MatrixXd TailWeights::mean(const Eigen::MatrixXd& signal) const
   {
     const std::size_t first = First[static_cast<std::size_t>(j)];
     const std::size_t end = First[static_cast<std::size_t>(j) + 1];
-    const double sum = std::accumulate(Weights.data() + first, Weights.data() + end, 0.0);
+    const double sum = Sums[static_cast<std::size_t>(j)];
     if (sum > 0.0)
     {
       weightedColumnSum(signal.data(), static_cast<std::size_t>(signal.rows()),

@@ -31,6 +31,7 @@ private:
   std::vector<std::size_t> First; // of each sample, and the end
   std::vector<int> Others;
   std::vector<double> Weights;
+  std::vector<double> Sums; // of the weights of each sample
 };
 
 } // namespace msi

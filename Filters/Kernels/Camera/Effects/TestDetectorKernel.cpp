@@ -1,4 +1,4 @@
-#include "Kernels/Camera/Effects/PowerKernel.h"
+#include "Kernels/Camera/Effects/DetectorKernel.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ double allowed(double exponent, double value)
   return 1e-14 * (1.0 + std::fabs(exponent * std::log(value)));
 }
 
-TEST(PowerKernel, RaisesAsTheStandardLibraryDoes)
+TEST(DetectorKernel, RaisesAsTheStandardLibraryDoes)
 {
   for (const double exponent : { 0.4, 1.0, 2.5, -3.0 })
   {
@@ -39,7 +39,7 @@ TEST(PowerKernel, RaisesAsTheStandardLibraryDoes)
   }
 }
 
-TEST(PowerKernel, SaturatesByTheFormula)
+TEST(DetectorKernel, SaturatesByTheFormula)
 {
   for (const double sharpness : { 2.0, 10.0, 60.0 })
   {
@@ -55,7 +55,7 @@ TEST(PowerKernel, SaturatesByTheFormula)
   }
 }
 
-TEST(PowerKernel, LeavesWhatIsNotAboveZero)
+TEST(DetectorKernel, LeavesWhatIsNotAboveZero)
 {
   std::vector<double> values{ -0.5, 0.0, std::numeric_limits<double>::quiet_NaN() };
   msi::raise(1.3, values.data(), values.size());
@@ -65,7 +65,7 @@ TEST(PowerKernel, LeavesWhatIsNotAboveZero)
   EXPECT_TRUE(std::isnan(values[2]));
 }
 
-TEST(PowerKernel, AValuesBytesDependOnNoOther)
+TEST(DetectorKernel, AValuesBytesDependOnNoOther)
 {
   std::vector<double> together = signals();
   msi::raise(1.7, together.data(), together.size());

@@ -18,3 +18,13 @@ paraview_plugin_scan(
 paraview_plugin_build(
   PLUGINS ${plugins}
   PLUGINS_FILE_NAME "multispectral.plugins.xml")
+
+# The generated wrappers of a module's classes for the server manager belong together too.
+foreach(module IN LISTS MULTISPECTRAL_MODULES)
+  string(REPLACE "::" "" library "${module}")
+  string(REPLACE "Multispectral::" "" target "${module}")
+  multispectral_unity(${target})
+  if(MULTISPECTRAL_UNITY AND TARGET ${library}CS)
+    set_target_properties(${library}CS PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  endif()
+endforeach()

@@ -24,12 +24,10 @@ namespace msi
 
 namespace
 {
-constexpr const char* WavelengthColumn = "wavelength";
 constexpr const char* DarkArray = "Dark";
 constexpr const char* NoiseArray = "Noise";
 constexpr const char* EffectsArray = "Effects";
 constexpr const char* WhiteAfterEffectsArray = "WhiteAfterEffects";
-constexpr double FirstWavelength = 100.0;
 
 void addField(vtkDataObject* table, const char* name, const std::vector<double>& values)
 {

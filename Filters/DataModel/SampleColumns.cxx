@@ -15,8 +15,6 @@ namespace msi
 
 namespace
 {
-// A camera channel numbered below this is an index, from it on a wavelength in nm.
-constexpr double FirstWavelength = 100.0;
 
 struct Column
 {

@@ -24,6 +24,11 @@ class vtkTable;
 namespace msi
 {
 
+// Of tables whose rows are wavelengths.
+inline constexpr const char* WavelengthColumn = "wavelength";
+// A camera channel numbered below this is an index, from it on a wavelength in nm.
+inline constexpr double FirstWavelength = 100.0;
+
 enum class SampleQuantity : char
 {
   Reflectance = 'R',

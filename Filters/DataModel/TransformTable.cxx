@@ -17,7 +17,6 @@ namespace msi
 
 namespace
 {
-constexpr const char* WavelengthColumn = "wavelength";
 constexpr const char* ChannelColumn = "channel";
 constexpr const char* ConstantColumn = "constant";
 constexpr const char* MatrixColumn = "matrix";

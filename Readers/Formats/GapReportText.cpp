@@ -8,14 +8,14 @@ namespace msi
 namespace
 {
 // Keys in the order of writing.
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json whereOf(const GapReport& report)
+OrderedJson whereOf(const GapReport& report)
 {
-  Json where = Json::array();
+  OrderedJson where = OrderedJson::array();
   for (const GapAxis& axis : report.where)
   {
-    Json worst = Json::array();
+    OrderedJson worst = OrderedJson::array();
     for (const GapCell& cell : axis.worst)
     {
       worst.push_back({ { "cell", cell.cell }, { "share", cell.share } });
@@ -25,12 +25,12 @@ Json whereOf(const GapReport& report)
   return where;
 }
 
-Json causesOf(const GapReport& report)
+OrderedJson causesOf(const GapReport& report)
 {
-  Json causes = Json::array();
+  OrderedJson causes = OrderedJson::array();
   for (const GapCause& cause : report.causes)
   {
-    Json parameters = Json::array();
+    OrderedJson parameters = OrderedJson::array();
     for (const GapParameter& parameter : cause.parameters)
     {
       parameters.push_back({ { "name", parameter.name }, { "value", parameter.value },
@@ -43,9 +43,9 @@ Json causesOf(const GapReport& report)
   return causes;
 }
 
-Json candidatesOf(const GapReport& report)
+OrderedJson candidatesOf(const GapReport& report)
 {
-  Json candidates = Json::array();
+  OrderedJson candidates = OrderedJson::array();
   for (const GapCandidate& candidate : report.candidates)
   {
     candidates.push_back(
@@ -55,9 +55,9 @@ Json candidatesOf(const GapReport& report)
   return candidates;
 }
 
-Json changePointsOf(const GapReport& report)
+OrderedJson changePointsOf(const GapReport& report)
 {
-  Json points = Json::array();
+  OrderedJson points = OrderedJson::array();
   for (const GapChangePoint& point : report.changePoints)
   {
     points.push_back(
@@ -71,7 +71,7 @@ std::string gapReportText(const GapReport& report)
 {
   const GapFigures& gap = report.gap;
   const GapNextCapture next = report.nextCapture.value_or(GapNextCapture{});
-  const Json json = { { "verdict", nameOf(report.verdict) },
+  const OrderedJson json = { { "verdict", nameOf(report.verdict) },
     { "gap",
       { { "rms_before", gap.rmsBefore }, { "rms_after", gap.rmsAfter },
         { "noise_floor", gap.noiseFloor }, { "shrink", gap.shrink },
@@ -83,7 +83,7 @@ std::string gapReportText(const GapReport& report)
     { "next_capture", { { "capture", next.capture }, { "separates", next.separates } } },
     { "notes", report.notes } };
   // Names come from the user's tables: bytes that are no UTF-8 must not end the writing.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 } // namespace msi

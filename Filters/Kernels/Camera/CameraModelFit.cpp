@@ -29,7 +29,7 @@ enum Stream : std::uint32_t
 };
 
 template <typename... Parts>
-[[noreturn]] void reject(const Parts&... parts)
+[[noreturn]] void rejectFit(const Parts&... parts)
 {
   std::ostringstream message;
   (message << ... << parts);
@@ -41,43 +41,43 @@ void requireValid(const WavelengthGrid& wavelengths, const Eigen::MatrixXd& refl
 {
   if (reflectance.rows() != wavelengths.size())
   {
-    reject("the chart's reflectances have ", reflectance.rows(), " wavelengths, their grid ",
+    rejectFit("the chart's reflectances have ", reflectance.rows(), " wavelengths, their grid ",
       wavelengths.size());
   }
   if (reflectance.cols() != response.cols())
   {
-    reject(
+    rejectFit(
       "the chart has ", reflectance.cols(), " reflectances but ", response.cols(), " responses");
   }
   if (response.rows() == 0)
   {
-    reject("the chart's responses have no channel");
+    rejectFit("the chart's responses have no channel");
   }
   if (!wavelengths.step())
   {
-    reject("a camera model is fitted on a uniform wavelength grid of two wavelengths or more; "
-           "resample the reflectances");
+    rejectFit("a camera model is fitted on a uniform wavelength grid of two wavelengths or more; "
+              "resample the reflectances");
   }
   if (options.nominal &&
     (options.nominal->channelCount() != response.rows() ||
       options.nominal->wavelengths() != wavelengths))
   {
-    reject("the nominal camera has ", options.nominal->channelCount(), " channels and ",
+    rejectFit("the nominal camera has ", options.nominal->channelCount(), " channels and ",
       options.nominal->wavelengths().size(), " wavelengths, the chart ", response.rows(), " and ",
       wavelengths.size(), "; expected the same");
   }
   if (options.dark && options.dark->size() != response.rows())
   {
-    reject("the chart has ", response.rows(), " channels but ", options.dark->size(),
+    rejectFit("the chart has ", response.rows(), " channels but ", options.dark->size(),
       " dark responses are given");
   }
   if (!(options.passbandWidth > 0.0))
   {
-    reject("the passband width is ", options.passbandWidth, " nm; expected above 0");
+    rejectFit("the passband width is ", options.passbandWidth, " nm; expected above 0");
   }
   if (options.draws < 0)
   {
-    reject("the number of bootstrap draws is ", options.draws, "; expected 0 or more");
+    rejectFit("the number of bootstrap draws is ", options.draws, "; expected 0 or more");
   }
 }
 
@@ -303,12 +303,12 @@ CameraModelFit fitCameraModel(const WavelengthGrid& wavelengths,
   const auto samples = static_cast<Eigen::Index>(finite.size());
   if (samples < FewestSamples)
   {
-    reject("the chart has ", samples, " samples with finite values; a camera model needs ",
+    rejectFit("the chart has ", samples, " samples with finite values; a camera model needs ",
       FewestSamples, " or more");
   }
   if (options.folds < 2 || options.folds > samples)
   {
-    reject("the cross-validation has ", options.folds, " folds; expected 2 to ", samples);
+    rejectFit("the cross-validation has ", options.folds, " folds; expected 2 to ", samples);
   }
   const Eigen::MatrixXd reflectance = allReflectance(Eigen::all, finite);
   const Eigen::MatrixXd response = allResponse(Eigen::all, finite);

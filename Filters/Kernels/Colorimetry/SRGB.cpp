@@ -13,7 +13,6 @@ namespace msi
 
 namespace
 {
-constexpr double WhiteY = 100.0;
 
 Eigen::Vector3d fromChromaticity(double x, double y)
 {

@@ -1,5 +1,7 @@
 #include "Kernels/Colorimetry/TristimulusTransform.h"
 
+#include "Kernels/Colorimetry/WhitePoint.h"
+
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
@@ -9,7 +11,6 @@ namespace msi
 
 namespace
 {
-constexpr double WhiteY = 100.0;
 
 // The bands of one group are summed in Scalar, the groups in double.
 constexpr Eigen::Index GroupedBands = 8;

@@ -9,6 +9,9 @@
 namespace msi
 {
 
+// Y of the perfect diffuser, to which XYZ is scaled.
+inline constexpr double WhiteY = 100.0;
+
 // The white point itself; throws std::invalid_argument unless it is finite and positive.
 inline Eigen::Vector3d validWhitePoint(const Eigen::Vector3d& whitePoint)
 {

@@ -13,7 +13,7 @@ namespace
 {
 constexpr std::size_t CellsNamed = 5;
 
-std::string range(const char* what, double low, double high)
+std::string rangeText(const char* what, double low, double high)
 {
   std::ostringstream text;
   text.precision(3);
@@ -26,7 +26,7 @@ std::string part(const char* what, double value, double low, double high, int pa
   const double width = (high - low) / parts;
   const double at = width > 0.0 ? std::floor((value - low) / width) : 0.0;
   const double cell = std::fmin(std::fmax(at, 0.0), parts - 1.0);
-  return range(what, low + cell * width, low + (cell + 1.0) * width);
+  return rangeText(what, low + cell * width, low + (cell + 1.0) * width);
 }
 
 using CellOf = std::function<std::string(Eigen::Index, Eigen::Index)>;

@@ -8,7 +8,7 @@ namespace msi::scenes
 
 namespace
 {
-enum Stream : std::uint32_t
+enum : std::uint32_t
 {
   Mounting = 21,
   Yarn,
@@ -21,7 +21,6 @@ constexpr double PaperOutside = 0.040;
 constexpr double PaperInside = 0.45;
 constexpr double PaperSpecularSeen =
   0.35; // semi-matte: part of the surface light leaves at 0 degrees
-constexpr double FibreSurface = 0.012;
 constexpr double RepeatabilityOfReading = 0.0008;
 // Colorant on the spot that the camera averages, against the spot in the spectrophotometer's port.
 constexpr double PaperUnevenness = 0.025;

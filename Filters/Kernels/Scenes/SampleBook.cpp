@@ -13,7 +13,6 @@ namespace
 {
 constexpr int ShadowWidth = 2;
 constexpr double ShadowDepth = 0.55;
-constexpr double FibreSurface = 0.012;
 
 // Which yarn of the tartan lies at a position: a symmetric sett of four colours.
 constexpr std::array<int, 24> Sett = { 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 2, 2, 2, 2, 3, 2, 2, 2, 2, 0,

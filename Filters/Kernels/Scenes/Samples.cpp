@@ -13,7 +13,7 @@ namespace msi::scenes
 
 namespace
 {
-enum Stream : std::uint32_t
+enum : std::uint32_t
 {
   Recipe = 1,
   Amount,

@@ -10,7 +10,7 @@ namespace msi::scenes
 
 namespace
 {
-enum Stream : std::uint32_t
+enum : std::uint32_t
 {
   WarpYarn = 11,
   WeftYarn,

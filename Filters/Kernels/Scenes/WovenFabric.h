@@ -8,6 +8,9 @@
 namespace msi::scenes
 {
 
+// Reflectance of a fibre's surface, which adds to that of its body.
+inline constexpr double FibreSurface = 0.012;
+
 // A weave of crossing yarns, sampled in pixels. Each pixel of a yarn's round back receives its own share
 // of the light (Shade), and a share of what it reflects strikes a yarn again (Cavity).
 struct Weave

@@ -17,7 +17,7 @@ constexpr std::size_t HeadSize =
   4096; // flags, shape and name of a variable and the tag of its data
 constexpr std::uint32_t Matrix = 14;
 constexpr std::uint32_t Compressed = 15;
-constexpr std::uint32_t LongestName = 1024;
+constexpr std::uint32_t LongestVariableName = 1024;
 constexpr std::uint32_t MostAxes = 32;
 constexpr std::uint32_t ClassMask = 0xFF;
 constexpr std::uint32_t ComplexFlag = 0x800;
@@ -210,7 +210,7 @@ private:
     const auto name = shape ? reader.wholeAt(shape->next) : std::nullopt;
     const auto values = name ? reader.tagAt(name->next) : std::nullopt;
     if (!values || shape->size % 4 != 0 || shape->size / 4 < 2 || shape->size / 4 > MostAxes ||
-      name->size > LongestName)
+      name->size > LongestVariableName)
     {
       return std::nullopt;
     }

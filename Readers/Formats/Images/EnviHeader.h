@@ -5,6 +5,7 @@
 #include "Formats/SpectralImageFile.h"
 #include "Formats/SpectralImageWriter.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -24,6 +25,12 @@ struct EnviHeader
   // headerOffset and all samples; the parser made sure that it fits.
   std::int64_t expectedFileSize() const noexcept;
 };
+
+// Of this machine.
+inline constexpr ByteOrder NativeByteOrder =
+  __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? ByteOrder::Little : ByteOrder::Big;
+// Samples are read and written in pieces that stay in the second-level cache until they are interleaved.
+inline constexpr std::size_t EnviChunkBytes = 1 << 20;
 
 // True for a text that begins with the word ENVI or envi.
 bool looksLikeEnviHeader(std::string_view beginning) noexcept;

@@ -16,11 +16,6 @@ namespace msi
 
 namespace
 {
-constexpr std::size_t ChunkBytes = 1
-  << 20; // stays in the second-level cache until it is interleaved
-
-constexpr bool IsLittleEndian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
-
 class EnviImage final : public SpectralImageFile
 {
 public:
@@ -35,7 +30,7 @@ public:
     Conversion.divisor = Info.reflectanceScale;
     Conversion.hasIgnoreValue = Info.ignoreValue.has_value();
     Conversion.ignoreValue = Info.ignoreValue.value_or(0.0);
-    Conversion.swapBytes = (header.byteOrder == ByteOrder::Little) != IsLittleEndian;
+    Conversion.swapBytes = header.byteOrder != NativeByteOrder;
   }
 
   const RandomAccessFile& data() const noexcept { return Data; }
@@ -52,7 +47,7 @@ private:
     const std::size_t rowBytes = span.bands * span.columns * sampleSize(Type);
     const int height = block.region.height();
     const int rowsAtOnce = static_cast<int>(
-      std::clamp<std::size_t>(ChunkBytes / rowBytes, 1, static_cast<std::size_t>(height)));
+      std::clamp<std::size_t>(EnviChunkBytes / rowBytes, 1, static_cast<std::size_t>(height)));
     std::vector<unsigned char> buffer(rowBytes * static_cast<std::size_t>(rowsAtOnce));
     std::vector<BandRow> rows(block.bands.size());
     for (int y = 0; y < height; y += rowsAtOnce)

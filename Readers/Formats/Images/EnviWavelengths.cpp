@@ -1,5 +1,6 @@
 #include "Formats/Images/EnviWavelengths.h"
 
+#include "Formats/Images/SpectralExrName.h"
 #include "Formats/Text/NumberText.h"
 #include "Formats/Text/SpectralNames.h"
 
@@ -27,7 +28,6 @@ struct SpectralUnit
   bool reciprocal;
 };
 constexpr double NanometresPerCentimetre = 1e7;
-constexpr double SpeedOfLight = 299792458.0; // m/s, that is nm GHz
 constexpr std::array<SpectralUnit, 26> SpectralUnits = { {
   { "nanometers", 1.0, false },
   { "nanometer", 1.0, false },

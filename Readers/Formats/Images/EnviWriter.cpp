@@ -22,9 +22,6 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::size_t ChunkBytes = 1 << 20;
-constexpr bool IsLittleEndian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
-
 class EnviWriter final : public SpectralImageWriter
 {
 public:
@@ -38,7 +35,7 @@ public:
     Encoding.type = Header.type;
     Encoding.factor = Header.info.reflectanceScale;
     Encoding.ignoreValue = Header.info.ignoreValue;
-    Encoding.swapBytes = (Header.byteOrder == ByteOrder::Little) != IsLittleEndian;
+    Encoding.swapBytes = Header.byteOrder != NativeByteOrder;
   }
 
   void writeRows(int rows, const float* pixels, std::ptrdiff_t rowStride) override
@@ -73,7 +70,7 @@ private:
       rowStride == 0 ? static_cast<std::ptrdiff_t>(width() * bands()) : rowStride;
     const std::size_t rowBytes = width() * bands() * size();
     const int rowsAtOnce =
-      static_cast<int>(std::clamp<std::size_t>(ChunkBytes / rowBytes, 1, 1 << 16));
+      static_cast<int>(std::clamp<std::size_t>(EnviChunkBytes / rowBytes, 1, 1 << 16));
     for (int y = 0; y < rows; y += rowsAtOnce)
     {
       const int count = std::min(rowsAtOnce, rows - y);

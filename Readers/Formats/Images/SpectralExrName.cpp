@@ -14,7 +14,6 @@ namespace msi
 
 namespace
 {
-constexpr double SpeedOfLight = 299792458.0; // m/s
 constexpr double NanometresPerMetre = 1e9;
 constexpr double Shortest = 1.0;
 constexpr double Longest = 1e6;

@@ -8,6 +8,8 @@
 namespace msi
 {
 
+inline constexpr double SpeedOfLight = 299792458.0; // m/s, that is nm GHz
+
 struct SpectralExrName
 {
   char kind;         // 'T' reflective or transmissive, 'S' emissive

@@ -8,7 +8,7 @@ namespace msi
 
 namespace
 {
-constexpr double MiddleWavelength = 550.0;
+constexpr double ReferenceWavelength = 550.0;
 
 // Calls Derived::change(column) for the columns of one medium.
 template <typename Derived>
@@ -61,7 +61,7 @@ public:
   explicit Translucency(const BoundEffect& effect)
     : MediumOperator(effect)
     , Loss(effect.value("loss") *
-        (effect.camera().wavelengths().vector().array() / MiddleWavelength)
+        (effect.camera().wavelengths().vector().array() / ReferenceWavelength)
           .pow(effect.value("exponent")))
   {
   }

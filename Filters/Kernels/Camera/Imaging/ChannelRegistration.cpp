@@ -16,7 +16,7 @@ namespace msi
 namespace
 {
 // A row's weights are repeated over so many pixels that a loop over them is worth its start.
-constexpr std::size_t TilePixels = 32;
+constexpr std::size_t RegisteredPixels = 32;
 
 // Cubic convolution around a place on an axis: weights of the pixels from `first` on.
 struct Cubic
@@ -255,9 +255,9 @@ const float* RegistrationRows::next()
   const Span span = spanOf(cubics.data(), Channels);
   const int pixels = span.last - span.first + 1;
   const auto taps = static_cast<std::size_t>(pixels);
-  const std::size_t period = TilePixels * Channels;
+  const std::size_t period = RegisteredPixels * Channels;
   RowWeights.assign(taps * period, 0.0F);
-  for (std::size_t i = 0; i < TilePixels; ++i)
+  for (std::size_t i = 0; i < RegisteredPixels; ++i)
   {
     spread(cubics.data(), Channels, period, RowWeights.data() + i * Channels);
   }

@@ -11,7 +11,6 @@ namespace msi
 
 namespace
 {
-constexpr int Columns = FieldColumn::Residual;
 constexpr double Ridge = 1e-6;
 }
 
@@ -79,7 +78,7 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
     matrix.diagonal().array() += 1e-12;
     return matrix;
   };
-  std::vector<Eigen::VectorXd> change(normal.size(), Eigen::VectorXd::Zero(Columns));
+  std::vector<Eigen::VectorXd> change(normal.size(), Eigen::VectorXd::Zero(ModelColumns));
   // Eliminate the own columns, as in FieldFitter.
   const auto C = static_cast<Eigen::Index>(common.size());
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(C, C);
@@ -87,7 +86,7 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
   for (const Eigen::MatrixXd& N : normal)
   {
     H += part(N, common);
-    g += Eigen::VectorXd(N.col(Columns))(common);
+    g += Eigen::VectorXd(N.col(ModelColumns))(common);
   }
   H = ridged(H);
   std::vector<Eigen::MatrixXd> toCommon;
@@ -95,7 +94,7 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
   for (const Eigen::MatrixXd& N : normal)
   {
     Eigen::MatrixXd E = N(own, common);
-    Eigen::VectorXd h = Eigen::VectorXd(N.col(Columns))(own);
+    Eigen::VectorXd h = Eigen::VectorXd(N.col(ModelColumns))(own);
     if (!own.empty())
     {
       const Eigen::LDLT<Eigen::MatrixXd> factor(ridged(part(N, own)));
@@ -146,7 +145,7 @@ void takeCommonGain(
   {
     gain.push_back(change[k][FieldColumn::Gain] - mean);
     const Eigen::VectorXd along = normal[k].col(FieldColumn::Gain);
-    normal[k].col(Columns) -= gain[k] * along;
+    normal[k].col(ModelColumns) -= gain[k] * along;
   }
   own.erase(std::remove(own.begin(), own.end(), int(FieldColumn::Gain)), own.end());
   change = regress(normal, {}, own);
@@ -181,8 +180,9 @@ double energyLeft(
   for (std::size_t k = 0; k < normal.size(); ++k)
   {
     const Eigen::MatrixXd& N = normal[k];
-    energy += N(Columns, Columns) - 2.0 * change[k].dot(N.col(Columns).head(Columns)) +
-      change[k].dot(N.topLeftCorner(Columns, Columns) * change[k]);
+    energy += N(ModelColumns, ModelColumns) -
+      2.0 * change[k].dot(N.col(ModelColumns).head(ModelColumns)) +
+      change[k].dot(N.topLeftCorner(ModelColumns, ModelColumns) * change[k]);
   }
   return energy;
 }

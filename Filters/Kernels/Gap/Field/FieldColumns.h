@@ -53,6 +53,9 @@ enum Index : int
 };
 }
 
+// Those of the model: all that stand before the residual.
+inline constexpr int ModelColumns = FieldColumn::Residual;
+
 // The weights of the tail's passes for a radius (ScatterTail), and their derivative by the radius.
 Eigen::ArrayXd tailWeights(double radius);
 Eigen::ArrayXd tailSlope(double radius);

@@ -7,7 +7,6 @@ namespace msi
 
 namespace
 {
-constexpr int Columns = FieldColumn::Residual;
 constexpr int Rounds = 3;
 }
 
@@ -28,7 +27,7 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
       const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
       Total[k] += sums.normal;
       Fold[static_cast<std::size_t>(fold)][k] += sums.normal;
-      Energy += sums.normal(Columns, Columns);
+      Energy += sums.normal(ModelColumns, ModelColumns);
       Chance += sums.chance;
     }
   }
@@ -144,8 +143,9 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
   }
   const auto energyOf = [](const Eigen::MatrixXd& normal, const Eigen::VectorXd& change)
   {
-    return normal(Columns, Columns) - 2.0 * change.dot(normal.col(Columns).head(Columns)) +
-      change.dot(normal.topLeftCorner(Columns, Columns) * change);
+    return normal(ModelColumns, ModelColumns) -
+      2.0 * change.dot(normal.col(ModelColumns).head(ModelColumns)) +
+      change.dot(normal.topLeftCorner(ModelColumns, ModelColumns) * change);
   };
   fit.blockEnergy.setZero(
     detail == FieldDetail::Blocks ? static_cast<Eigen::Index>(Data.blocks.size()) : 0);

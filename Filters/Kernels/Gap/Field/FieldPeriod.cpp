@@ -13,7 +13,7 @@ namespace msi
 namespace
 {
 constexpr double FalseAlarm = 1e-3;
-constexpr double Oversampling = 6.0;
+constexpr double PeriodOversampling = 6.0;
 constexpr int Refinements = 40;
 constexpr Eigen::Index FewestLines = 24;
 const double ExponentialMedian = std::log(2.0);
@@ -85,8 +85,8 @@ FieldPeriod findPeriod(
   }
   detrend(profile, 3);
   const double span = static_cast<double>(lines);
-  const auto count = static_cast<int>(Oversampling * (0.5 * span - 2.0)) + 1;
-  const auto frequencyOf = [&](int i) { return (2.0 + i / Oversampling) / span; };
+  const auto count = static_cast<int>(PeriodOversampling * (0.5 * span - 2.0)) + 1;
+  const auto frequencyOf = [&](int i) { return (2.0 + i / PeriodOversampling) / span; };
   Eigen::ArrayXXd power(count, K);
   constexpr int Batch = 64;
   loop((count + Batch - 1) / Batch,
@@ -121,8 +121,8 @@ FieldPeriod findPeriod(
   {
     return {};
   }
-  double low = frequencyOf(best) - 1.0 / (Oversampling * span);
-  double high = std::fmin(frequencyOf(best) + 1.0 / (Oversampling * span), 0.5);
+  double low = frequencyOf(best) - 1.0 / (PeriodOversampling * span);
+  double high = std::fmin(frequencyOf(best) + 1.0 / (PeriodOversampling * span), 0.5);
   for (int i = 0; i < Refinements; ++i)
   {
     const double a = low + (high - low) / 3.0;

@@ -12,8 +12,8 @@ namespace
 {
 constexpr int Farthest = 10;
 constexpr int Side = 2 * Farthest + 1;
-constexpr std::size_t MostBlocks = 64;
-constexpr double Better = 0.002; // of correlation; less is not worth a start elsewhere
+constexpr std::size_t ShiftBlocks = 64;
+constexpr double BetterCorrelation = 0.002; // of correlation; less is not worth a start elsewhere
 
 // Of a block in one channel: variances and covariance with the scene at each displacement.
 struct Match
@@ -124,7 +124,7 @@ FieldStart registrationStart(const FieldData& data, const FieldLoop& loop)
   std::vector<const FieldBlock*> blocks;
   for (const FieldBlock& block : data.blocks)
   {
-    if (block.fold >= 0 && blocks.size() < MostBlocks)
+    if (block.fold >= 0 && blocks.size() < ShiftBlocks)
     {
       blocks.push_back(&block);
     }
@@ -141,11 +141,11 @@ FieldStart registrationStart(const FieldData& data, const FieldLoop& loop)
       {
         matches.push_back(matchOf(data, *block, channel));
       }
-      Best best{ Similarity::Zero(), correlation(matches, Similarity::Zero()) + Better };
+      Best best{ Similarity::Zero(), correlation(matches, Similarity::Zero()) + BetterCorrelation };
       move(matches, Similarity::Zero(), Farthest, best);
       start.shift.row(channel) = best.at;
       // A pixel more at the end of the longer side with each step.
-      best.value += Better;
+      best.value += BetterCorrelation;
       for (const int parameter : { 3, 2 })
       {
         const Similarity around = best.at;

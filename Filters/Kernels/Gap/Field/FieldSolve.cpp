@@ -9,7 +9,6 @@ namespace msi
 
 namespace
 {
-constexpr int Columns = FieldColumn::Residual;
 constexpr double Held = 1e4; // times the information, of a parameter that is held
 }
 
@@ -35,8 +34,8 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
   std::vector<Eigen::MatrixXd> B;
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    A.emplace_back(Columns, C);
-    B.emplace_back(Columns, O);
+    A.emplace_back(ModelColumns, C);
+    B.emplace_back(ModelColumns, O);
     for (Eigen::Index c = 0; c < C; ++c)
     {
       A.back().col(c) =
@@ -47,9 +46,11 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
       B.back().col(o) =
         coefficients(terms[own[static_cast<std::size_t>(o)]].term.parameter, k, shape);
     }
-    const auto local = normal[static_cast<std::size_t>(k)].topLeftCorner(Columns, Columns);
+    const auto local =
+      normal[static_cast<std::size_t>(k)].topLeftCorner(ModelColumns, ModelColumns);
     H += A.back().transpose() * local * A.back();
-    g += A.back().transpose() * normal[static_cast<std::size_t>(k)].col(Columns).head(Columns);
+    g += A.back().transpose() *
+      normal[static_cast<std::size_t>(k)].col(ModelColumns).head(ModelColumns);
   }
   const auto pull = [this](const Bound& bound, Eigen::Index k, double information, double& onto)
   {
@@ -68,10 +69,10 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
   std::vector<Eigen::VectorXd> alone;
   for (std::size_t k = 0; k < normal.size(); ++k)
   {
-    const auto local = normal[k].topLeftCorner(Columns, Columns);
+    const auto local = normal[k].topLeftCorner(ModelColumns, ModelColumns);
     const Eigen::MatrixXd LB = local * B[k];
     Eigen::MatrixXd D = B[k].transpose() * LB;
-    Eigen::VectorXd h = B[k].transpose() * normal[k].col(Columns).head(Columns);
+    Eigen::VectorXd h = B[k].transpose() * normal[k].col(ModelColumns).head(ModelColumns);
     for (Eigen::Index o = 0; o < O; ++o)
     {
       D(o, o) +=

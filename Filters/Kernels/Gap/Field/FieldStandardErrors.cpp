@@ -11,7 +11,6 @@ namespace msi
 
 namespace
 {
-constexpr int Columns = FieldColumn::Residual;
 }
 
 Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
@@ -31,7 +30,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
   const auto p = static_cast<Eigen::Index>(single.size());
   const FieldShape shape = this->shape();
   std::vector<Eigen::MatrixXd> design(
-    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(Columns, p));
+    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(ModelColumns, p));
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(p, p);
   for (Eigen::Index k = 0; k < K; ++k)
   {
@@ -45,7 +44,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
       }
     }
     information += columns.transpose() *
-      Total[static_cast<std::size_t>(k)].topLeftCorner(Columns, Columns) * columns;
+      Total[static_cast<std::size_t>(k)].topLeftCorner(ModelColumns, ModelColumns) * columns;
   }
   for (Eigen::Index i = 0; i < p; ++i)
   {
@@ -65,7 +64,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
     for (Eigen::Index k = 0; k < K; ++k)
     {
       g += design[static_cast<std::size_t>(k)].transpose() *
-        Statistics.at(b, k).normal.col(Columns).head(Columns);
+        Statistics.at(b, k).normal.col(ModelColumns).head(ModelColumns);
     }
   }
   for (const auto& [number, g] : ofGroup)
@@ -86,7 +85,7 @@ Eigen::MatrixXd FieldFitter::contributionProducts(const FieldSet& set) const
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count + 1, count + 1);
   for (Eigen::Index k = 0; k < Data.channels(); ++k)
   {
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Columns, count + 1);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(ModelColumns, count + 1);
     for (Eigen::Index e = 0; e < count; ++e)
     {
       for (const FieldTerm& term : set[static_cast<std::size_t>(e)]->terms)
@@ -100,7 +99,7 @@ Eigen::MatrixXd FieldFitter::contributionProducts(const FieldSet& set) const
     }
     columns.col(count) = columns.leftCols(count).rowwise().sum();
     products += columns.transpose() *
-      Total[static_cast<std::size_t>(k)].topLeftCorner(Columns, Columns) * columns;
+      Total[static_cast<std::size_t>(k)].topLeftCorner(ModelColumns, ModelColumns) * columns;
   }
   return products;
 }

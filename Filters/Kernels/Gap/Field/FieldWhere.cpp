@@ -14,7 +14,6 @@ namespace msi
 
 namespace
 {
-constexpr int Columns = FieldColumn::Residual;
 constexpr double LeastShare = 0.005;
 // Where channel and level alone predict this part of what all axes predict, position is asked only for contrasts.
 constexpr double ContrastPart = 0.9;
@@ -37,7 +36,7 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
     {
       fieldColumns(data, statistics.model, glare, block, static_cast<Eigen::Index>(k), scratch);
       const Eigen::VectorXd left =
-        scratch.columns.col(Columns) - scratch.columns.leftCols(Columns) * change[k];
+        scratch.columns.col(ModelColumns) - scratch.columns.leftCols(ModelColumns) * change[k];
       for (Eigen::Index n = 0; n < left.size(); ++n)
       {
         const int pixel = scratch.pixel[static_cast<std::size_t>(n)];
@@ -52,7 +51,7 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
         sums.resize(K, { 0.0, 0.0, 0.0 });
         sums[k][0] += left[n];
         sums[k][1] += 1.0;
-        sums[k][2] += scratch.columns(n, Columns) * scratch.columns(n, Columns);
+        sums[k][2] += scratch.columns(n, ModelColumns) * scratch.columns(n, ModelColumns);
       }
     }
   }
@@ -82,7 +81,7 @@ std::vector<GapAxis> fieldAxes(
   double noise = 0.0;
   for (std::size_t k = 0; k < K; ++k)
   {
-    before += test[k](Columns, Columns);
+    before += test[k](ModelColumns, ModelColumns);
   }
   std::vector<std::pair<double, double>> level;
   std::vector<std::pair<double, double>> gradient;
@@ -111,7 +110,7 @@ std::vector<GapAxis> fieldAxes(
   }
   const std::size_t subsets = std::size_t(1) << axes.size();
   std::vector<double> explained(subsets, 0.0);
-  std::vector<Eigen::VectorXd> change(K, Eigen::VectorXd::Zero(Columns));
+  std::vector<Eigen::VectorXd> change(K, Eigen::VectorXd::Zero(ModelColumns));
   const auto explain = [&](std::size_t subset)
   {
     std::vector<int> common;
@@ -195,8 +194,8 @@ std::vector<GapAxis> fieldAxes(
       {
         const Eigen::MatrixXd& N = plain.at(b, static_cast<Eigen::Index>(k)).normal;
         const double pixels = N(FieldColumn::One, FieldColumn::One);
-        const double sum =
-          N(FieldColumn::One, Columns) - N.row(FieldColumn::One).head(Columns).dot(change[k]);
+        const double sum = N(FieldColumn::One, ModelColumns) -
+          N.row(FieldColumn::One).head(ModelColumns).dot(change[k]);
         const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
         if (pixels > 0.0)
         {

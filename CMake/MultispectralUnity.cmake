@@ -4,7 +4,7 @@
 # Eigen's templates are instantiated once a group instead of once a file, which halves the work of a build from nothing.
 # Files that Highway compiles once for each instruction set stay alone. Names in anonymous namespaces must therefore
 # differ within a folder.
-option(MULTISPECTRAL_UNITY "Compile sources in groups: less work from nothing, more after a change" ON)
+option(MULTISPECTRAL_UNITY "Compile sources in groups: less work from nothing, more after a change" OFF)
 set(MULTISPECTRAL_UNITY_SIZE 12 CACHE STRING "Largest number of sources compiled together")
 mark_as_advanced(MULTISPECTRAL_UNITY_SIZE)
 

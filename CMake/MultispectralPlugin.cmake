@@ -1,5 +1,17 @@
 # The ParaView plugin: build/plugin/lib/Multispectral/Multispectral.so
-find_package(ParaView 5.11 REQUIRED)
+# Optional components only: ParaView's package would otherwise ask for the development files of every library that
+# ParaView uses, most of which a plugin never sees.
+find_package(ParaView 5.11 REQUIRED QUIET OPTIONAL_COMPONENTS RemotingServerManager)
+# What ParaView's libraries link is named in their targets, though it is theirs alone: names are enough.
+foreach(library IN ITEMS MPI::MPI_C)
+  if(NOT TARGET ${library})
+    add_library(${library} INTERFACE IMPORTED)
+  endif()
+endforeach()
+set(known_versions 5.11)
+if(NOT ParaView_VERSION_SIMPLE IN_LIST known_versions AND NOT "${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}" IN_LIST known_versions)
+  message(WARNING "This is ParaView ${ParaView_VERSION}; known to work: ${known_versions}. Other versions were not tried.")
+endif()
 include(MultispectralModules)
 list(APPEND MULTISPECTRAL_MODULES Multispectral::Representations)
 list(APPEND MULTISPECTRAL_MODULE_FILES "${PROJECT_SOURCE_DIR}/Plugin/Representations/vtk.module")
@@ -17,7 +29,16 @@ paraview_plugin_scan(
   ENABLE_BY_DEFAULT ON)
 paraview_plugin_build(
   PLUGINS ${plugins}
+  LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
+  INSTALL_HEADERS OFF
+  ADD_INSTALL_RPATHS OFF
+  PLUGINS_COMPONENT Runtime
   PLUGINS_FILE_NAME "multispectral.plugins.xml")
+# In the build tree the plugin has a short path, beside a list that makes ParaView load it.
+set_target_properties(Multispectral PROPERTIES
+  LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib/Multispectral")
+file(WRITE "${CMAKE_BINARY_DIR}/lib/multispectral.plugins.xml"
+  "<?xml version=\"1.0\"?>\n<Plugins>\n  <Plugin name=\"Multispectral\" auto_load=\"1\"/>\n</Plugins>\n")
 
 # The generated wrappers of a module's classes for the server manager belong together too.
 foreach(module IN LISTS MULTISPECTRAL_MODULES)

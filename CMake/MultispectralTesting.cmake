@@ -2,6 +2,7 @@
 #
 # One GoogleTest program for the tests of one room; each TEST becomes a CTest test named
 # <face>.<room>.<Suite>.<Test>, so that the same test run against several builds stays apart.
+# UNITY: compiled in groups; names in anonymous namespaces must differ within a folder.
 # SANITIZED: the tests (a GoogleTest filter) that run under the sanitizers, where all would take many minutes.
 if(BUILD_TESTING)
   enable_testing()
@@ -16,7 +17,7 @@ else()
 endif()
 
 function(multispectral_add_unit_tests)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;SANITIZED" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "UNITY" "NAME;SANITIZED" "SOURCES;LINK")
   if(NOT BUILD_TESTING)
     return()
   endif()
@@ -25,6 +26,9 @@ function(multispectral_add_unit_tests)
   target_link_libraries(${target} PRIVATE ${arg_LINK} MultispectralOptions GTest::gtest GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE
     MULTISPECTRAL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(arg_UNITY)
+    multispectral_unity(${target})
+  endif()
   set(filter)
   if(MULTISPECTRAL_SANITIZE AND arg_SANITIZED)
     set(filter TEST_FILTER "${arg_SANITIZED}")

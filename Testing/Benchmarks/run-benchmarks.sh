@@ -1,4 +1,4 @@
-# ./multispectral bench: sourced by the launcher, which gives $root, build_preset, fail and wrong, and the command's
+# ./multispectral bench: sourced by the launcher, which gives $root, $build, prepare, build_preset, fail and wrong, and the command's
 # arguments as "$@".
 #
 # Every program Benchmark* of the preset 'bench' and every *Peer.py beside this file runs once, one after another;
@@ -26,8 +26,10 @@ if [ -n "$output" ]; then
   [ -d "$(dirname "$output")" ] || fail "$output: there is no folder $(dirname "$output")"
 fi
 
-build_preset bench
-results=$root/build/bench/results
+prepare run build test measure
+build_preset bench all
+exec 9>&-
+results=$build/bench/results
 rm -rf "$results"
 mkdir -p "$results" || fail "cannot write to $results"
 
@@ -44,7 +46,7 @@ run_benchmark() {
 }
 
 ran=0
-for program in "$root"/build/bench/Testing/Benchmarks/Benchmark*; do
+for program in "$build"/bench/Testing/Benchmarks/Benchmark*; do
   [ -f "$program" ] && [ -x "$program" ] || continue
   run_benchmark "$(basename "$program")" "$program" --benchmark_format=json && ran=$((ran + 1))
 done

@@ -1,4 +1,4 @@
-# ./multispectral test: sourced by the launcher, which gives $root, build_preset and fail, and CTest's
+# ./multispectral test: sourced by the launcher, which gives $root, $build, prepare, build_preset and fail, and CTest's
 # arguments as "$@".
 #
 # One ctest runs over the build trees of all faces, so that one summary closes the output. The face 'vtk' joins
@@ -27,7 +27,7 @@ require_ctest_options() {
 # vtk_prefix PATH: the folder of a VTK, unpacked from an archive where PATH is one.
 vtk_prefix() {
   if [ -f "$1" ]; then
-    unpacked=$root/build/osmesa
+    unpacked=$build/osmesa
     if [ ! -e "$unpacked/.complete" ] || [ "$1" -nt "$unpacked/.complete" ]; then
       rm -rf "$unpacked"
       mkdir -p "$unpacked" && tar -xf "$1" -C "$unpacked" && touch "$unpacked/.complete" ||
@@ -50,23 +50,23 @@ case ${1:-} in
     ;;
 esac
 require_ctest_options "$@"
-faces="kernels sanitize plugin"
-for face in $faces; do
-  build_preset "$face"
-done
+prepare run build test
+faces="plugin sanitize"
+build_preset plugin all -DBUILD_TESTING=ON
+build_preset sanitize all
 if [ -n "${MULTISPECTRAL_OSMESA:-}" ]; then
   prefix=$(vtk_prefix "$MULTISPECTRAL_OSMESA") || exit 1
-  grep -q "^CMAKE_PREFIX_PATH:.*=$prefix\$" "$root/build/vtk/CMakeCache.txt" 2>/dev/null || rm -rf "$root/build/vtk"
-  build_preset vtk "-DCMAKE_PREFIX_PATH=$prefix"
+  build_preset vtk all "-DCMAKE_PREFIX_PATH=$prefix"
   faces="$faces vtk"
 else
   echo "Left out: the regression images without a display; MULTISPECTRAL_OSMESA is not set (Testing/OSMesa/README.md)."
 fi
-mkdir -p "$root/build/test" || fail "cannot write to $root/build/test"
+exec 9>&-
+mkdir -p "$build/test" || fail "cannot write to $build/test"
 for face in $faces; do
-  printf 'subdirs("%s")\n' "$root/build/$face"
-done >"$root/build/test/CTestTestfile.cmake"
-ctest --test-dir "$root/build/test" -j "$(nproc)" --output-on-failure "$@"
+  printf 'subdirs("%s")\n' "$build/$face"
+done >"$build/test/CTestTestfile.cmake"
+ctest --test-dir "$build/test" -j "$(nproc)" --output-on-failure "$@"
 case $? in
   0) exit 0 ;;
   *) exit 1 ;;

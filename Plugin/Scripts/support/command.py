@@ -19,7 +19,7 @@ class Parser(argparse.ArgumentParser):
 
 def parser(name, description, *examples):
     """examples: arguments of the command, one line each."""
-    program = f"./multispectral {name}"
+    program = f"{os.environ.get('MULTISPECTRAL_PROGRAM', './multispectral')} {name}"
     arguments = Parser(prog=program, description=description, allow_abbrev=False,
                        formatter_class=argparse.RawDescriptionHelpFormatter,
                        epilog="\n".join(["examples:"] + [f"  {program} {example}".rstrip() for example in examples]))

@@ -14,7 +14,6 @@
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Gap/GapProfile.h"
-#include "Kernels/Gap/SeparatingCapture.h"
 #include "Kernels/Spectra/Interpolation.h"
 
 #include <algorithm>

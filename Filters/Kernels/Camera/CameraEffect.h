@@ -1,6 +1,8 @@
 // The names, parameters and places of the effects that make a real camera differ from its model.
 #pragma once
 
+#include "Kernels/Camera/ImageTerm.h"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -41,7 +43,38 @@ struct EffectParameter
   bool perChannel = false;
   bool secondary =
     false; // shapes an effect that another parameter turns on; a fit may hold it at neutral
+  bool searched = false; // has no useful derivative: a fit tries places instead
 };
+
+// What the diagnosis asks of a form. Bits of EffectForm::traits.
+namespace FormTrait
+{
+enum Bit : unsigned
+{
+  None = 0,
+  KeepsWhite = 1U << 0, // of lamp and filters: the response to white does not change
+  Brightens = 1U << 1,  // unless the white is balanced, it contains a gain common to all channels
+  Adds = 1U << 2,       // adds to the response instead of multiplying it
+  SmallError = 1U << 3  // gain, center or dark of each channel: every camera is off by a little
+};
+}
+
+// What the diagnosis asks of an effect. Bits of EffectDefinition::traits.
+namespace EffectTrait
+{
+enum Bit : unsigned
+{
+  None = 0,
+  Exact = 1U << 0,           // the formula is exact: a residual that remains has another cause
+  CouplesChannels = 1U << 1, // the parameters of a channel act on its neighbours, too
+  ActsOnEdges = 1U << 2,     // its forms approximate point spreads and resampling
+  SmoothInField = 1U << 3,   // a smooth factor over the field
+  CommonGain = 1U << 4,      // one gain of all channels
+  ChannelGain = 1U << 5,     // one gain of each channel
+  SpectralGain = 1U << 6,    // gains that follow a smooth curve over the channels
+  LimitsResponse = 1U << 7   // its first parameter is the largest response that passes
+};
+}
 
 // One way to write an effect down: "common" (one number for all channels), "per_channel", ...
 struct EffectForm
@@ -52,7 +85,9 @@ struct EffectForm
   // Further starting points of a fit, one number a parameter (the same for every channel); for forms whose
   // error has more than one valley. May be empty.
   std::vector<std::vector<double>> starts = {};
-  bool keepsWhite = false; // of lamp and filters: the response to white does not change
+  unsigned traits = FormTrait::None;
+
+  bool has(FormTrait::Bit trait) const noexcept { return (traits & trait) != 0; }
 };
 
 struct EffectDefinition
@@ -63,6 +98,11 @@ struct EffectDefinition
   EffectStage stage;
   EffectNeed need;
   std::vector<EffectForm> forms; // the first is the default, the one with the fewest parameters
+  std::string separatingCapture; // the capture that shows this effect by itself
+  unsigned traits = EffectTrait::None;
+  std::vector<ImageForm> imageForms = {}; // what a pair of images shows of it; empty: nothing
+
+  bool has(EffectTrait::Bit trait) const noexcept { return (traits & trait) != 0; }
 };
 
 // Every effect the simulator knows, in the order in which they act.
@@ -74,6 +114,11 @@ const EffectForm* findForm(const EffectDefinition& effect, std::string_view form
 // Errors: std::invalid_argument for an unknown effect or form, listing those known.
 const EffectDefinition& requireEffect(std::string_view name);
 const EffectForm& requireForm(const EffectDefinition& effect, std::string_view form);
+// The capture that shows this effect by itself; empty for an unknown name.
+std::string separatingCapture(std::string_view effect);
+// The first effect of the library with a trait, of a stage. There must be one.
+const EffectDefinition& effectWith(EffectTrait::Bit trait);
+const EffectDefinition& effectOf(EffectStage stage);
 
 // One effect at work, as data.
 struct CameraEffect

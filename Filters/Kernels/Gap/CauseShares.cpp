@@ -106,7 +106,7 @@ bool isSmallError(const EffectSet& set, std::size_t position)
 {
   const EffectChoice& choice = set.choices[position];
   return choice.smallError() &&
-    (choice.effect->name == "channel_gain" || !curveOf(set, position).certain);
+    (choice.effect->has(EffectTrait::ChannelGain) || !curveOf(set, position).certain);
 }
 
 // The small errors that every camera has in each channel take what the other effects leave: any of them also does, with
@@ -230,13 +230,13 @@ double gainsCredible(const EffectSet& set, std::size_t position)
     return static_cast<std::size_t>(
       std::find_if(set.choices.begin(), set.choices.end(), wanted) - set.choices.begin());
   };
-  const auto called = [](const char* name)
-  { return [name](const EffectChoice& choice) { return choice.effect->name == name; }; };
+  const auto having = [](EffectTrait::Bit trait)
+  { return [trait](const EffectChoice& choice) { return choice.effect->has(trait); }; };
   const std::size_t gains = placeOf([](const EffectChoice& choice)
-    { return choice.effect->name == "channel_gain" && choice.smallError(); });
-  const std::size_t exposure = placeOf(called("exposure_gain"));
+    { return choice.effect->has(EffectTrait::ChannelGain) && choice.smallError(); });
+  const std::size_t exposure = placeOf(having(EffectTrait::CommonGain));
   if ((position != gains && position != exposure) || gains == set.size() ||
-    placeOf(called("illuminant_drift")) != set.size())
+    placeOf(having(EffectTrait::SpectralGain)) != set.size())
   {
     return 1.0;
   }
@@ -258,14 +258,14 @@ double gainsCredible(const EffectSet& set, std::size_t position)
 bool refuted(const EffectFitter& fitter, const EffectFit& fit, std::size_t position)
 {
   const EffectChoice& choice = fit.set.choices[position];
-  const bool offset = choice.form->name.rfind("offset", 0) == 0;
-  if (choice.effect->name != "session_drift" || offset)
+  if (choice.effect->need != EffectNeed::Order || choice.form->has(FormTrait::Adds))
   {
     return false;
   }
   const bool perChannel = choice.form->parameters.front().perChannel;
-  const EffectDefinition* gain = findEffect(perChannel ? "channel_gain" : "exposure_gain");
-  const EffectChoice plain{ gain, &gain->forms.front(), "" };
+  const EffectDefinition& gain =
+    effectWith(perChannel ? EffectTrait::ChannelGain : EffectTrait::CommonGain);
+  const EffectChoice plain{ &gain, &gain.forms.front(), "" };
   if (fit.set.has(plain))
   {
     return false;

@@ -128,12 +128,11 @@ EffectFit preferExposure(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy)
 {
   const auto exposure = std::find_if(choices.begin(), choices.end(),
-    [](const EffectChoice& choice) { return choice.effect->name == "exposure_gain"; });
+    [](const EffectChoice& choice) { return choice.effect->has(EffectTrait::CommonGain); });
   for (std::size_t position = 0; position < fit.set.size(); ++position)
   {
     const EffectChoice& mine = fit.set.choices[position];
-    const bool widens = mine.effect->name == "filter_bandwidth";
-    const bool unbalanced = widens && !mine.whiteAfter && !mine.form->keepsWhite;
+    const bool unbalanced = mine.form->has(FormTrait::Brightens) && !mine.whiteAfter;
     const bool exposed = exposure != choices.end() && fit.set.has(*exposure);
     if (exposure == choices.end() || !(unbalanced || (mine.leveled && !exposed)))
     {

@@ -67,13 +67,14 @@ private:
 std::vector<std::vector<double>> startsOf(
   const EffectChoice& choice, const GapData& data, const OrderBreaks& breaks)
 {
-  const std::string& form = choice.form->name;
-  if (choice.effect->name == "session_drift" && form.find("step") != std::string::npos)
+  const std::vector<EffectParameter>& parameters = choice.form->parameters;
+  if (std::any_of(parameters.begin(), parameters.end(),
+        [](const EffectParameter& parameter) { return parameter.searched; }))
   {
-    return breaks.startsFor(form);
+    return breaks.startsFor(*choice.form);
   }
   std::vector<std::vector<double>> starts = choice.form->starts;
-  if (choice.effect->name == "saturation")
+  if (choice.effect->has(EffectTrait::LimitsResponse))
   {
     starts.push_back({ 0.98 * data.observed.maxCoeff(), starts.front()[1] });
   }

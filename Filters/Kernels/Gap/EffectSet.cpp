@@ -12,8 +12,7 @@ namespace msi
 
 namespace
 {
-constexpr double RelativeStep = 1e-3; // of a parameter's typical size
-constexpr const char* Level = "exposure_gain";
+constexpr double RelativeStep = 1e-3;   // of a parameter's typical size
 constexpr double FreeSpread = 10.0;     // typical sizes
 constexpr double SecondarySpread = 2.0; // typical sizes
 
@@ -54,10 +53,10 @@ void derive(const Eigen::MatrixXd& there, const Eigen::MatrixXd& here, double st
   }
 }
 
-// The place of a step has no useful derivative.
-bool foundBySearch(const EffectParameter& parameter)
+// The effect that carries the level of the choices that are leveled.
+const EffectDefinition& levelEffect()
 {
-  return parameter.name == "place";
+  return effectWith(EffectTrait::CommonGain);
 }
 }
 
@@ -82,11 +81,10 @@ bool EffectSet::whiteAfterEffects() const noexcept
 
 bool EffectSet::leveled() const noexcept
 {
-  const auto is = [](const char* name)
-  { return [name](const EffectChoice& choice) { return choice.effect->name == name; }; };
   return std::any_of(choices.begin(), choices.end(),
            [](const EffectChoice& choice) { return choice.leveled; }) &&
-    std::none_of(choices.begin(), choices.end(), is("exposure_gain"));
+    std::none_of(choices.begin(), choices.end(),
+      [](const EffectChoice& choice) { return choice.effect->has(EffectTrait::CommonGain); });
 }
 
 std::size_t EffectSet::steps() const noexcept
@@ -95,14 +93,15 @@ std::size_t EffectSet::steps() const noexcept
     [](const EffectChoice& choice)
     {
       const auto& parameters = choice.form->parameters;
-      return std::any_of(parameters.begin(), parameters.end(), foundBySearch);
+      return std::any_of(parameters.begin(), parameters.end(),
+        [](const EffectParameter& parameter) { return parameter.searched; });
     }));
 }
 
 Eigen::Index EffectSet::reach() const noexcept
 {
-  const bool coupled = std::any_of(effects.begin(), effects.end(),
-    [](const CameraEffect& effect) { return effect.name == "channel_crosstalk"; });
+  const bool coupled = std::any_of(choices.begin(), choices.end(),
+    [](const EffectChoice& choice) { return choice.effect->has(EffectTrait::CouplesChannels); });
   return coupled ? 1 : 0;
 }
 
@@ -111,7 +110,7 @@ std::vector<CameraEffect> EffectSet::simulated() const
   std::vector<CameraEffect> all = effects;
   if (leveled())
   {
-    all.push_back({ Level, "", "", { level } });
+    all.push_back({ levelEffect().name, "", "", { level } });
   }
   return all;
 }
@@ -168,7 +167,7 @@ std::optional<StepPlace> EffectSet::placeOf(std::size_t position) const
   std::size_t index = 0;
   for (const EffectParameter& parameter : parameters)
   {
-    if (foundBySearch(parameter))
+    if (parameter.searched)
     {
       return StepPlace{ index, &parameter };
     }
@@ -189,8 +188,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
     for (const EffectParameter& parameter : choices[e].form->parameters)
     {
       const auto count = parameter.perChannel ? camera.channelCount() : Eigen::Index(1);
-      const bool isFree =
-        !foundBySearch(parameter) && (!parameter.secondary || secondaryFree[e] != 0);
+      const bool isFree = !parameter.searched && (!parameter.secondary || secondaryFree[e] != 0);
       for (Eigen::Index k = 0; k < count; ++k, ++index)
       {
         if (isFree)
@@ -211,7 +209,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
   }
   if (leveled())
   {
-    const EffectParameter& gain = findEffect(Level)->forms.front().parameters.front();
+    const EffectParameter& gain = levelEffect().forms.front().parameters.front();
     free.push_back({ effects.size(), 0, -1, group, gain.neutral, gain.lower, gain.upper,
       gain.typical, FreeSpread * gain.typical, "level", gain.unit });
   }
@@ -341,6 +339,7 @@ std::vector<EffectChoice> choicesFor(
 {
   const auto barred = [&without](const std::string& name)
   { return std::find(without.begin(), without.end(), name) != without.end(); };
+  const bool mayBrighten = !barred(levelEffect().name);
   std::vector<EffectChoice> choices;
   for (const EffectDefinition& effect : effectLibrary())
   {
@@ -363,17 +362,16 @@ std::vector<EffectChoice> choicesFor(
       }
       for (const EffectForm& form : effect.forms)
       {
-        // Without exposure_gain nothing else may carry a gain of all channels in disguise.
-        const bool brightens = effect.name == "filter_bandwidth" && !form.keepsWhite;
-        if (!brightens || !barred("exposure_gain"))
+        // Where a common gain may not be blamed nothing else may carry one in disguise.
+        if (!form.has(FormTrait::Brightens) || mayBrighten)
         {
           choices.push_back({ &effect, &form, medium });
         }
-        if (effect.stage == EffectStage::Responsivity && !form.keepsWhite)
+        if (effect.stage == EffectStage::Responsivity && !form.has(FormTrait::KeepsWhite))
         {
           choices.push_back({ &effect, &form, medium, true });
         }
-        if (effect.name == "illuminant_drift" && !barred("exposure_gain"))
+        if (effect.has(EffectTrait::SpectralGain) && mayBrighten)
         {
           choices.push_back({ &effect, &form, medium, false, true });
         }

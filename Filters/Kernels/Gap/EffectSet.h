@@ -24,16 +24,11 @@ struct EffectChoice
   // The white was taken with this effect in place: CameraSimulatorOptions::whiteAfterEffects.
   bool whiteAfter = false;
   // With a level of its own: a lamp that changes its color also changes its brightness. The library's forms of
-  // illuminant_drift hold the brightness; exposure_gain carries it in the simulator.
+  // such an effect hold the brightness; a gain of all channels carries it in the simulator.
   bool leveled = false;
 
   // Gain, center or dark of each channel: what every camera is off by a little.
-  bool smallError() const noexcept
-  {
-    return !whiteAfter && form->name == "per_channel" &&
-      (effect->name == "channel_gain" || effect->name == "filter_shift" ||
-        effect->name == "dark_offset");
-  }
+  bool smallError() const noexcept { return !whiteAfter && form->has(FormTrait::SmallError); }
   // The same effect on the same medium, whatever the form.
   bool sameCause(const EffectChoice& other) const noexcept
   {
@@ -70,7 +65,7 @@ struct EffectSet
   bool has(const EffectChoice& cause) const noexcept;
   bool sameCauses(const EffectSet& other) const noexcept; // in any order and form
   bool whiteAfterEffects() const noexcept;
-  bool leveled() const noexcept;      // and exposure_gain is not there to do it
+  bool leveled() const noexcept;      // and no gain of all channels is there to do it
   std::size_t steps() const noexcept; // places of steps in time: found by search, not by derivative
   // How many channels away the parameters of one channel act.
   Eigen::Index reach() const noexcept;

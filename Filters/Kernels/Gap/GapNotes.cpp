@@ -54,6 +54,26 @@ void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   }
 }
 
+// "illumination gradient, vignetting and local stray light"
+std::string namesOf(EffectNeed need)
+{
+  std::vector<std::string> names;
+  for (const EffectDefinition& effect : effectLibrary())
+  {
+    if (effect.need == need)
+    {
+      names.push_back(effect.name);
+      std::replace(names.back().begin(), names.back().end(), '_', ' ');
+    }
+  }
+  std::string all = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i)
+  {
+    all += (i + 1 < names.size() ? ", " : " and ") + names[i];
+  }
+  return all;
+}
+
 void noteScene(std::vector<std::string>& notes, const GapData& data)
 {
   const SceneSamples& samples = data.scene.samples();
@@ -68,13 +88,11 @@ void noteScene(std::vector<std::string>& notes, const GapData& data)
   }
   if (!data.scene.hasPositions())
   {
-    notes.push_back(
-      "No positions: vignetting, illumination gradient and local stray light were not "
-      "tried.");
+    notes.push_back("No positions: " + namesOf(EffectNeed::Position) + " were not tried.");
   }
   if (!data.scene.hasOrder())
   {
-    notes.push_back("No capture order: session drift was not tried.");
+    notes.push_back("No capture order: " + namesOf(EffectNeed::Order) + " was not tried.");
   }
   if (data.scene.scenes().size() == 1)
   {
@@ -165,7 +183,8 @@ void noteUncredited(std::vector<std::string>& notes, const std::vector<std::stri
 void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,
   const std::optional<ReadingNoise>& given, const std::vector<std::string>& without)
 {
-  const bool barred = std::find(without.begin(), without.end(), "excess_noise") != without.end();
+  const EffectDefinition& effect = effectOf(EffectStage::Noise);
+  const bool barred = std::find(without.begin(), without.end(), effect.name) != without.end();
   if (!given || noise.excess <= 1.0)
   {
     return;
@@ -190,9 +209,10 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
   const double floor2 = report.gap.noiseFloor * report.gap.noiseFloor;
   const double expected2 = std::fmax(floor2 - excess, 0.0);
   GapCause cause;
-  cause.effect = "excess_noise";
-  cause.form = "factor";
-  cause.parameters.push_back({ "factor", noise.excess, "1",
+  cause.effect = effect.name;
+  cause.form = effect.forms.front().name;
+  const EffectParameter& factor = effect.forms.front().parameters.front();
+  cause.parameters.push_back({ factor.name, noise.excess, factor.unit,
     noise.excess /
       std::sqrt(2.0 * (noise.unrepeated ? static_cast<double>(data.elements) : noise.degrees)) });
   if (report.causes.empty() && report.verdict != GapVerdict::Unexplained)
@@ -229,7 +249,7 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     }
     report.unexplained.share = report.unexplained.share * (1.0 - part) + part - cause.share;
   }
-  report.correction.push_back({ "excess_noise", "factor", "", { noise.excess } });
+  report.correction.push_back({ cause.effect, cause.form, "", { noise.excess } });
   report.causes.push_back(std::move(cause));
   std::stable_sort(report.causes.begin(), report.causes.end(),
     [](const GapCause& a, const GapCause& b) { return a.share > b.share; });

@@ -101,11 +101,11 @@ OrderBreaks::OrderBreaks(const EffectFitter& fitter, const Eigen::MatrixXd& pred
   }
 }
 
-std::vector<std::vector<double>> OrderBreaks::startsFor(const std::string& form) const
+std::vector<std::vector<double>> OrderBreaks::startsFor(const EffectForm& form) const
 {
-  const std::vector<Break>& list = form.rfind("offset", 0) == 0 ? Offset
-    : form.find("per_channel") != std::string::npos             ? GainPerChannel
-                                                                : Gain;
+  const std::vector<Break>& list = form.has(FormTrait::Adds) ? Offset
+    : form.parameters.front().perChannel                     ? GainPerChannel
+                                                             : Gain;
   std::vector<std::vector<double>> starts;
   for (const Break& place : list)
   {

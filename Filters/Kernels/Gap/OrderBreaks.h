@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <string>
 #include <vector>
 
 namespace msi
@@ -20,8 +19,8 @@ class OrderBreaks
 public:
   OrderBreaks(const EffectFitter& fitter, const Eigen::MatrixXd& predicted);
 
-  // Starting points {change, place, width} for a step form of session_drift, the best places first.
-  std::vector<std::vector<double>> startsFor(const std::string& form) const;
+  // Starting points {change, place, width} for a form with a step, the best places first.
+  std::vector<std::vector<double>> startsFor(const EffectForm& form) const;
 
   // Breaks of the common gain that stand out by five standard errors or more, at most `most`, found one after
   // the other by binary segmentation.

@@ -11,7 +11,6 @@
 #include "Kernels/Gap/HeldOut.h"
 #include "Kernels/Gap/OrderBreaks.h"
 #include "Kernels/Gap/ResidualScatter.h"
-#include "Kernels/Gap/SeparatingCapture.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>

@@ -13,20 +13,20 @@ namespace msi
 EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy)
 {
-  for (const char* name : { "channel_gain", "filter_shift", "dark_offset" })
+  std::vector<EffectChoice> errors;
+  std::copy_if(choices.begin(), choices.end(), std::back_inserter(errors),
+    [](const EffectChoice& choice) { return choice.smallError(); });
+  // Gains first: they are the most frequent.
+  std::stable_partition(errors.begin(), errors.end(),
+    [](const EffectChoice& choice) { return choice.effect->has(EffectTrait::ChannelGain); });
+  for (const EffectChoice& small : errors)
   {
-    const auto small = std::find_if(choices.begin(), choices.end(),
-      [name](const EffectChoice& choice)
-      {
-        return choice.effect->name == name && choice.form->name == "per_channel" &&
-          !choice.whiteAfter;
-      });
-    if (small == choices.end() || fit.set.has(*small))
+    if (fit.set.has(small))
     {
       continue;
     }
     EffectSet set = fit.set;
-    set.add(*small, fitter.data().camera);
+    set.add(small, fitter.data().camera);
     EffectFit other = fitter.fit(std::move(set), SearchFit);
     const double gain = fit.energy - other.energy;
     if (gain > ChanceOfMany * other.dispersion && gain > RelevantPart * gapEnergy)
@@ -41,7 +41,8 @@ EffectFit splitGains(
   const EffectFitter& fitter, EffectFit fit, const std::vector<EffectChoice>& choices)
 {
   const auto gains = std::find_if(fit.set.choices.begin(), fit.set.choices.end(),
-    [](const EffectChoice& c) { return c.effect->name == "channel_gain" && c.smallError(); });
+    [](const EffectChoice& c)
+    { return c.effect->has(EffectTrait::ChannelGain) && c.smallError(); });
   if (gains == fit.set.choices.end())
   {
     return fit;
@@ -55,7 +56,8 @@ EffectFit splitGains(
     [&rest](const EffectChoice& choice)
     {
       return !choice.whiteAfter && !rest.has(choice) &&
-        (choice.effect->name == "exposure_gain" || choice.effect->name == "illuminant_drift");
+        (choice.effect->has(EffectTrait::CommonGain) ||
+          choice.effect->has(EffectTrait::SpectralGain));
     });
   // The best of many is as good as a single one by chance more often.
   double least = StructuredChance / std::fmax(static_cast<double>(common.size()), 1.0);

@@ -10,7 +10,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <unistd.h>
 
@@ -213,29 +212,6 @@ TEST_F(CameraSimulatorTables, Errors)
   EXPECT_EQ(errorWith("[]"),
     "the camera has no column of numbers 'wavelength'; expected wavelength and one curve a "
     "channel");
-}
-
-TEST_F(CameraSimulatorTables, EveryEffectFormAndParameterHasItsPlaceInTheCatalogue)
-{
-  std::ostringstream text;
-  text << std::ifstream(std::string(MULTISPECTRAL_SOURCE_DIR) + "/Documentation/CameraEffects.md")
-            .rdbuf();
-  for (const auto& effect : effectLibrary())
-  {
-    const auto begin = text.str().find("### " + effect.name + "\n");
-    ASSERT_NE(begin, std::string::npos) << effect.name;
-    const std::string section = text.str().substr(begin, text.str().find("\n### ", begin) - begin);
-    for (const auto& form : effect.forms)
-    {
-      EXPECT_NE(section.find("| `" + form.name + "` |"), std::string::npos)
-        << effect.name << ", " << form.name;
-      for (const auto& parameter : form.parameters)
-      {
-        EXPECT_NE(section.find("`" + parameter.name + "`"), std::string::npos)
-          << effect.name << ", " << parameter.name;
-      }
-    }
-  }
 }
 
 TEST_F(CameraSimulatorTables, NegativeNoiseIsRefused)

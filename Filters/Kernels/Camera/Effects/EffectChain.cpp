@@ -1,7 +1,7 @@
 #include "Kernels/Camera/Effects/EffectChain.h"
 
 #include "Kernels/Camera/CameraResponse.h"
-#include "Kernels/Camera/Effects/EffectEntry.h"
+#include "Kernels/Camera/Effects/Effect.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,18 +115,18 @@ EffectChain::Step EffectChain::bind(std::size_t effect)
   {
     Media.push_back(name);
   }
-  const EffectEntry& entry = entryOf(bound.definition());
-  if (entry.makeResponsivity != nullptr)
+  const Effect& effectOperators = registered(bound.definition());
+  if (effectOperators.makeResponsivity != nullptr)
   {
-    step.onResponsivity = entry.makeResponsivity(bound);
+    step.onResponsivity = effectOperators.makeResponsivity(bound);
   }
-  if (entry.makeBlock != nullptr)
+  if (effectOperators.makeBlock != nullptr)
   {
-    step.onBlock = entry.makeBlock(bound);
+    step.onBlock = effectOperators.makeBlock(bound);
   }
-  if (entry.makeSurround != nullptr)
+  if (effectOperators.makeSurround != nullptr)
   {
-    step.withSurround = entry.makeSurround(bound);
+    step.withSurround = effectOperators.makeSurround(bound);
   }
   return step;
 }
@@ -170,13 +170,14 @@ void EffectChain::place(const Step& step)
   }
   if (step.withSurround)
   {
-    (definition.name == "veiling_glare" ? VeilingGlare : LocalStrayLight) = step.withSurround;
+    (registered(definition).surround == Surround::Scene ? VeilingGlare : LocalStrayLight) =
+      step.withSurround;
   }
   if (step.onBlock)
   {
     BlockOperators& operators = definition.stage == EffectStage::Reflectance ? OnReflectance
       : definition.stage == EffectStage::Irradiance                          ? OnIrradiance
-      : entryOf(definition).afterDark                                        ? AfterDark
+      : registered(definition).afterDark                                     ? AfterDark
                                                                              : BeforeDark;
     operators.push_back(step.onBlock);
   }
@@ -243,30 +244,34 @@ int EffectChain::mediumNumber(const std::string& medium) const noexcept
   return found == Media.end() ? -1 : static_cast<int>(found - Media.begin());
 }
 
-std::optional<BoundEffect> EffectChain::active(std::string_view name) const
+std::vector<BoundEffect> EffectChain::active() const
 {
-  const auto found = std::find_if(Steps.begin(), Steps.end(),
-    [name](const Step& step) { return !step.neutral && step.definition->name == name; });
-  if (found == Steps.end())
+  std::vector<BoundEffect> bound;
+  for (const Step& step : Steps)
   {
-    return std::nullopt;
+    if (!step.neutral)
+    {
+      bound.emplace_back(Effects[step.effect], *Camera, step.medium);
+    }
   }
-  return BoundEffect(Effects[found->effect], *Camera, found->medium);
+  return bound;
 }
 
 NoiseGenerator EffectChain::noiseGenerator(CameraNoise noise, std::uint64_t seed) const
 {
-  const std::optional<BoundEffect> excess = active("excess_noise");
-  if (!excess)
+  for (const BoundEffect& effect : active())
   {
-    return { noise, seed };
+    if (effect.definition().stage == EffectStage::Noise)
+    {
+      if (effect.form().has(FormTrait::Adds))
+      {
+        noise.read = std::hypot(noise.read, effect.value("added"));
+        return { noise, seed };
+      }
+      return { noise, seed, effect.perChannel("factor") };
+    }
   }
-  if (excess->form().name == "added")
-  {
-    noise.read = std::hypot(noise.read, excess->value("added"));
-    return { noise, seed };
-  }
-  return { noise, seed, excess->perChannel("factor") };
+  return { noise, seed };
 }
 
 } // namespace msi

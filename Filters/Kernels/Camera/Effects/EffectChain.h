@@ -11,9 +11,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace msi
@@ -42,10 +40,10 @@ public:
   bool needsPosition() const noexcept { return NeedsPosition; }
   bool needsOrder() const noexcept { return NeedsOrder; }
 
-  // The effect of this name where it is given and not neutral.
-  std::optional<BoundEffect> active(std::string_view name) const;
+  // The effects that are not neutral, in the order in which they act.
+  std::vector<BoundEffect> active() const;
 
-  // `noise` with the effect excess_noise in it.
+  // `noise` with the effects on it.
   NoiseGenerator noiseGenerator(CameraNoise noise, std::uint64_t seed) const;
 
   // In this order. A step without effects does nothing.

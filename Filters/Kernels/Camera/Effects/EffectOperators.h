@@ -60,6 +60,8 @@ class SurroundOperator
 {
 public:
   virtual ~SurroundOperator() = default;
+  // Of a surround that is not the neighbours alone: its reach on a table, in pitches; 0: the neighbours.
+  virtual double reach() const noexcept { return 0.0; }
   virtual void apply(Block<double> block, ConstBlock<double> surround) const noexcept = 0;
   virtual void apply(Block<float> block, ConstBlock<float> surround) const noexcept = 0;
 };

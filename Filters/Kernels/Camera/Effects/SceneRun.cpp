@@ -189,10 +189,9 @@ void SceneRun::illuminate(Eigen::MatrixXd& signal, std::shared_ptr<const TailWei
   }
   if (const SurroundOperator* stray = Chain.localStrayLight())
   {
-    const std::optional<BoundEffect> effect = Chain.active("local_stray_light");
-    if (effect->form().name == "tail")
+    const double reach = stray->reach();
+    if (reach > 0.0)
     {
-      const double reach = effect->value("reach");
       std::vector<char> usable = finiteIn(signal);
       if (!tail || !tail->areFor(reach, usable))
       {

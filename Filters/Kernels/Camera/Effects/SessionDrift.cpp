@@ -1,5 +1,5 @@
 // Gain or offset that changes while a chart is captured.
-#include "Kernels/Camera/Effects/EffectEntry.h"
+#include "Kernels/Camera/Effects/Effect.h"
 
 #include <cmath>
 #include <string>
@@ -116,40 +116,42 @@ std::vector<std::vector<double>> places()
 }
 }
 
-EffectEntry sessionDrift()
+Effect sessionDrift()
 {
   const EffectParameter anchor{ "anchor", "session", 0.0, 0.0, 1.0, 0.2,
     "time at which the nominal value holds", false, true };
-  const EffectParameter place{ "place", "session", 0.5, 0.0, 1.0, 0.1, "time of the step" };
+  const EffectParameter place{ "place", "session", 0.5, 0.0, 1.0, 0.1, "time of the step", false,
+    false, true };
   const EffectParameter width{ "width", "session", 0.02, 0.001, 0.3, 0.01, "duration of the step",
     false, true };
   const EffectParameter constant{ "constant", "session", 0.3, 0.05, 3.0, 0.1, "time constant" };
   const std::vector<std::vector<double>> constants = { { 0.03, 0.1 }, { 0.03, 0.8 } };
-  return {
-    { "session_drift", "Session drift",
-      "Lamp, detector or electronics change while samples are captured one after the other; time "
-      "runs "
-      "from 0 to 1 over the capture order.",
-      EffectStage::Detector, EffectNeed::Order,
-      { { "slope", "u (1 + change (t - anchor))", { change("1", false), anchor } },
-        { "step", "u (1 + change) from `place` on", { change("1", false), place, width },
-          places() },
-        { "warm_up", "u (1 + change (1 - exp(-t / constant)))", { change("1", false), constant },
-          constants },
-        { "settling", "u (1 + change exp(-t / constant))", { change("1", false), constant },
-          constants },
-        { "slope_per_channel", "u_k (1 + change_k (t - anchor))", { change("1", true), anchor } },
-        { "step_per_channel", "u_k (1 + change_k) from `place` on",
-          { change("1", true), place, width }, places() },
-        { "warm_up_per_channel", "u_k (1 + change_k (1 - exp(-t / constant)))",
-          { change("1", true), constant }, constants },
-        { "settling_per_channel", "u_k (1 + change_k exp(-t / constant))",
-          { change("1", true), constant }, constants },
-        { "offset_slope", "u + change (t - anchor)", { change("white", false), anchor } },
-        { "offset_step", "u + change from `place` on", { change("white", false), place, width },
-          places() } } },
-    nullptr, makeBlockOperator<SessionDrift>
-  };
+  Effect effect;
+  effect.definition = { "session_drift", "Session drift",
+    "Lamp, detector or electronics change while samples are captured one after the other; time "
+    "runs "
+    "from 0 to 1 over the capture order.",
+    EffectStage::Detector, EffectNeed::Order,
+    { { "slope", "u (1 + change (t - anchor))", { change("1", false), anchor } },
+      { "step", "u (1 + change) from `place` on", { change("1", false), place, width }, places() },
+      { "warm_up", "u (1 + change (1 - exp(-t / constant)))", { change("1", false), constant },
+        constants },
+      { "settling", "u (1 + change exp(-t / constant))", { change("1", false), constant },
+        constants },
+      { "slope_per_channel", "u_k (1 + change_k (t - anchor))", { change("1", true), anchor } },
+      { "step_per_channel", "u_k (1 + change_k) from `place` on",
+        { change("1", true), place, width }, places() },
+      { "warm_up_per_channel", "u_k (1 + change_k (1 - exp(-t / constant)))",
+        { change("1", true), constant }, constants },
+      { "settling_per_channel", "u_k (1 + change_k exp(-t / constant))",
+        { change("1", true), constant }, constants },
+      { "offset_slope", "u + change (t - anchor)", { change("white", false), anchor }, {},
+        FormTrait::Adds },
+      { "offset_step", "u + change from `place` on", { change("white", false), place, width },
+        places(), FormTrait::Adds } },
+    "interleaved white" };
+  effect.makeBlock = makeBlockOperator<SessionDrift>;
+  return effect;
 }
 
 } // namespace msi

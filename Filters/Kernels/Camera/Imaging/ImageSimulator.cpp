@@ -1,10 +1,9 @@
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 
-#include "Kernels/Camera/Angle.h"
+#include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Camera/Effects/EffectChain.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -37,78 +36,6 @@ Eigen::Map<Eigen::MatrixXf> blockOf(float* values, int rows, int columns)
 {
   return { values, rows, columns };
 }
-
-// s_k = sum over n of amplitude_n,k sin(2 pi (n position / period + start_n,k)): u_k (1 + s_k), or u_k + s_k
-struct Banding
-{
-  bool alongRows;
-  bool offset;
-  double period;
-  std::vector<Eigen::ArrayXd> amplitude; // of each harmonic
-  std::vector<Eigen::ArrayXd> start;
-
-  explicit Banding(const BoundEffect& effect)
-    : alongRows(effect.form().name.rfind("column", 0) != 0)
-    , offset(effect.form().name == "row_offsets" || effect.form().name == "column_offsets")
-    , period(effect.value("period"))
-    , amplitude{ effect.perChannel("amplitude") }
-  {
-    if (effect.form().name == "sine")
-    {
-      start = { effect.value("phase") *
-        Eigen::ArrayXd::LinSpaced(
-          amplitude[0].size(), 0.0, static_cast<double>(amplitude[0].size() - 1)) };
-      return;
-    }
-    start = { effect.perChannel("start") };
-    if (effect.form().name != "rows" && effect.form().name != "columns")
-    {
-      for (const char* harmonic : { "_2", "_3" })
-      {
-        amplitude.push_back(effect.perChannel(std::string("amplitude") + harmonic));
-        start.push_back(effect.perChannel(std::string("start") + harmonic));
-      }
-    }
-  }
-  // A run of pixels from (x, y) to the right.
-  void apply(Eigen::Map<Eigen::MatrixXf> block, int x, int y) const
-  {
-    Eigen::ArrayXf change = changes(alongRows ? y : x);
-    for (Eigen::Index j = 0; j < block.cols(); ++j)
-    {
-      if (!alongRows && j > 0)
-      {
-        change = changes(x + static_cast<int>(j));
-      }
-      if (offset)
-      {
-        block.col(j).array() += change;
-      }
-      else
-      {
-        block.col(j).array() *= change;
-      }
-    }
-  }
-
-private:
-  // Factors, or what is added.
-  Eigen::ArrayXf changes(int place) const
-  {
-    Eigen::ArrayXf changes(amplitude[0].size());
-    for (Eigen::Index k = 0; k < changes.size(); ++k)
-    {
-      double sum = offset ? 0.0 : 1.0;
-      for (std::size_t n = 0; n < amplitude.size(); ++n)
-      {
-        const double cycles = static_cast<double>(n + 1) * place / period + start[n][k];
-        sum += amplitude[n][k] * std::sin(TwoPi * cycles);
-      }
-      changes[k] = static_cast<float>(sum);
-    }
-    return changes;
-  }
-};
 }
 
 struct ImageSimulator::Implementation
@@ -121,8 +48,7 @@ struct ImageSimulator::Implementation
   std::optional<ChannelRegistration> Registration;
   std::optional<SymmetricKernel> Blur;
   std::optional<ScatterTail> Tail;
-  std::optional<Banding> Bands;
-  float Retained = 0.0F;
+  std::vector<std::unique_ptr<PixelOperator>> OnPixels;
 
   Implementation(CameraModel camera, std::vector<CameraEffect> effects, const ImageExtent& extent,
     const ImageSimulatorOptions& options)
@@ -145,26 +71,25 @@ struct ImageSimulator::Implementation
     {
       MediumNumber.push_back(Chain.mediumNumber(medium));
     }
-    if (const auto effect = Chain.active("misregistration"))
+    for (const BoundEffect& effect : Chain.active())
     {
-      Registration.emplace(effect->perChannel("right"), effect->perChannel("down"),
-        effect->perChannel("magnification"), effect->perChannel("rotation"), extent);
-    }
-    if (const auto effect = Chain.active("defocus"))
-    {
-      Blur = gaussianKernel(effect->perChannel("blur"));
-    }
-    if (const auto effect = Chain.active("local_stray_light"))
-    {
-      Tail.emplace(effect->value("radius"));
-    }
-    if (const auto effect = Chain.active("lag"))
-    {
-      Retained = static_cast<float>(effect->value("retained"));
-    }
-    if (const auto effect = Chain.active("banding"))
-    {
-      Bands.emplace(*effect);
+      const ImageFactories& make = registered(effect.definition()).onImage;
+      if (make.makeRegistration != nullptr)
+      {
+        Registration.emplace(make.makeRegistration(effect, extent));
+      }
+      if (make.makeBlur != nullptr)
+      {
+        Blur = make.makeBlur(effect);
+      }
+      if (make.makeTail != nullptr)
+      {
+        Tail.emplace(make.makeTail(effect));
+      }
+      if (make.makePixels != nullptr)
+      {
+        OnPixels.push_back(make.makePixels(effect));
+      }
     }
   }
 
@@ -291,19 +216,9 @@ struct ImageSimulator::Implementation
       surround.colwise() = mean;
       Chain.veilingGlare()->apply(block, surround);
     }
-    if (Retained != 0.0F)
+    for (const auto& step : OnPixels)
     {
-      for (Eigen::Index j = 0; j < block.cols(); ++j)
-      {
-        for (Eigen::Index k = block.rows() - 1; k > 0; --k)
-        {
-          block(k, j) += Retained * block(k - 1, j);
-        }
-      }
-    }
-    if (Bands)
-    {
-      Bands->apply(block, x, y);
+      step->apply(block, x, y);
     }
     Chain.detect<float>(block, {});
     const auto firstPixel =

@@ -25,12 +25,6 @@ constexpr double OverNoise = 0.1;   // of it, where an effect clears what is lef
 constexpr double RelevantBesides =
   0.03; // of the gap's energy, where an effect of the edges is there
 
-// The forms of these approximate point spreads and resampling: what is left of one looks like another.
-bool isOfEdges(const std::string& effect)
-{
-  return effect == "misregistration" || effect == "defocus" || effect == "local_stray_light";
-}
-
 bool clears(double gain, double excess, double chance)
 {
   return gain > Cleared * excess && excess >= OverNoise * chance;
@@ -79,9 +73,10 @@ bool FieldAcceptance::mayJoin(const FieldFit& current, const FieldFit& fit, doub
   {
     return false;
   }
-  const bool besides = isOfEdges(fit.set.back()->effect) &&
+  // What is left of one effect of the edges looks like another.
+  const bool besides = fit.set.back()->has(EffectTrait::ActsOnEdges) &&
     std::any_of(current.set.begin(), current.set.end(),
-      [](const FieldChoice* other) { return isOfEdges(other->effect); });
+      [](const FieldChoice* other) { return other->has(EffectTrait::ActsOnEdges); });
   // A profile fits much that goes along the axes: it must be most of what is left.
   if (isProfile(*fit.set.back()) && gain < MostOfRest * excess)
   {

@@ -110,7 +110,7 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
 
 BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model)
 {
-  using P = FieldParameter;
+  using P = ImageParameter;
   const bool rows = isOfRows(choice);
   const Eigen::Index K = model[P::Gain].size();
   if (isProfile(choice))

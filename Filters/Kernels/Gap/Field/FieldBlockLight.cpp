@@ -12,7 +12,7 @@ namespace
 FieldNeighbourhood near(const FieldData& data, const FieldModel& model, const ImageWindow& window,
   Eigen::Index channel, const FieldDisplacement& where, bool derivatives)
 {
-  const double variance = std::max(model.at(FieldParameter::BlurVariance, channel), 0.0);
+  const double variance = std::max(model.at(ImageParameter::BlurVariance, channel), 0.0);
   const FieldDisplacement::Place middle = where.atMiddle(window);
   return { data, window, channel, AxisKernels(middle.right, variance),
     AxisKernels(middle.down, variance), derivatives || where.varies() };
@@ -26,12 +26,12 @@ BlockLight::BlockLight(const FieldData& data, const FieldModel& model, const Eig
   , Channel(static_cast<std::size_t>(channel))
   , Where(data.pair, model, channel)
   , Near(near(data, model, block.window, channel, Where, derivatives))
-  , Weights(model.at(FieldParameter::TailFraction, channel) *
-      tailWeights(model.at(FieldParameter::TailRadius, channel)).head<TailPasses>())
-  , Added((model.at(FieldParameter::Glare, channel) +
-            model.at(FieldParameter::ConservingGlare, channel)) *
+  , Weights(model.at(ImageParameter::TailFraction, channel) *
+      tailWeights(model.at(ImageParameter::TailRadius, channel)).head<TailPasses>())
+  , Added((model.at(ImageParameter::Glare, channel) +
+            model.at(ImageParameter::ConservingGlare, channel)) *
       glare[channel])
-  , Lost(1.0 - model.at(FieldParameter::ConservingGlare, channel))
+  , Lost(1.0 - model.at(ImageParameter::ConservingGlare, channel))
 {
   for (int i = 0; i < FreePasses; ++i)
   {

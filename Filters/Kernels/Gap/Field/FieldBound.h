@@ -13,7 +13,7 @@ inline constexpr double PriorSize = 10.0; // typical sizes
 // A term with the value that is wanted (prior or hold), channel by channel.
 struct FieldFitter::Bound
 {
-  FieldTerm term;
+  ImageTerm term;
   Eigen::ArrayXd wanted;
   std::vector<char> held;
 };

@@ -21,7 +21,7 @@ double findClipLevel(const FieldData& data, const FieldModel& model, const Field
 {
   using Pixel = std::pair<double, double>; // model, real
   FieldModel open = model;
-  open[FieldParameter::Clip].setZero();
+  open[ImageParameter::Clip].setZero();
   const Eigen::ArrayXd glare = sceneMean(data, open);
   std::vector<std::vector<Pixel>> parts(data.blocks.size());
   loop(static_cast<int>(data.blocks.size()),
@@ -52,7 +52,7 @@ double findClipLevel(const FieldData& data, const FieldModel& model, const Field
   double square = 0.0;
   double before = 0.0;
   double most = 0.0;
-  double best = neutralValue(FieldParameter::ClipLevel);
+  double best = neutralValue(ImageParameter::ClipLevel);
   for (std::size_t i = 0; i < pixels.size(); ++i)
   {
     const auto& [level, real] = pixels[i];

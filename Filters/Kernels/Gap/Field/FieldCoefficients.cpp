@@ -4,9 +4,9 @@ namespace msi
 {
 
 Eigen::VectorXd FieldFitter::coefficients(
-  FieldParameter parameter, Eigen::Index channel, const FieldShape& shape) const
+  ImageParameter parameter, Eigen::Index channel, const FieldShape& shape) const
 {
-  using P = FieldParameter;
+  using P = ImageParameter;
   const FieldModel& model = Statistics.model;
   Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::Residual);
   const auto one = [&column](FieldColumn::Index at, double weight = 1.0) { column[at] = weight; };

@@ -19,10 +19,10 @@ constexpr double LeastFactor = 0.05; // of the field, where its derivatives are 
 // The sines of the lines of a block.
 struct Stripes
 {
-  FieldParameter bySine, byCosine;
+  ImageParameter bySine, byCosine;
   Eigen::ArrayXd sine, cosine; // empty without period
 
-  Stripes(double period, int first, int lines, FieldParameter ofSine, FieldParameter ofCosine)
+  Stripes(double period, int first, int lines, ImageParameter ofSine, ImageParameter ofCosine)
     : bySine(ofSine)
     , byCosine(ofCosine)
   {
@@ -56,15 +56,15 @@ struct GradientSlope
 
 GradientSlope gradientSlope(const FieldModel& model, double x, double y)
 {
-  const double right = model.at(FieldParameter::GradientRight, 0);
-  const double down = model.at(FieldParameter::GradientDown, 0);
+  const double right = model.at(ImageParameter::GradientRight, 0);
+  const double down = model.at(ImageParameter::GradientDown, 0);
   const double size = std::hypot(right, down);
   if (!(size > 0.0))
   {
     return { x, y, 0.0 };
   }
   const double along = (right * x + down * y) / size;
-  const double turn = 2.0 * model.at(FieldParameter::GradientBend, 0) * along / size;
+  const double turn = 2.0 * model.at(ImageParameter::GradientBend, 0) * along / size;
   return { x + turn * (x - right * along / size), y + turn * (y - down * along / size),
     along * along };
 }
@@ -114,7 +114,7 @@ Eigen::ArrayXd tailSlope(double radius)
 void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
   const FieldBlock& block, Eigen::Index channel, FieldScratch& scratch)
 {
-  using P = FieldParameter;
+  using P = ImageParameter;
   const ImageWindow& window = block.window;
   const auto K = static_cast<std::size_t>(data.channels());
   const auto k = static_cast<std::size_t>(channel);

@@ -15,7 +15,7 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   , Filled(filledScene(pair))
   , Surround(model)
 {
-  using P = FieldParameter;
+  using P = ImageParameter;
   if (!model.isNeutral(P::Right) || !model.isNeutral(P::Down) ||
     !model.isNeutral(P::Magnification) || !model.isNeutral(P::Rotation))
   {
@@ -39,7 +39,7 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
 void FieldCorrection::operator()(
   const ImageWindow& window, float* corrected, CorrectionWorkspace& workspace) const
 {
-  using P = FieldParameter;
+  using P = ImageParameter;
   const std::size_t K = Pair.channels.size();
   const int halo = (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) +
     (Tail ? Tail->reach() : 0) + Surround.reach();

@@ -11,12 +11,12 @@ constexpr double LeastSignal = 1e-3; // below, a power has no useful slope
 }
 
 FieldDetector::FieldDetector(const FieldModel& model, Eigen::Index channel)
-  : Square(model.at(FieldParameter::Square, channel))
-  , Exponent(model.at(FieldParameter::Exponent, channel))
-  , Compression(model.at(FieldParameter::Compression, channel))
-  , Dark(model.at(FieldParameter::Dark, channel))
-  , Clip(model.at(FieldParameter::Clip, channel))
-  , Level(model.at(FieldParameter::ClipLevel, channel))
+  : Square(model.at(ImageParameter::Square, channel))
+  , Exponent(model.at(ImageParameter::Exponent, channel))
+  , Compression(model.at(ImageParameter::Compression, channel))
+  , Dark(model.at(ImageParameter::Dark, channel))
+  , Clip(model.at(ImageParameter::Clip, channel))
+  , Level(model.at(ImageParameter::ClipLevel, channel))
 {
 }
 

@@ -10,10 +10,10 @@ namespace msi
 FieldDisplacement::FieldDisplacement(
   const FieldPair& pair, const FieldModel& model, Eigen::Index channel)
   : Pair(&pair)
-  , Moved{ model.at(FieldParameter::Right, channel), model.at(FieldParameter::Down, channel) }
+  , Moved{ model.at(ImageParameter::Right, channel), model.at(ImageParameter::Down, channel) }
 {
-  const double scale = 1.0 / (1.0 + model.at(FieldParameter::Magnification, channel));
-  const double angle = Degree * model.at(FieldParameter::Rotation, channel);
+  const double scale = 1.0 / (1.0 + model.at(ImageParameter::Magnification, channel));
+  const double angle = Degree * model.at(ImageParameter::Rotation, channel);
   Cosine = scale * std::cos(angle);
   Sine = scale * std::sin(angle);
   Varies = Cosine != 1.0 || Sine != 0.0;

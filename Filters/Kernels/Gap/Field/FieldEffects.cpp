@@ -14,68 +14,6 @@ namespace
 constexpr double LeastBlur = 1e-4;   // pixels^2
 constexpr double LeastSquare = 1e-8; // of a gradient
 
-struct Named
-{
-  const char* name;
-  const char* unit;
-};
-
-Named nameOf(FieldParameter parameter)
-{
-  using P = FieldParameter;
-  switch (parameter)
-  {
-    case P::Gain:
-      return { "gain", "1" };
-    case P::Dark:
-      return { "offset", "white" };
-    case P::Glare:
-    case P::ConservingGlare:
-    case P::TailFraction:
-      return { "fraction", "1" };
-    case P::GradientRight:
-      return { "right", "1" };
-    case P::GradientDown:
-      return { "down", "1" };
-    case P::GradientBend:
-      return { "bend", "1" };
-    case P::Falloff:
-      return { "falloff", "1" };
-    case P::Fourth:
-      return { "fourth", "1" };
-    case P::Sixth:
-      return { "sixth", "1" };
-    case P::CenterX:
-      return { "center_x", "half field" };
-    case P::CenterY:
-      return { "center_y", "half field" };
-    case P::Square:
-      return { "square", "1" };
-    case P::Exponent:
-      return { "exponent", "1" };
-    case P::Compression:
-      return { "compression", "1" };
-    case P::ClipLevel:
-      return { "level", "white" };
-    case P::Retained:
-      return { "retained", "1" };
-    case P::Right:
-      return { "right", "pixels" };
-    case P::Down:
-      return { "down", "pixels" };
-    case P::Magnification:
-      return { "magnification", "1" };
-    case P::Rotation:
-      return { "rotation", "degrees" };
-    case P::BlurVariance:
-      return { "blur", "pixels" };
-    case P::TailRadius:
-      return { "radius", "pixels" };
-    default:
-      return { "", "" };
-  }
-}
-
 std::string withChannel(const std::string& name, const std::string& channel)
 {
   return name + "[" + channel + "]";
@@ -96,7 +34,8 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice,
   const FieldModel& model = found.after.model;
   const BandingSines sines = bandingSines(choice, model);
   const bool profile = isProfile(choice);
-  const bool offset = choice.form == "row_offsets" || choice.form == "column_offsets";
+  const bool offset =
+    choice.has(ImageParameter::RowOffset) || choice.has(ImageParameter::ColumnOffset);
   std::vector<GapParameter> parameters;
   const FieldPeriod& period = isOfRows(choice) ? found.rows : found.columns;
   parameters.push_back({ "period", sines.period, "pixels", profile ? 0.0 : period.standardError });
@@ -121,22 +60,17 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice,
 }
 
 // What a parameter's value and its error are multiplied by for the library.
-double libraryScale(FieldParameter parameter, const FieldModel& model)
+double libraryScale(const ImageTerm& term, const FieldModel& model)
 {
-  const double square = std::pow(model.at(FieldParameter::GradientRight, 0), 2) +
-    std::pow(model.at(FieldParameter::GradientDown, 0), 2);
-  return parameter == FieldParameter::GradientBend ? 1.0 / std::fmax(square, LeastSquare) : 1.0;
+  const double square = std::pow(model.at(ImageParameter::GradientRight, 0), 2) +
+    std::pow(model.at(ImageParameter::GradientDown, 0), 2);
+  return term.scale == ImageScale::AlongSlope ? 1.0 / std::fmax(square, LeastSquare) : 1.0;
 }
 
 bool isFree(const FieldChoice& choice)
 {
-  return choice.terms.front().parameter == FieldParameter::SurroundFirst;
+  return choice.terms.front().parameter == ImageParameter::SurroundFirst;
 }
-}
-
-std::string libraryForm(const FieldChoice& choice)
-{
-  return isFree(choice) ? "neighbours" : choice.form;
 }
 
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldSearchResult& found,
@@ -145,7 +79,7 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
   const FieldModel& model = found.after.model;
   std::vector<GapParameter> parameters;
   const auto K = static_cast<Eigen::Index>(channels.size());
-  if (choice.effect == "banding")
+  if (isBanding(choice))
   {
     return bandingParameters(choice, found, channels, error, next);
   }
@@ -159,28 +93,27 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
     next += FreePasses;
     return parameters;
   }
-  for (const FieldTerm& term : choice.terms)
+  for (const ImageTerm& term : choice.terms)
   {
-    if (term.parameter == FieldParameter::Clip)
+    if (term.name.empty())
     {
       ++next;
       continue;
     }
-    const Named named = nameOf(term.parameter);
     for (Eigen::Index k = 0; k < (term.perChannel ? K : 1); ++k)
     {
-      const double scale = libraryScale(term.parameter, model);
+      const double scale = libraryScale(term, model);
       double value = scale * model.at(term.parameter, k);
       double deviation = scale * error[next++];
-      if (term.parameter == FieldParameter::BlurVariance)
+      if (term.scale == ImageScale::Squared)
       {
         value = std::sqrt(std::fmax(value, 0.0));
         deviation = value > 0.0 ? deviation / (2.0 * value) : std::sqrt(deviation);
       }
       parameters.push_back(
-        { term.perChannel ? withChannel(named.name, channels[static_cast<std::size_t>(k)])
-                          : named.name,
-          value, named.unit, deviation });
+        { term.perChannel ? withChannel(term.name, channels[static_cast<std::size_t>(k)])
+                          : term.name,
+          value, term.unit, deviation });
     }
   }
   return parameters;
@@ -193,7 +126,7 @@ std::vector<CameraEffect> fieldCorrection(
   std::vector<CameraEffect> effects;
   for (const FieldChoice* choice : set)
   {
-    CameraEffect effect = neutralEffect(choice->effect, channels, libraryForm(*choice));
+    CameraEffect effect = neutralEffect(choice->effect->name, channels, choice->form);
     const std::vector<EffectParameter> names = effectParameters(effect, channels);
     const auto put = [&](const std::string& name, double value)
     {
@@ -205,7 +138,7 @@ std::vector<CameraEffect> fieldCorrection(
         }
       }
     };
-    if (choice->effect == "banding")
+    if (isBanding(*choice))
     {
       const BandingSines sines = bandingSines(*choice, model);
       put("period", sines.period);
@@ -225,15 +158,15 @@ std::vector<CameraEffect> fieldCorrection(
       put("fraction", form.fraction);
       put("radius", form.radius);
     }
-    for (const FieldTerm& term : choice->terms)
+    for (const ImageTerm& term : choice->terms)
     {
       for (Eigen::Index k = 0; k < (term.perChannel ? K : 1); ++k)
       {
-        const double value = libraryScale(term.parameter, model) * model.at(term.parameter, k);
-        const bool blur = term.parameter == FieldParameter::BlurVariance;
-        const std::string name = nameOf(term.parameter).name;
-        put(term.perChannel ? withChannel(name, channels[static_cast<std::size_t>(k)]) : name,
-          blur ? (value > LeastBlur ? std::sqrt(value) : 0.0) : value);
+        const double value = libraryScale(term, model) * model.at(term.parameter, k);
+        const bool squared = term.scale == ImageScale::Squared;
+        put(term.perChannel ? withChannel(term.name, channels[static_cast<std::size_t>(k)])
+                            : term.name,
+          squared ? (value > LeastBlur ? std::sqrt(value) : 0.0) : value);
       }
     }
     effects.push_back(std::move(effect));

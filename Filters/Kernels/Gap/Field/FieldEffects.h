@@ -12,9 +12,6 @@
 namespace msi
 {
 
-// The form of the library that stands for a choice.
-std::string libraryForm(const FieldChoice& choice);
-
 // error: standard errors of the choice's terms, from `next` on (FieldFitter::standardErrors), which moves on.
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldSearchResult& found,
   const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next);

@@ -18,7 +18,7 @@ constexpr double NothingLeft = 0.1; // of what noise allows
 bool hasAll(const FieldSet& set, const FieldSet& part)
 {
   return std::all_of(part.begin(), part.end(),
-    [&set](const FieldChoice* choice) { return contains(set, choice->effect.c_str()); });
+    [&set](const FieldChoice* choice) { return contains(set, *choice->effect); });
 }
 
 bool sameEffects(const FieldSet& a, const FieldSet& b)
@@ -103,7 +103,7 @@ bool FieldExchange::newOnesCount(const FieldHypothesis& hypothesis) const
     const FieldSet rest = withoutOne(hypothesis.set, e);
     FieldFit fit = hypothesis.fit;
     fit.set = joined(rest, *choice);
-    if (!contains(Current.set, choice->effect.c_str()) &&
+    if (!contains(Current.set, *choice->effect) &&
       !acceptance().mayJoin(fitter.fit(rest), fit, fitter.chance()))
     {
       return false;

@@ -36,8 +36,8 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
 FieldShape FieldFitter::shape() const
 {
   const FieldModel& model = Statistics.model;
-  return { model.at(FieldParameter::TailRadius, 0), model.at(FieldParameter::CenterX, 0),
-    model.at(FieldParameter::CenterY, 0), 0.0, 0.0 };
+  return { model.at(ImageParameter::TailRadius, 0), model.at(ImageParameter::CenterX, 0),
+    model.at(ImageParameter::CenterY, 0), 0.0, 0.0 };
 }
 
 FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDetail detail) const
@@ -45,7 +45,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
   const FieldModel& model = Statistics.model;
   const auto K = static_cast<std::size_t>(Data.channels());
   FieldShape shape = this->shape();
-  if (start.radius > 0.0 && model.isNeutral(FieldParameter::TailFraction))
+  if (start.radius > 0.0 && model.isNeutral(ImageParameter::TailFraction))
   {
     shape.radius = start.radius;
   }
@@ -54,19 +54,19 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
     shape.centerX = start.centerX;
     shape.centerY = start.centerY;
   }
-  if (model.isNeutral(FieldParameter::GradientRight) &&
-    model.isNeutral(FieldParameter::GradientDown))
+  if (model.isNeutral(ImageParameter::GradientRight) &&
+    model.isNeutral(ImageParameter::GradientDown))
   {
     shape.gradientRight = start.gradientRight;
     shape.gradientDown = start.gradientDown;
   }
   std::vector<Bound> terms;
   std::vector<char> known(FieldParameters, 0);
-  const auto add = [&](const FieldTerm& term, bool held)
+  const auto add = [&](const ImageTerm& term, bool held)
   {
-    const double neutral = term.parameter == FieldParameter::TailRadius ? shape.radius
-      : term.parameter == FieldParameter::CenterX && !held              ? shape.centerX
-      : term.parameter == FieldParameter::CenterY && !held              ? shape.centerY
+    const double neutral = term.parameter == ImageParameter::TailRadius ? shape.radius
+      : term.parameter == ImageParameter::CenterX && !held              ? shape.centerX
+      : term.parameter == ImageParameter::CenterY && !held              ? shape.centerY
       : isShape(term.parameter) ? model.at(term.parameter, 0)
                                 : neutralValue(term.parameter);
     terms.push_back({ term, Eigen::ArrayXd::Constant(Data.channels(), neutral),
@@ -75,7 +75,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
   };
   for (const FieldChoice* choice : set)
   {
-    for (const FieldTerm& term : choice->terms)
+    for (const ImageTerm& term : choice->terms)
     {
       add(term, false);
       const Eigen::ArrayXd& value = model[term.parameter];
@@ -89,7 +89,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
   }
   for (std::size_t p = 0; p < FieldParameters; ++p)
   {
-    const auto parameter = static_cast<FieldParameter>(p);
+    const auto parameter = static_cast<ImageParameter>(p);
     if (known[p] == 0 && !isShape(parameter) && !model.isNeutral(parameter))
     {
       add({ parameter, true, 0.0, 0.0, 1.0 }, true);
@@ -121,7 +121,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
       break;
     }
   }
-  fit.next[FieldParameter::TailRadius].setConstant(shape.radius);
+  fit.next[ImageParameter::TailRadius].setConstant(shape.radius);
   std::vector<char> seen(FieldParameters, 0);
   for (std::size_t t = 0; t < terms.size(); ++t)
   {

@@ -1,6 +1,7 @@
 // Effects fitted to the normal equations of an image pair's blocks.
 #pragma once
 
+#include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
 #include <Eigen/Core>
@@ -11,28 +12,25 @@
 namespace msi
 {
 
-// One number of an effect, or one for every channel.
-struct FieldTerm
-{
-  FieldParameter parameter;
-  bool perChannel;
-  double lower, upper, typical;
-};
-
-// One form of one effect; names are those of effectLibrary().
+// One form of one effect.
 struct FieldChoice
 {
-  std::string effect;
+  const EffectDefinition* effect;
   std::string form;
-  std::vector<FieldTerm> terms;
+  std::vector<ImageTerm> terms;
+
+  bool has(EffectTrait::Bit trait) const noexcept { return effect->has(trait); }
+  bool has(ImageParameter parameter) const noexcept;
 };
 
 // Every effect that an image pair can show, without those named.
 std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without);
 
-// Banding by a FieldProfile.
+// Stripes of rows or columns.
+bool isBanding(const FieldChoice& choice);
+// Stripes by a FieldProfile.
 bool isProfile(const FieldChoice& choice);
-// Banding of rows, not of columns.
+// Stripes of rows, not of columns.
 bool isOfRows(const FieldChoice& choice);
 
 using FieldSet = std::vector<const FieldChoice*>;
@@ -102,7 +100,7 @@ public:
 
   // What one term changes in the columns of a channel.
   Eigen::VectorXd coefficients(
-    FieldParameter parameter, Eigen::Index channel, const FieldShape& shape) const;
+    ImageParameter parameter, Eigen::Index channel, const FieldShape& shape) const;
   // The model's own.
   FieldShape shape() const;
 

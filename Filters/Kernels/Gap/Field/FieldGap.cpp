@@ -10,7 +10,6 @@
 #include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/GapCertainty.h"
 #include "Kernels/Gap/GapNotes.h"
-#include "Kernels/Gap/SeparatingCapture.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
@@ -99,11 +98,7 @@ std::string whereIs(const std::vector<GapAxis>& axes)
 bool areExact(const FieldSet& set)
 {
   return std::all_of(set.begin(), set.end(),
-    [](const FieldChoice* choice)
-    {
-      return choice->effect == "exposure_gain" || choice->effect == "channel_gain" ||
-        choice->effect == "dark_offset";
-    });
+    [](const FieldChoice* choice) { return choice->has(EffectTrait::Exact); });
 }
 
 std::vector<std::string> notesOn(
@@ -140,7 +135,9 @@ std::vector<std::string> notesOn(
             "beside them in the simulated one";
     notes.push_back(text.str());
   }
-  if (!data.filled.empty() && contains(set, "local_stray_light"))
+  const bool hasTail =
+    hasTerm(set, ImageParameter::TailFraction) || hasTerm(set, ImageParameter::SurroundFirst);
+  if (!data.filled.empty() && hasTail)
   {
     notes.emplace_back("the surround of the usable pixels is partly not simulated; "
                        "local_stray_light takes it to be like its neighbours in the row");
@@ -158,13 +155,15 @@ std::vector<std::string> notesOn(
       notes.push_back(text.str());
     }
   }
-  if ((contains(set, "vignetting") && contains(set, "illumination_gradient")) ||
-    hasTerm(set, FieldParameter::CenterX))
+  if ((hasTerm(set, ImageParameter::Falloff) && hasTerm(set, ImageParameter::GradientRight)) ||
+    hasTerm(set, ImageParameter::CenterX))
   {
     notes.emplace_back("vignetting about a center off the middle looks like vignetting with "
                        "illumination_gradient; the chart rotated by 180 degrees separates them");
   }
-  if (contains(set, "dark_offset") != contains(set, "veiling_glare"))
+  const bool hasGlare =
+    hasTerm(set, ImageParameter::Glare) || hasTerm(set, ImageParameter::ConservingGlare);
+  if (hasTerm(set, ImageParameter::Dark) != hasGlare)
   {
     notes.emplace_back("an offset of each channel may be dark_offset or veiling_glare: one image "
                        "cannot tell unless the offsets go with the channels' means");

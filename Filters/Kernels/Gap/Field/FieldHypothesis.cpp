@@ -45,21 +45,16 @@ FieldSet withoutOne(FieldSet set, std::size_t position)
   return set;
 }
 
-bool contains(const FieldSet& set, const char* effect, const char* form)
+bool contains(const FieldSet& set, const EffectDefinition& effect)
 {
   return std::any_of(set.begin(), set.end(),
-    [&](const FieldChoice* choice)
-    { return choice->effect == effect && (form == nullptr || choice->form == form); });
+    [&effect](const FieldChoice* choice) { return choice->effect == &effect; });
 }
 
-bool hasTerm(const FieldSet& set, FieldParameter parameter)
+bool hasTerm(const FieldSet& set, ImageParameter parameter)
 {
   return std::any_of(set.begin(), set.end(),
-    [parameter](const FieldChoice* choice)
-    {
-      return std::any_of(choice->terms.begin(), choice->terms.end(),
-        [parameter](const FieldTerm& term) { return term.parameter == parameter; });
-    });
+    [parameter](const FieldChoice* choice) { return choice->has(parameter); });
 }
 
 FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
@@ -90,11 +85,11 @@ FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, con
 FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set, FieldDetail detail)
 {
   const FieldModel& model = fitter.statistics().model;
-  const bool tail = contains(set, "local_stray_light", "neighbours") &&
-    model.isNeutral(FieldParameter::TailFraction);
+  const bool tail =
+    hasTerm(set, ImageParameter::TailFraction) && model.isNeutral(ImageParameter::TailFraction);
   // Terms of a higher order are known about the model's center alone.
-  const bool center = !model.hasVignetting() && hasTerm(set, FieldParameter::CenterX) &&
-    !hasTerm(set, FieldParameter::Fourth);
+  const bool center = !model.hasVignetting() && hasTerm(set, ImageParameter::CenterX) &&
+    !hasTerm(set, ImageParameter::Fourth);
   FieldShape start;
   std::optional<FieldFit> best;
   const auto tryOut = [&](const FieldShape& shape)
@@ -114,12 +109,12 @@ FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set, FieldDetail d
       tryOut({ radius, 0.0, 0.0, 0.0, 0.0 });
     }
   }
-  if (hasTerm(set, FieldParameter::GradientBend) &&
-    model.isNeutral(FieldParameter::GradientRight) && model.isNeutral(FieldParameter::GradientDown))
+  if (hasTerm(set, ImageParameter::GradientBend) &&
+    model.isNeutral(ImageParameter::GradientRight) && model.isNeutral(ImageParameter::GradientDown))
   {
     FieldShape bent = start;
-    const double right = best->next.at(FieldParameter::GradientRight, 0);
-    const double down = best->next.at(FieldParameter::GradientDown, 0);
+    const double right = best->next.at(ImageParameter::GradientRight, 0);
+    const double down = best->next.at(ImageParameter::GradientDown, 0);
     const double size = std::hypot(right, down);
     if (size > 0.0)
     {
@@ -148,8 +143,7 @@ std::vector<std::string> indistinctEffects(
   std::vector<std::string> found;
   for (const FieldChoice& choice : choices)
   {
-    if (choice.effect != "misregistration" && choice.effect != "defocus" &&
-      choice.effect != "local_stray_light")
+    if (!choice.has(EffectTrait::ActsOnEdges))
     {
       continue;
     }
@@ -157,7 +151,7 @@ std::vector<std::string> indistinctEffects(
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
       const Eigen::VectorXd column = fitter.coefficients(choice.terms.front().parameter, k,
-        { neutralValue(FieldParameter::TailRadius), 0.0, 0.0, 0.0, 0.0 });
+        { neutralValue(ImageParameter::TailRadius), 0.0, 0.0, 0.0, 0.0 });
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
         information += column.dot(
@@ -166,9 +160,10 @@ std::vector<std::string> indistinctEffects(
     }
     const bool missing =
       1.0 / std::sqrt(std::fmax(information, 1e-30)) > Indistinct * choice.terms.front().typical;
-    if (missing && std::find(found.begin(), found.end(), choice.effect) == found.end())
+    const std::string& name = choice.effect->name;
+    if (missing && std::find(found.begin(), found.end(), name) == found.end())
     {
-      found.push_back(choice.effect);
+      found.push_back(name);
     }
   }
   return found;

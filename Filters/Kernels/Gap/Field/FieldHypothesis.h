@@ -19,9 +19,9 @@ struct FieldHypothesis
 
 FieldSet joined(FieldSet set, const FieldChoice& choice);
 FieldSet withoutOne(FieldSet set, std::size_t position);
-bool contains(const FieldSet& set, const char* effect, const char* form = nullptr);
+bool contains(const FieldSet& set, const EffectDefinition& effect);
 
-bool hasTerm(const FieldSet& set, FieldParameter parameter);
+bool hasTerm(const FieldSet& set, ImageParameter parameter);
 
 // The mean over groups of training blocks of the signed root of what they gain, over its standard error. The root: energies
 // have tails, and a plane of light gains little in the middle of the field.

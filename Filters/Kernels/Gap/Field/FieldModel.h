@@ -1,7 +1,7 @@
 // The parameters of everything that an image pair can show.
 #pragma once
 
-#include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Camera/ImageTerm.h"
 #include "Kernels/Gap/Field/FieldPair.h"
 
 #include <Eigen/Core>
@@ -31,50 +31,7 @@ private:
   static std::size_t at(int fold) noexcept { return static_cast<std::size_t>(fold); }
 };
 
-inline constexpr int TailPasses = 6;
-inline constexpr int FreePasses = TailPasses - 1; // the first is too narrow to be told from a blur
-
-enum class FieldParameter
-{
-  Gain,
-  Dark,
-  Glare,
-  ConservingGlare,
-  GradientRight,
-  GradientDown,
-  GradientBend, // times the square of the place along the gradient's direction
-  Falloff,      // loss at rho = 1 that grows with rho^2, rho from the center
-  Fourth,
-  Sixth,
-  CenterX,
-  CenterY,
-  Square,
-  Exponent,
-  Compression,
-  Clip, // 1: the rounded clipping at ClipLevel; parts of it only on the way there
-  ClipLevel,
-  Retained,
-  Right,
-  Down,
-  Magnification,
-  Rotation,     // degrees, right towards down
-  BlurVariance, // pixels^2
-  TailFraction,
-  TailRadius,
-  SurroundFirst, // weights of single passes of the tail: any shape
-  SurroundLast = SurroundFirst + FreePasses - 1,
-  RowSine, // u (1 + sine sin(2 pi row / period) + cosine cos(2 pi row / period))
-  RowCosine,
-  ColumnSine,
-  ColumnCosine,
-  RowGain, // times FieldProfile::gain of the row
-  RowOffset,
-  ColumnGain,
-  ColumnOffset,
-  Count
-};
-
-inline constexpr std::size_t FieldParameters = static_cast<std::size_t>(FieldParameter::Count);
+inline constexpr std::size_t FieldParameters = static_cast<std::size_t>(ImageParameter::Count);
 
 // One number of each parameter for every channel; parameters common to the channels repeat.
 //
@@ -84,19 +41,19 @@ struct FieldModel
 {
   explicit FieldModel(Eigen::Index channels = 0);
 
-  Eigen::ArrayXd& operator[](FieldParameter parameter)
+  Eigen::ArrayXd& operator[](ImageParameter parameter)
   {
     return Values[static_cast<std::size_t>(parameter)];
   }
-  const Eigen::ArrayXd& operator[](FieldParameter parameter) const
+  const Eigen::ArrayXd& operator[](ImageParameter parameter) const
   {
     return Values[static_cast<std::size_t>(parameter)];
   }
-  double at(FieldParameter parameter, Eigen::Index channel) const
+  double at(ImageParameter parameter, Eigen::Index channel) const
   {
     return Values[static_cast<std::size_t>(parameter)][channel];
   }
-  bool isNeutral(FieldParameter parameter) const;
+  bool isNeutral(ImageParameter parameter) const;
   bool hasVignetting() const;
   // 1 + g n + bend n^2, n the place along the gradient (right, down), g its length
   double gradient(double x, double y) const noexcept;
@@ -118,25 +75,19 @@ private:
   std::array<Eigen::ArrayXd, FieldParameters> Values;
 };
 
-double neutralValue(FieldParameter parameter) noexcept;
-
-// The weight of single pass i + 1 of the tail, counted from 0.
-constexpr FieldParameter surroundWeight(int i) noexcept
-{
-  return static_cast<FieldParameter>(static_cast<int>(FieldParameter::SurroundFirst) + i);
-}
+double neutralValue(ImageParameter parameter) noexcept;
 
 // A shape that another parameter turns on: without it, it changes nothing.
-constexpr bool isShape(FieldParameter parameter) noexcept
+constexpr bool isShape(ImageParameter parameter) noexcept
 {
-  return parameter == FieldParameter::TailRadius || parameter == FieldParameter::ClipLevel;
+  return parameter == ImageParameter::TailRadius || parameter == ImageParameter::ClipLevel;
 }
 
 // What says where or how far another parameter acts: it does nothing of its own.
-constexpr bool isPlace(FieldParameter parameter) noexcept
+constexpr bool isPlace(ImageParameter parameter) noexcept
 {
-  return isShape(parameter) || parameter == FieldParameter::CenterX ||
-    parameter == FieldParameter::CenterY;
+  return isShape(parameter) || parameter == ImageParameter::CenterX ||
+    parameter == ImageParameter::CenterY;
 }
 
 } // namespace msi

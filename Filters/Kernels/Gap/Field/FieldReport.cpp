@@ -67,8 +67,8 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
   for (std::size_t e = 0; e < set.size(); ++e)
   {
     GapCause cause;
-    cause.effect = set[e]->effect;
-    cause.form = libraryForm(*set[e]);
+    cause.effect = set[e]->effect->name;
+    cause.form = set[e]->form;
     cause.undone = undone[e];
     cause.share = sum > 0.0 ? total * share[e] / sum * (1.0 - doubt * undone[e]) : 0.0;
     cause.shrink = reached[std::size_t(1) << e];
@@ -87,7 +87,7 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
         const double cost = costOf(fitter.fit(other));
         if (cost <= costOf(best) + tolerance)
         {
-          rivals.emplace_back(cost, choice.effect);
+          rivals.emplace_back(cost, choice.effect->name);
         }
       }
     }
@@ -128,7 +128,7 @@ std::vector<GapCandidate> fieldCandidates(
       groupSums(data, single.blockEnergy, true), groupSums(data, chance, true) };
     const auto sum = [](const std::vector<double>& values)
     { return std::accumulate(values.begin(), values.end(), 0.0); };
-    candidates.push_back({ single.choice->effect, libraryForm(*single.choice), "",
+    candidates.push_back({ single.choice->effect->name, single.choice->form, "",
       shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise)),
       shrinkInterval(energies, seed) });
   }

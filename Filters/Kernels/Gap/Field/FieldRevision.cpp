@@ -55,8 +55,7 @@ void FieldRevision::tryTrend()
 {
   FieldSet set;
   std::copy_if(Current.set.begin(), Current.set.end(), std::back_inserter(set),
-    [](const FieldChoice* choice)
-    { return choice->effect != "vignetting" && choice->effect != "illumination_gradient"; });
+    [](const FieldChoice* choice) { return !choice->has(EffectTrait::SmoothInField); });
   if (std::none_of(set.begin(), set.end(), [](const FieldChoice* c) { return isProfile(*c); }))
   {
     return;
@@ -114,30 +113,31 @@ std::vector<FieldSet> FieldRevision::otherLight() const
   for (std::size_t e = 0; e < Current.set.size(); ++e)
   {
     const FieldChoice* mine = Current.set[e];
-    if (mine->effect != "vignetting")
+    if (!mine->has(ImageParameter::Falloff))
     {
       continue;
     }
     FieldSet rest = withoutOne(Current.set, e);
-    const bool off = hasTerm({ mine }, FieldParameter::CenterX);
+    const bool off = hasTerm({ mine }, ImageParameter::CenterX);
     const FieldChoice* gradient = nullptr;
     for (const FieldChoice& choice : Choices)
     {
-      const bool plane = choice.effect == "illumination_gradient" && choice.form == "plane";
+      const bool plane =
+        choice.has(ImageParameter::GradientRight) && !choice.has(ImageParameter::GradientBend);
       gradient = plane ? &choice : gradient;
     }
-    if (gradient == nullptr || contains(rest, "illumination_gradient") == off)
+    if (gradient == nullptr || hasTerm(rest, ImageParameter::GradientRight) == off)
     {
       continue;
     }
     rest.erase(
       std::remove_if(rest.begin(), rest.end(),
-        [](const FieldChoice* choice) { return choice->effect == "illumination_gradient"; }),
+        [](const FieldChoice* choice) { return choice->has(ImageParameter::GradientRight); }),
       rest.end());
     for (const FieldChoice& choice : Choices)
     {
       if (choice.effect == mine->effect && choice.form == mine->form &&
-        hasTerm({ &choice }, FieldParameter::CenterX) != off)
+        hasTerm({ &choice }, ImageParameter::CenterX) != off)
       {
         sets.push_back(joined(off ? joined(rest, *gradient) : rest, choice));
       }

@@ -64,9 +64,9 @@ private:
     std::vector<FieldFit> best;
     for (FieldFit& fit : fits)
     {
-      const std::string& effect = fit.set.back()->effect;
+      const EffectDefinition* effect = fit.set.back()->effect;
       if (std::none_of(best.begin(), best.end(),
-            [&effect](const FieldFit& other) { return other.set.back()->effect == effect; }))
+            [effect](const FieldFit& other) { return other.set.back()->effect == effect; }))
       {
         best.push_back(std::move(fit));
       }
@@ -114,16 +114,16 @@ private:
     }
     for (const FieldChoice& choice : Choices)
     {
-      if (choice.effect == "misregistration" && compatible(Current.set, choice))
+      if (choice.has(ImageParameter::Right) && compatible(Current.set, choice))
       {
         const FieldSet set = joined(Current.set, choice);
-        const bool similar = hasTerm(set, FieldParameter::Rotation);
+        const bool similar = hasTerm(set, ImageParameter::Rotation);
         const Eigen::MatrixXd& place = similar ? Start.similarity : Start.shift;
         FieldModel start = Current.statistics->model;
-        start[FieldParameter::Right] = place.col(0);
-        start[FieldParameter::Down] = place.col(1);
-        start[FieldParameter::Magnification] = place.col(2);
-        start[FieldParameter::Rotation] = place.col(3);
+        start[ImageParameter::Right] = place.col(0);
+        start[ImageParameter::Down] = place.col(1);
+        start[ImageParameter::Magnification] = place.col(2);
+        start[ImageParameter::Rotation] = place.col(3);
         if (!place.isZero() && (!similar || place.rightCols(2).any()))
         {
           tryOut(set, start);
@@ -161,9 +161,7 @@ private:
     }
     for (const FieldChoice& choice : Choices)
     {
-      const bool anchor = choice.effect == "exposure_gain" || choice.effect == "channel_gain" ||
-        choice.effect == "dark_offset";
-      if (anchor && available(Current.set, choice))
+      if (choice.has(EffectTrait::Exact) && available(Current.set, choice))
       {
         for (FieldFit& fit : rank(fitter, joined(Current.set, choice)))
         {

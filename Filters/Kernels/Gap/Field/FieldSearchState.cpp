@@ -82,7 +82,7 @@ void FieldSearchState::setPrice(const FieldFitter& fitter)
 bool FieldSearchState::available(const FieldSet& set, const FieldChoice& choice) const
 {
   const FieldModel& model = Current.statistics->model;
-  if (choice.effect == "banding")
+  if (isBanding(choice))
   {
     const bool rows = isOfRows(choice);
     const bool known = isProfile(choice) ? (rows ? model.rows : model.columns) != nullptr
@@ -92,7 +92,7 @@ bool FieldSearchState::available(const FieldSet& set, const FieldChoice& choice)
       return false;
     }
   }
-  if (choice.effect == "saturation" && model.isNeutral(FieldParameter::ClipLevel))
+  if (choice.has(ImageParameter::Clip) && model.isNeutral(ImageParameter::ClipLevel))
   {
     return false;
   }
@@ -101,8 +101,8 @@ bool FieldSearchState::available(const FieldSet& set, const FieldChoice& choice)
 
 bool FieldSearchState::clips(const FieldHypothesis& hypothesis)
 {
-  return !contains(hypothesis.set, "saturation") ||
-    hypothesis.statistics->model.at(FieldParameter::Clip, 0) >= LeastClip;
+  return !hasTerm(hypothesis.set, ImageParameter::Clip) ||
+    hypothesis.statistics->model.at(ImageParameter::Clip, 0) >= LeastClip;
 }
 
 FieldStatistics FieldSearchState::nominalStatistics() const
@@ -113,7 +113,7 @@ FieldStatistics FieldSearchState::nominalStatistics() const
   model.columnPeriod = current.columnPeriod;
   model.rows = current.rows;
   model.columns = current.columns;
-  model[FieldParameter::ClipLevel] = current[FieldParameter::ClipLevel];
+  model[ImageParameter::ClipLevel] = current[ImageParameter::ClipLevel];
   return fieldStatistics(Data, model, &Result.weights, Loop);
 }
 
@@ -121,13 +121,13 @@ void FieldSearchState::findStarts()
 {
   FieldModel model = Current.statistics->model;
   bool found = false;
-  if (!contains(Current.set, "banding", "rows"))
+  if (!hasTerm(Current.set, ImageParameter::RowSine))
   {
     Result.rows = findPeriod(Data, model, true, Loop);
     found = found || Result.rows.period != model.rowPeriod;
     model.rowPeriod = Result.rows.period;
   }
-  if (!contains(Current.set, "banding", "columns"))
+  if (!hasTerm(Current.set, ImageParameter::ColumnSine))
   {
     Result.columns = findPeriod(Data, model, false, Loop);
     found = found || Result.columns.period != model.columnPeriod;
@@ -138,11 +138,11 @@ void FieldSearchState::findStarts()
     findProfiles(model, Current.set);
     found = true;
   }
-  if (!contains(Current.set, "saturation"))
+  if (!hasTerm(Current.set, ImageParameter::Clip))
   {
     const double level = findClipLevel(Data, model, Loop);
-    found = found || level != model.at(FieldParameter::ClipLevel, 0);
-    model[FieldParameter::ClipLevel].setConstant(level);
+    found = found || level != model.at(ImageParameter::ClipLevel, 0);
+    model[ImageParameter::ClipLevel].setConstant(level);
   }
   if (found)
   {

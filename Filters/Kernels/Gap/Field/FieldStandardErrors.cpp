@@ -16,10 +16,10 @@ namespace
 Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
 {
   const auto K = Data.channels();
-  std::vector<std::pair<FieldTerm, Eigen::Index>> single; // channel, -1: common
+  std::vector<std::pair<ImageTerm, Eigen::Index>> single; // channel, -1: common
   for (const FieldChoice* choice : set)
   {
-    for (const FieldTerm& term : choice->terms)
+    for (const ImageTerm& term : choice->terms)
     {
       for (Eigen::Index k = term.perChannel ? 0 : -1; k < (term.perChannel ? K : 0); ++k)
       {
@@ -88,7 +88,7 @@ Eigen::MatrixXd FieldFitter::contributionProducts(const FieldSet& set) const
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(ModelColumns, count + 1);
     for (Eigen::Index e = 0; e < count; ++e)
     {
-      for (const FieldTerm& term : set[static_cast<std::size_t>(e)]->terms)
+      for (const ImageTerm& term : set[static_cast<std::size_t>(e)]->terms)
       {
         if (!isPlace(term.parameter))
         {

@@ -1,9 +1,10 @@
-// What a stage contributes to the effect library: definitions and how to make their operators.
+// One effect: its definition and how to make its operators. Every effect has a file of its own, named after it.
 #pragma once
 
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Camera/Effects/BoundEffect.h"
 #include "Kernels/Camera/Effects/EffectOperators.h"
+#include "Kernels/Camera/Effects/ImageOperators.h"
 
 #include <memory>
 #include <vector>
@@ -11,15 +12,27 @@
 namespace msi
 {
 
-// Exactly one factory is set, none for effects that the simulators treat themselves (noise, image).
-struct EffectEntry
+// What is told of the surround of a pixel or sample, for stray light.
+enum class Surround
+{
+  Scene, // the mean of the whole scene
+  Near   // the neighbours: on an image the tail of the point spread
+};
+
+// Of the first three factories exactly one is set, none for noise and effects of images alone.
+struct Effect
 {
   EffectDefinition definition;
   std::unique_ptr<ResponsivityOperator> (*makeResponsivity)(const BoundEffect&) = nullptr;
   std::unique_ptr<BlockOperator> (*makeBlock)(const BoundEffect&) = nullptr;
   std::unique_ptr<SurroundOperator> (*makeSurround)(const BoundEffect&) = nullptr;
   bool afterDark = false; // a detector effect that acts on u with the dark response in it
+  Surround surround = Surround::Scene;
+  ImageFactories onImage = {};
 };
+
+// The term of an image form for a parameter of the library's form: the same name, bounds and size.
+ImageTerm imageTerm(ImageParameter parameter, const EffectParameter& of);
 
 template <typename Operator>
 std::unique_ptr<ResponsivityOperator> makeResponsivityOperator(const BoundEffect& effect)
@@ -37,18 +50,8 @@ std::unique_ptr<SurroundOperator> makeSurroundOperator(const BoundEffect& effect
   return std::make_unique<Operator>(effect);
 }
 
-// The stages, each in the order in which its effects act.
-std::vector<EffectEntry> reflectanceEffects();
-std::vector<EffectEntry> responsivityEffects();
-std::vector<EffectEntry> irradianceEffects();
-std::vector<EffectEntry> gainEffects();     // detector, linear
-EffectEntry sessionDrift();                 // detector
-std::vector<EffectEntry> detectorEffects(); // detector, curve and offset
-std::vector<EffectEntry> noiseEffects();
-std::vector<EffectEntry> imageEffects();
-
-// All of them; the definitions are those of effectLibrary(), at the same positions.
-const std::vector<EffectEntry>& effectEntries();
-const EffectEntry& entryOf(const EffectDefinition& definition);
+// All effects in the order in which they act; the definitions are those of effectLibrary(), at the same positions.
+const std::vector<Effect>& effectRegistry();
+const Effect& registered(const EffectDefinition& definition);
 
 } // namespace msi

@@ -1,28 +1,11 @@
-// Linear effects of the detector and its clock.
-#include "Kernels/Camera/Effects/EffectEntry.h"
+// A part of the neighbouring channels' signal.
+#include "Kernels/Camera/Effects/Effect.h"
 
 namespace msi
 {
 
 namespace
 {
-class ChannelGain : public BlockOperatorOf<ChannelGain>
-{
-public:
-  explicit ChannelGain(const BoundEffect& effect)
-    : Gain(effect.perChannel("gain"))
-  {
-  }
-  template <typename Scalar>
-  void run(Block<Scalar> signal, const ColumnContext&) const noexcept
-  {
-    signal.array().colwise() *= Gain.as<Scalar>();
-  }
-
-private:
-  ChannelValues Gain;
-};
-
 // u_k + before_k (u_k-1 - u_k) + after_k (u_k+1 - u_k); at the ends the neighbour that is missing gives nothing.
 class ChannelCrosstalk : public BlockOperatorOf<ChannelCrosstalk>
 {
@@ -72,7 +55,7 @@ private:
 };
 }
 
-std::vector<EffectEntry> gainEffects()
+Effect channelCrosstalk()
 {
   const EffectParameter coupling{ "coupling", "1", 0.0, -0.2, 0.45, 0.01,
     "share exchanged with each neighbour" };
@@ -82,33 +65,22 @@ std::vector<EffectEntry> gainEffects()
   EffectParameter next = coupling;
   next.name = "from_next";
   next.meaning = "share taken over from the channel behind";
-  return {
-    { { "exposure_gain", "Exposure gain",
-        "All channels brighter or darker: exposure time, aperture, lamp, white tile.",
-        EffectStage::Detector, EffectNeed::Nothing,
-        { { "common", "gain u",
-          { { "gain", "1", 1.0, 0.2, 5.0, 0.03, "factor on every channel" } } } } },
-      nullptr, makeBlockOperator<ChannelGain> },
-    { { "channel_gain", "Channel gain",
-        "Every channel has an error of its own in exposure or white balance.",
-        EffectStage::Detector, EffectNeed::Nothing,
-        { { "per_channel", "gain_k u_k",
-          { { "gain", "1", 1.0, 0.2, 5.0, 0.03, "factor on the channel", true } } } } },
-      nullptr, makeBlockOperator<ChannelGain> },
-    { { "channel_crosstalk", "Channel crosstalk",
-        "A part of the neighbouring channels' signal: charge, lag between exposures, a mosaic's "
-        "leak.",
-        EffectStage::Detector, EffectNeed::Nothing,
-        { { "symmetric",
-            "u_k + c_k (u_k-1 - u_k) + c_k (u_k+1 - u_k), c_k = coupling (1 + growth x), x = -1..1 "
-            "from the first channel to the last",
-            { coupling,
-              { "growth", "1", 0.0, -1.0, 1.0, 0.3,
-                "relative growth of the coupling over the channels", false, true } } },
-          { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
-            { previous, next } } } },
-      nullptr, makeBlockOperator<ChannelCrosstalk> },
-  };
+  Effect effect;
+  effect.definition = { "channel_crosstalk", "Channel crosstalk",
+    "A part of the neighbouring channels' signal: charge, lag between exposures, a mosaic's "
+    "leak.",
+    EffectStage::Detector, EffectNeed::Nothing,
+    { { "symmetric",
+        "u_k + c_k (u_k-1 - u_k) + c_k (u_k+1 - u_k), c_k = coupling (1 + growth x), x = -1..1 "
+        "from the first channel to the last",
+        { coupling,
+          { "growth", "1", 0.0, -1.0, 1.0, 0.3, "relative growth of the coupling over the channels",
+            false, true } } },
+      { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
+        { previous, next } } },
+    "narrow-band source", EffectTrait::CouplesChannels };
+  effect.makeBlock = makeBlockOperator<ChannelCrosstalk>;
+  return effect;
 }
 
 } // namespace msi

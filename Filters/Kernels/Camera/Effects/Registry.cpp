@@ -1,15 +1,24 @@
 #include "Kernels/Camera/CameraEffect.h"
 
-#include "Kernels/Camera/Effects/EffectEntry.h"
+#include "Kernels/Camera/Effects/Effect.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cassert>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 namespace msi
 {
+
+// One file each.
+using MakeEffect = Effect();
+MakeEffect specularComponent, translucency, fluorescence, interreflection, mediumGain;
+MakeEffect filterBandwidth, filterShift, filterLeak, illuminantDrift;
+MakeEffect illuminationGradient, vignetting, veilingGlare, localStrayLight;
+MakeEffect exposureGain, channelGain, channelCrosstalk, sessionDrift;
+MakeEffect detectorNonlinearity, darkOffset, saturation, excessNoise;
+MakeEffect misregistration, defocus, lag, banding;
 
 namespace
 {
@@ -28,27 +37,23 @@ template <typename Items>
 }
 }
 
-const std::vector<EffectEntry>& effectEntries()
+const std::vector<Effect>& effectRegistry()
 {
-  static const std::vector<EffectEntry> entries = []
+  static const std::vector<Effect> registry = []
   {
-    std::vector<EffectEntry> all;
-    const auto append = [&all](std::vector<EffectEntry> stage)
+    std::vector<Effect> effects;
+    // In the order in which they act.
+    for (MakeEffect* make : { specularComponent, translucency, fluorescence, interreflection,
+           mediumGain, filterBandwidth, filterShift, filterLeak, illuminantDrift,
+           illuminationGradient, vignetting, veilingGlare, localStrayLight, exposureGain,
+           channelGain, channelCrosstalk, sessionDrift, detectorNonlinearity, darkOffset,
+           saturation, excessNoise, misregistration, defocus, lag, banding })
     {
-      all.insert(
-        all.end(), std::make_move_iterator(stage.begin()), std::make_move_iterator(stage.end()));
-    };
-    append(reflectanceEffects());
-    append(responsivityEffects());
-    append(irradianceEffects());
-    append(gainEffects());
-    all.push_back(sessionDrift());
-    append(detectorEffects());
-    append(noiseEffects());
-    append(imageEffects());
-    return all;
+      effects.push_back(make());
+    }
+    return effects;
   }();
-  return entries;
+  return registry;
 }
 
 const std::vector<EffectDefinition>& effectLibrary()
@@ -56,19 +61,19 @@ const std::vector<EffectDefinition>& effectLibrary()
   static const std::vector<EffectDefinition> library = []
   {
     std::vector<EffectDefinition> all;
-    for (const EffectEntry& entry : effectEntries())
+    for (const Effect& effect : effectRegistry())
     {
-      all.push_back(entry.definition);
+      all.push_back(effect.definition);
     }
     return all;
   }();
   return library;
 }
 
-const EffectEntry& entryOf(const EffectDefinition& definition)
+const Effect& registered(const EffectDefinition& definition)
 {
   const auto position = static_cast<std::size_t>(&definition - effectLibrary().data());
-  return effectEntries()[position];
+  return effectRegistry()[position];
 }
 
 const EffectDefinition* findEffect(std::string_view name) noexcept
@@ -108,6 +113,39 @@ const EffectForm& requireForm(const EffectDefinition& effect, std::string_view n
     rejectName("form of " + effect.name, name, effect.forms);
   }
   return *form;
+}
+
+namespace
+{
+template <typename Condition>
+const EffectDefinition& firstEffect(Condition condition)
+{
+  const auto& library = effectLibrary();
+  const auto found = std::find_if(library.begin(), library.end(), condition);
+  assert(found != library.end());
+  return *found;
+}
+}
+
+const EffectDefinition& effectWith(EffectTrait::Bit trait)
+{
+  return firstEffect([trait](const EffectDefinition& effect) { return effect.has(trait); });
+}
+
+const EffectDefinition& effectOf(EffectStage stage)
+{
+  return firstEffect([stage](const EffectDefinition& effect) { return effect.stage == stage; });
+}
+
+std::string separatingCapture(std::string_view effect)
+{
+  const EffectDefinition* definition = findEffect(effect);
+  return definition == nullptr ? std::string() : definition->separatingCapture;
+}
+
+ImageTerm imageTerm(ImageParameter parameter, const EffectParameter& of)
+{
+  return { parameter, of.perChannel, of.lower, of.upper, of.typical, of.name, of.unit };
 }
 
 std::vector<EffectParameter> effectParameters(

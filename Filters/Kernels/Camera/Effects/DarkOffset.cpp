@@ -1,0 +1,49 @@
+// An offset that the dark frame did not take away.
+#include "Kernels/Camera/Effects/Effect.h"
+
+namespace msi
+{
+
+namespace
+{
+class DarkOffset : public BlockOperatorOf<DarkOffset>
+{
+public:
+  explicit DarkOffset(const BoundEffect& effect)
+    : Offset(effect.perChannel("offset"))
+  {
+  }
+  template <typename Scalar>
+  void run(Block<Scalar> response, const ColumnContext&) const noexcept
+  {
+    response.array().colwise() += Offset.as<Scalar>();
+  }
+
+private:
+  ChannelValues Offset;
+};
+
+EffectParameter offset(bool perChannel)
+{
+  return { "offset", "white", 0.0, -0.2, 0.2, 0.005, "dark response beyond the model's",
+    perChannel };
+}
+}
+
+Effect darkOffset()
+{
+  Effect effect;
+  effect.definition = { "dark_offset", "Dark offset",
+    "Dark current, bias or ambient light that the dark frame did not take away.",
+    EffectStage::Detector, EffectNeed::Nothing,
+    { { "common", "u + offset", { offset(false) } },
+      { "per_channel", "u_k + offset_k", { offset(true) }, {}, FormTrait::SmallError } },
+    "lens cap", EffectTrait::Exact,
+    { { "common", { imageTerm(ImageParameter::Dark, offset(false)) } },
+      { "per_channel", { imageTerm(ImageParameter::Dark, offset(true)) } } } };
+  effect.makeBlock = makeBlockOperator<DarkOffset>;
+  effect.afterDark = true;
+  return effect;
+}
+
+} // namespace msi

@@ -1,0 +1,105 @@
+// One curve for all channels between light and response.
+#include "Kernels/Camera/Effects/DetectorKernel.h"
+#include "Kernels/Camera/Effects/DetectorRuns.h"
+#include "Kernels/Camera/Effects/Effect.h"
+
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+namespace msi
+{
+
+namespace
+{
+class DetectorNonlinearity : public BlockOperatorOf<DetectorNonlinearity>
+{
+public:
+  explicit DetectorNonlinearity(const BoundEffect& effect)
+  {
+    const std::string& form = effect.form().name;
+    if (form == "gamma")
+    {
+      Kind = Gamma;
+      Linear = effect.value("exponent");
+    }
+    else if (form == "compressive")
+    {
+      Kind = Compressive;
+      Linear = effect.value("compression");
+    }
+    else
+    {
+      // linear u + square u^2 + cube u^3
+      Square = effect.value("square");
+      Linear = form == "anchored" ? 1.0 - Square : 1.0;
+      Cube = form == "cubic" ? effect.value("cube") : 0.0;
+    }
+  }
+  template <typename Scalar>
+  void run(Block<Scalar> signal, const ColumnContext&) const noexcept
+  {
+    auto u = signal.array();
+    const auto linear = static_cast<Scalar>(Linear);
+    switch (Kind)
+    {
+      case Polynomial:
+        u *= linear + u * (static_cast<Scalar>(Square) + static_cast<Scalar>(Cube) * u);
+        break;
+      case Compressive:
+        u /= Scalar(1) + linear * u;
+        break;
+      case Gamma:
+        if constexpr (std::is_same_v<Scalar, double>)
+        {
+          forRuns(
+            signal, [this](double* values, std::size_t count) { raise(Linear, values, count); });
+        }
+        else
+        {
+          // One value at a time: packets of pow() and their remainders round differently.
+          signal = signal.unaryExpr(
+            [linear](Scalar value) { return value > Scalar(0) ? std::pow(value, linear) : value; });
+        }
+        break;
+    }
+  }
+
+private:
+  enum
+  {
+    Polynomial,
+    Gamma,
+    Compressive
+  } Kind = Polynomial;
+  double Linear = 1.0;
+  double Square = 0.0;
+  double Cube = 0.0;
+};
+}
+
+Effect detectorNonlinearity()
+{
+  using P = ImageParameter;
+  const EffectParameter square{ "square", "1", 0.0, -0.45, 0.9, 0.05, "weight of u^2" };
+  const EffectParameter cube{ "cube", "1", 0.0, -0.45, 0.9, 0.05, "weight of u^3" };
+  const EffectParameter exponent{ "exponent", "1", 1.0, 0.4, 2.5, 0.05, "exponent" };
+  const EffectParameter compression{ "compression", "1", 0.0, -0.4, 2.0, 0.05, "loss at white" };
+  Effect effect;
+  effect.definition = { "detector_nonlinearity", "Detector nonlinearity",
+    "One curve for all channels between light and response.", EffectStage::Detector,
+    EffectNeed::Nothing,
+    { { "quadratic", "u + square u^2", { square } },
+      { "anchored", "(1 - square) u + square u^2: white keeps its response", { square } },
+      { "gamma", "u^exponent: white keeps its response", { exponent } },
+      { "compressive", "u / (1 + compression u)", { compression } },
+      { "cubic", "u + square u^2 + cube u^3", { square, cube } } },
+    "exposure series of one patch", EffectTrait::None,
+    { { "quadratic", { imageTerm(P::Square, square) } },
+      { "gamma", { imageTerm(P::Exponent, exponent) } },
+      { "compressive", { imageTerm(P::Compression, compression) } } } };
+  effect.makeBlock = makeBlockOperator<DetectorNonlinearity>;
+  return effect;
+}
+
+} // namespace msi

@@ -1,0 +1,79 @@
+// Passbands wider or narrower than the nominal ones.
+#include "Kernels/Camera/Effects/Effect.h"
+#include "Kernels/Camera/Effects/Passbands.h"
+
+namespace msi
+{
+
+namespace
+{
+constexpr double LeastFactor = 0.2; // of a width that changes from channel to channel
+
+class FilterBandwidth : public ResponsivityOperator
+{
+public:
+  explicit FilterBandwidth(const BoundEffect& effect)
+    : Grid(effect.camera().wavelengths())
+    , Moved(Grid)
+    , Factor(effect.perChannel("factor"))
+    , Center(passbandCentroids(effect.camera()))
+    , FixedPeak(effect.form().name == "fixed_peak")
+  {
+  }
+  void apply(Eigen::MatrixXd& responsivity) const override
+  {
+    const Eigen::ArrayXd wavelength = Grid.vector().array();
+    for (Eigen::Index k = 0; k < responsivity.rows(); ++k)
+    {
+      const Eigen::ArrayXd at = Center[k] + Factor[k] * (wavelength - Center[k]);
+      const double gain = FixedPeak ? Factor[k] : 1.0;
+      responsivity.row(k) = Moved.weighted(gain * responsivity.row(k).transpose().array(), at);
+    }
+  }
+
+private:
+  WavelengthGrid Grid;
+  MovedSpectrum Moved;
+  Eigen::ArrayXd Factor;
+  Eigen::ArrayXd Center;
+  bool FixedPeak;
+};
+
+std::unique_ptr<ResponsivityOperator> makeBandwidth(const BoundEffect& effect)
+{
+  if (movesInLight(effect))
+  {
+    return makePassbandsInLight(effect, Eigen::ArrayXd::Zero(effect.camera().channelCount()),
+      (1.0 + (effect.perChannel("factor") - 1.0) * growthOf(effect)).max(LeastFactor));
+  }
+  return std::make_unique<FilterBandwidth>(effect);
+}
+}
+
+Effect filterBandwidth()
+{
+  const auto factor = [](bool perChannel)
+  {
+    return EffectParameter{ "factor", "1", 1.0, 0.3, 3.0, 0.1,
+      "real width of the passband over the nominal one", perChannel };
+  };
+  Effect effect;
+  effect.definition = { "filter_bandwidth", "Filter bandwidth",
+    "Passbands wider or narrower than the nominal ones, about their centroids.",
+    EffectStage::Responsivity, EffectNeed::Nothing,
+    { { "common", "M(c + (wavelength - c) / factor), response to white kept", { factor(false) }, {},
+        FormTrait::KeepsWhite },
+      { "per_channel", "the same with a factor of its own for each channel", { factor(true) }, {},
+        FormTrait::KeepsWhite },
+      { "fixed_peak", "the same with the peak kept: the response to white grows with the width",
+        { factor(false) }, {}, FormTrait::Brightens },
+      inLightForm(
+        "light x passband(c + (wavelength - c) / factor), c the passband's middle; the light "
+        "stays, ln(light) = slope P1(x) + bend P2(x) + twist P3(x), none beyond the grid",
+        factor(false), 1.1, FormTrait::Brightens) },
+    "monochromator" };
+  effect.makeResponsivity = makeBandwidth;
+  return effect;
+}
+
+} // namespace msi

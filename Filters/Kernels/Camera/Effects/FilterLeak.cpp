@@ -1,0 +1,56 @@
+// Transmittance outside the passband.
+#include "Kernels/Camera/Effects/Effect.h"
+#include "Kernels/Camera/Effects/Passbands.h"
+
+#include <vector>
+
+namespace msi
+{
+
+namespace
+{
+class FilterLeak : public ResponsivityOperator
+{
+public:
+  explicit FilterLeak(const BoundEffect& effect)
+    : Fraction(effect.perChannel("fraction"))
+    , White(effect.camera().whiteResponse().array())
+  {
+    const Eigen::ArrayXd x = gridPosition(effect.camera().wavelengths());
+    Spectrum = (1.0 + effect.value("tilt") * x) / static_cast<double>(x.size());
+  }
+  void apply(Eigen::MatrixXd& responsivity) const override
+  {
+    responsivity += (Fraction * White).matrix() * Spectrum.matrix().transpose();
+  }
+
+private:
+  Eigen::ArrayXd Fraction;
+  Eigen::ArrayXd White;
+  Eigen::ArrayXd Spectrum;
+};
+}
+
+Effect filterLeak()
+{
+  const auto leak = [](bool perChannel)
+  {
+    return std::vector<EffectParameter>{
+      { "fraction", "1", 0.0, 0.0, 0.5, 0.01,
+        "response to white through the leak over that through the passband", perChannel },
+      { "tilt", "1", 0.0, -1.0, 1.0, 0.5, "-1 only short waves leak, 1 only long ones", false,
+        true }
+    };
+  };
+  Effect effect;
+  effect.definition = { "filter_leak", "Filter leak",
+    "Transmittance outside the passband, even over the grid or tilted.", EffectStage::Responsivity,
+    EffectNeed::Nothing,
+    { { "common", "M + fraction x (response to white) x spectrum", leak(false) },
+      { "per_channel", "the same with a fraction of its own for each channel", leak(true) } },
+    "long-pass tile" };
+  effect.makeResponsivity = makeResponsivityOperator<FilterLeak>;
+  return effect;
+}
+
+} // namespace msi

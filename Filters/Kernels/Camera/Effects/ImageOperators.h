@@ -1,0 +1,41 @@
+// What an effect does to an image, by the place where it acts. Internal to the simulator of images.
+#pragma once
+
+#include "Kernels/Camera/Effects/BoundEffect.h"
+#include "Kernels/Camera/Imaging/ImageWindow.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+
+namespace msi
+{
+
+class ChannelRegistration;
+class ScatterTail;
+struct SymmetricKernel;
+
+// Changes a run of pixels from (x, y) to the right, K x P, in place. A pixel's bytes depend on the pixel alone.
+class PixelOperator
+{
+public:
+  virtual ~PixelOperator() = default;
+  virtual void apply(Eigen::Map<Eigen::MatrixXf> run, int x, int y) const noexcept = 0;
+};
+
+template <typename Operator>
+std::unique_ptr<PixelOperator> makePixelOperator(const BoundEffect& effect)
+{
+  return std::make_unique<Operator>(effect);
+}
+
+// At most one is set: the channels are moved, blurred, scattered, then changed pixel by pixel.
+struct ImageFactories
+{
+  ChannelRegistration (*makeRegistration)(const BoundEffect&, const ImageExtent&) = nullptr;
+  SymmetricKernel (*makeBlur)(const BoundEffect&) = nullptr;
+  ScatterTail (*makeTail)(const BoundEffect&) = nullptr;
+  std::unique_ptr<PixelOperator> (*makePixels)(const BoundEffect&) = nullptr;
+};
+
+} // namespace msi

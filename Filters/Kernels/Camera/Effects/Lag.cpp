@@ -1,0 +1,46 @@
+// A part of the exposure before.
+#include "Kernels/Camera/Effects/Effect.h"
+
+namespace msi
+{
+
+namespace
+{
+class Lag : public PixelOperator
+{
+public:
+  explicit Lag(const BoundEffect& effect)
+    : Retained(static_cast<float>(effect.value("retained")))
+  {
+  }
+  void apply(Eigen::Map<Eigen::MatrixXf> run, int, int) const noexcept override
+  {
+    for (Eigen::Index j = 0; j < run.cols(); ++j)
+    {
+      for (Eigen::Index k = run.rows() - 1; k > 0; --k)
+      {
+        run(k, j) += Retained * run(k - 1, j);
+      }
+    }
+  }
+
+private:
+  float Retained;
+};
+}
+
+Effect lag()
+{
+  const EffectParameter retained{ "retained", "1", 0.0, 0.0, 0.3, 0.01,
+    "share of the exposure before" };
+  Effect effect;
+  effect.definition = { "lag", "Lag",
+    "A detector keeps a part of the exposure before: that of the channel before.",
+    EffectStage::Image, EffectNeed::Nothing, { { "common", "u_k + retained u_k-1", { retained } } },
+    "channels captured in another order", EffectTrait::None,
+    { { "common", { imageTerm(ImageParameter::Retained, retained) } } } };
+  effect.onImage.makePixels = makePixelOperator<Lag>;
+  return effect;
+}
+
+} // namespace msi

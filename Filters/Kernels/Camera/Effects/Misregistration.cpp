@@ -1,0 +1,47 @@
+// Channels whose images do not lie on one another.
+#include "Kernels/Camera/Effects/Effect.h"
+#include "Kernels/Camera/Imaging/ChannelRegistration.h"
+
+#include <vector>
+
+namespace msi
+{
+
+namespace
+{
+ChannelRegistration makeRegistration(const BoundEffect& effect, const ImageExtent& extent)
+{
+  return { effect.perChannel("right"), effect.perChannel("down"),
+    effect.perChannel("magnification"), effect.perChannel("rotation"), extent };
+}
+}
+
+Effect misregistration()
+{
+  using P = ImageParameter;
+  const std::vector<EffectParameter> parameters = { { "right", "pixels", 0.0, -20.0, 20.0, 0.5,
+                                                      "displacement in x", true },
+    { "down", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", true },
+    { "magnification", "1", 0.0, -0.02, 0.02, 0.001, "relative growth of the image", true },
+    { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
+      "turn from the axis x towards the axis y of the image", true } };
+  const ImageTerm right = imageTerm(P::Right, parameters[0]);
+  const ImageTerm down = imageTerm(P::Down, parameters[1]);
+  const ImageTerm magnification = imageTerm(P::Magnification, parameters[2]);
+  const ImageTerm rotation = imageTerm(P::Rotation, parameters[3]);
+  Effect effect;
+  effect.definition = { "misregistration", "Misregistration",
+    "The channels' images do not lie on one another: filters of different thickness and wedge, "
+    "chromatic difference of magnification.",
+    EffectStage::Image, EffectNeed::Nothing,
+    { { "per_channel",
+      "every channel is turned and magnified about the middle of the field, then displaced",
+      parameters } },
+    "grid target for each filter", EffectTrait::ActsOnEdges,
+    { { "per_channel", { right, down } }, { "per_channel", { right, down, magnification } },
+      { "per_channel", { right, down, magnification, rotation } } } };
+  effect.onImage.makeRegistration = makeRegistration;
+  return effect;
+}
+
+} // namespace msi

@@ -1,0 +1,37 @@
+// What effects of lamp and filters share: places on the grid, and passbands that move or widen under a light that stays.
+#pragma once
+
+#include "Kernels/Camera/Effects/Effect.h"
+#include "Kernels/Camera/Effects/MovedSpectrum.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+
+namespace msi
+{
+
+constexpr double MiddleWavelength = 550.0;
+
+// Wavelengths mapped so that the grid is [-1, 1].
+Eigen::ArrayXd gridPosition(const WavelengthGrid& grid, const Eigen::ArrayXd& wavelength);
+Eigen::ArrayXd gridPosition(const WavelengthGrid& grid);
+
+// Sum of the Legendre polynomials P1 to P3.
+Eigen::ArrayXd legendre(const Eigen::ArrayXd& x, double first, double second, double third);
+
+// Channel centroids; the middle of the grid where a row has no weight.
+Eigen::ArrayXd passbandCentroids(const CameraModel& camera);
+
+// The operator of the form in_light, of filter_shift and filter_bandwidth: shift (nm) and factor of each channel.
+std::unique_ptr<ResponsivityOperator> makePassbandsInLight(
+  const BoundEffect& effect, const Eigen::ArrayXd& shift, const Eigen::ArrayXd& factor);
+bool movesInLight(const BoundEffect& effect);
+// 1 at 550 nm, more or less beyond: how the change grows over the channels.
+Eigen::ArrayXd growthOf(const BoundEffect& effect);
+
+// The form in_light; `primary` is what moves or widens, `size` where a fit starts.
+EffectForm inLightForm(const char* meaning, const EffectParameter& primary, double size,
+  unsigned traits = FormTrait::None);
+
+} // namespace msi

@@ -1,0 +1,99 @@
+// The end of the detector's range.
+#include "Kernels/Camera/Effects/DetectorKernel.h"
+#include "Kernels/Camera/Effects/DetectorRuns.h"
+#include "Kernels/Camera/Effects/Effect.h"
+
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+namespace msi
+{
+
+namespace
+{
+// The lower branch of a hyperbola around the corner of min(u, level), or the p-norm of both.
+class Saturation : public BlockOperatorOf<Saturation>
+{
+public:
+  explicit Saturation(const BoundEffect& effect)
+    : Level(effect.value("level"))
+    , Gradual(effect.form().name == "gradual")
+    , Softness(Gradual ? 0.0 : effect.value("softness"))
+    , Sharpness(Gradual ? effect.value("sharpness") : 0.0)
+  {
+  }
+  template <typename Scalar>
+  void run(Block<Scalar> response, const ColumnContext&) const noexcept
+  {
+    if (Gradual)
+    {
+      if constexpr (std::is_same_v<Scalar, double>)
+      {
+        forRuns(response,
+          [this](double* values, std::size_t count)
+          { saturateGradually(Level, Sharpness, values, count); });
+        return;
+      }
+      response = response.unaryExpr(
+        [level = static_cast<Scalar>(Level), p = static_cast<Scalar>(Sharpness)](Scalar u)
+        {
+          const Scalar over = u > Scalar(0) ? std::pow(u / level, p) : Scalar(0);
+          return u / std::pow(Scalar(1) + over, Scalar(1) / p);
+        });
+      return;
+    }
+    if constexpr (std::is_same_v<Scalar, float>)
+    {
+      forRuns(response,
+        [this](float* values, std::size_t count) {
+          saturate(
+            static_cast<float>(Level), static_cast<float>(Softness * Softness), values, count);
+        });
+    }
+    else
+    {
+      // One value at a time: Eigen's packets of sqrt() and their remainders round differently.
+      response = response.unaryExpr(
+        [level = Level, width2 = Softness * Softness](double u)
+        {
+          const double beyond = u - level;
+          return 0.5 * (u + level - std::sqrt(beyond * beyond + width2));
+        });
+    }
+  }
+
+private:
+  double Level;
+  bool Gradual;
+  double Softness;
+  double Sharpness;
+};
+}
+
+Effect saturation()
+{
+  const EffectParameter level{ "level", "white", 8.0, 0.1, 8.0, 0.1, "largest response" };
+  Effect effect;
+  effect.definition = { "saturation", "Saturation", "Full wells or the end of the converter.",
+    EffectStage::Detector, EffectNeed::Nothing,
+    { { "soft", "(u + level - sqrt((u - level)^2 + softness^2)) / 2, a rounded min(u, level)",
+        { level,
+          { "softness", "white", 0.01, 0.001, 0.2, 0.02, "width of the rounded corner", false,
+            true } },
+        { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } },
+      { "gradual", "u / (1 + (u / level)^sharpness)^(1 / sharpness)",
+        { level,
+          { "sharpness", "1", 10.0, 2.0, 60.0, 4.0, "the larger, the sharper is the bend", false,
+            true } },
+        { { 1.2, 10.0 }, { 0.9, 10.0 }, { 0.7, 10.0 } } } },
+    "shorter exposure", EffectTrait::LimitsResponse,
+    { { "soft",
+      { { ImageParameter::Clip, false, 0.0, 1.0, 0.3 },
+        imageTerm(ImageParameter::ClipLevel, level) } } } };
+  effect.makeBlock = makeBlockOperator<Saturation>;
+  effect.afterDark = true;
+  return effect;
+}
+
+} // namespace msi

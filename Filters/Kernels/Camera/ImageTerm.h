@@ -1,6 +1,8 @@
 // The numbers of a model of image pairs, and which of them a form of an effect sets.
 #pragma once
 
+#include "Kernels/Camera/Imaging/ImageWindow.h"
+
 #include <string>
 #include <vector>
 
@@ -47,8 +49,24 @@ enum class ImageParameter
   RowOffset,
   ColumnGain,
   ColumnOffset,
-  Count
+  Light // strength of the first of imageLights(); those of the others follow
 };
+
+struct ImagePlace
+{
+  int x, y;
+};
+
+// The pixel whose light falls on a pixel, too. Within the image for every pixel of it.
+using LightFrom = ImagePlace (*)(const ImagePlace& pixel, const ImageExtent& extent);
+
+// Of the effects that bring light from elsewhere in the image, in the order of the library: their parameters are
+// imageLight(0), imageLight(1), ...
+const std::vector<LightFrom>& imageLights();
+constexpr ImageParameter imageLight(std::size_t number) noexcept
+{
+  return static_cast<ImageParameter>(static_cast<std::size_t>(ImageParameter::Light) + number);
+}
 
 // The weight of single pass i + 1 of the tail, counted from 0.
 constexpr ImageParameter surroundWeight(int i) noexcept

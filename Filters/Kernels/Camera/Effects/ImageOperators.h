@@ -29,12 +29,14 @@ std::unique_ptr<PixelOperator> makePixelOperator(const BoundEffect& effect)
   return std::make_unique<Operator>(effect);
 }
 
-// At most one is set: the channels are moved, blurred, scattered, then changed pixel by pixel.
+// At most one is set: the channels are moved, blurred, scattered, get light from elsewhere in the image, then change
+// pixel by pixel.
 struct ImageFactories
 {
   ChannelRegistration (*makeRegistration)(const BoundEffect&, const ImageExtent&) = nullptr;
   SymmetricKernel (*makeBlur)(const BoundEffect&) = nullptr;
   ScatterTail (*makeTail)(const BoundEffect&) = nullptr;
+  LightFrom lightFrom = nullptr; // times the first parameter of the form
   std::unique_ptr<PixelOperator> (*makePixels)(const BoundEffect&) = nullptr;
 };
 

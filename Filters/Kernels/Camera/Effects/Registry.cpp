@@ -37,11 +37,29 @@ template <typename Items>
 }
 }
 
+namespace
+{
+// Gives the parameter of light from elsewhere its own number.
+void numberLight(Effect& effect, std::size_t& lights)
+{
+  if (effect.onImage.lightFrom == nullptr)
+  {
+    return;
+  }
+  for (ImageForm& form : effect.definition.imageForms)
+  {
+    form.terms.front().parameter = imageLight(lights);
+  }
+  ++lights;
+}
+}
+
 const std::vector<Effect>& effectRegistry()
 {
   static const std::vector<Effect> registry = []
   {
     std::vector<Effect> effects;
+    std::size_t lights = 0;
     // In the order in which they act.
     for (MakeEffect* make : { specularComponent, translucency, fluorescence, interreflection,
            mediumGain, filterBandwidth, filterShift, filterLeak, illuminantDrift,
@@ -50,6 +68,7 @@ const std::vector<Effect>& effectRegistry()
            saturation, excessNoise, misregistration, defocus, lag, banding })
     {
       effects.push_back(make());
+      numberLight(effects.back(), lights);
     }
     return effects;
   }();
@@ -68,6 +87,23 @@ const std::vector<EffectDefinition>& effectLibrary()
     return all;
   }();
   return library;
+}
+
+const std::vector<LightFrom>& imageLights()
+{
+  static const std::vector<LightFrom> lights = []
+  {
+    std::vector<LightFrom> all;
+    for (const Effect& effect : effectRegistry())
+    {
+      if (effect.onImage.lightFrom != nullptr)
+      {
+        all.push_back(effect.onImage.lightFrom);
+      }
+    }
+    return all;
+  }();
+  return lights;
 }
 
 const Effect& registered(const EffectDefinition& definition)

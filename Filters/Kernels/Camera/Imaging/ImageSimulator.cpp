@@ -32,6 +32,27 @@ std::string describe(const ImageWindow& window)
   return text.str();
 }
 
+// Light from elsewhere in the image.
+struct OtherLight
+{
+  LightFrom from;
+  Eigen::ArrayXf strength; // of each channel
+};
+
+// What is known of the scene.
+struct SceneView
+{
+  const float* reflectance;
+  const int* medium; // nullptr: not known
+  ImageWindow available;
+
+  std::size_t pixel(int x, int y) const noexcept
+  {
+    return static_cast<std::size_t>(y - available.y) * static_cast<std::size_t>(available.width) +
+      static_cast<std::size_t>(x - available.x);
+  }
+};
+
 Eigen::Map<Eigen::MatrixXf> blockOf(float* values, int rows, int columns)
 {
   return { values, rows, columns };
@@ -48,6 +69,7 @@ struct ImageSimulator::Implementation
   std::optional<ChannelRegistration> Registration;
   std::optional<SymmetricKernel> Blur;
   std::optional<ScatterTail> Tail;
+  std::vector<OtherLight> Lights;
   std::vector<std::unique_ptr<PixelOperator>> OnPixels;
 
   Implementation(CameraModel camera, std::vector<CameraEffect> effects, const ImageExtent& extent,
@@ -86,6 +108,11 @@ struct ImageSimulator::Implementation
       {
         Tail.emplace(make.makeTail(effect));
       }
+      if (make.lightFrom != nullptr)
+      {
+        const std::string& strength = effect.form().parameters.front().name;
+        Lights.push_back({ make.lightFrom, effect.perChannel(strength).cast<float>() });
+      }
       if (make.makePixels != nullptr)
       {
         OnPixels.push_back(make.makePixels(effect));
@@ -96,7 +123,10 @@ struct ImageSimulator::Implementation
   int wavelengths() const { return static_cast<int>(Chain.camera().wavelengths().size()); }
   int channels() const { return static_cast<int>(Chain.camera().channelCount()); }
 
-  int halo() const
+  int halo() const { return Lights.empty() ? reach() : std::max(Extent.width, Extent.height); }
+
+  // Of the neighbourhood alone.
+  int reach() const
   {
     return (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) +
       (Tail ? Tail->reach() : 0);
@@ -152,17 +182,33 @@ struct ImageSimulator::Implementation
 
   // A row of `region` in runs: use(reflectance and media of the run, x, count).
   template <typename Use>
-  void forRuns(const float* reflectance, const int* medium, const ImageWindow& available,
-    const ImageWindow& region, int y, const Use& use) const
+  void forRuns(const SceneView& scene, const ImageWindow& region, int y, const Use& use) const
   {
     for (int x = region.x; x < region.x + region.width; x += BlockPixels)
     {
       const int count = std::min(BlockPixels, region.x + region.width - x);
-      const std::size_t pixel =
-        static_cast<std::size_t>(y - available.y) * static_cast<std::size_t>(available.width) +
-        static_cast<std::size_t>(x - available.x);
-      const float* source = reflectance + pixel * static_cast<std::size_t>(wavelengths());
-      use(source, medium == nullptr ? nullptr : medium + pixel, x, count);
+      const std::size_t pixel = scene.pixel(x, y);
+      use(scene.reflectance + pixel * static_cast<std::size_t>(wavelengths()),
+        scene.medium == nullptr ? nullptr : scene.medium + pixel, x, count);
+    }
+  }
+
+  // Adds the light that falls on the pixels from (x, y) to the right from elsewhere.
+  void addLights(Eigen::Map<Eigen::MatrixXf> block, const SceneView& scene, int x, int y,
+    ImageWorkspace& work) const
+  {
+    work.surround.resize(static_cast<std::size_t>(channels()));
+    const Eigen::Map<const Eigen::ArrayXf> other(work.surround.data(), channels());
+    for (const OtherLight& light : Lights)
+    {
+      for (Eigen::Index j = 0; j < block.cols(); ++j)
+      {
+        const ImagePlace from = light.from({ x + static_cast<int>(j), y }, Extent);
+        forRuns(scene, { from.x, from.y, 1, 1 }, from.y,
+          [&](const float* source, const int* media, int at, int run)
+          { irradiate(source, media, at, from.y, run, work.surround.data(), work); });
+        block.col(j).array() += light.strength * other;
+      }
     }
   }
 
@@ -189,19 +235,19 @@ struct ImageSimulator::Implementation
   }
 
   // Stray light, detector, noise: a row of the window, in place. tail: null where there is none.
-  void detectRow(float* signal, const float* tail, const ImageWindow& window, int y,
-    const Eigen::VectorXf& mean, ImageWorkspace& work) const
+  void detectRow(float* signal, const float* tail, const SceneView& scene,
+    const ImageWindow& window, int y, const Eigen::VectorXf& mean, ImageWorkspace& work) const
   {
     for (int x = 0; x < window.width; x += BlockPixels)
     {
       const std::ptrdiff_t place = static_cast<std::ptrdiff_t>(x) * channels();
-      detect(signal + place, tail == nullptr ? nullptr : tail + place, window.x + x, y,
+      detect(signal + place, tail == nullptr ? nullptr : tail + place, scene, window.x + x, y,
         std::min(BlockPixels, window.width - x), mean, work);
     }
   }
 
-  void detect(float* signal, const float* scattered, int x, int y, int count,
-    const Eigen::VectorXf& mean, ImageWorkspace& work) const
+  void detect(float* signal, const float* scattered, const SceneView& scene, int x, int y,
+    int count, const Eigen::VectorXf& mean, ImageWorkspace& work) const
   {
     auto block = blockOf(signal, channels(), count);
     if (scattered != nullptr)
@@ -216,6 +262,10 @@ struct ImageSimulator::Implementation
       surround.colwise() = mean;
       Chain.veilingGlare()->apply(block, surround);
     }
+    if (!Lights.empty())
+    {
+      addLights(block, scene, x, y, work);
+    }
     for (const auto& step : OnPixels)
     {
       step->apply(block, x, y);
@@ -227,9 +277,8 @@ struct ImageSimulator::Implementation
     Noise(block, firstPixel, Exposure);
   }
 
-  void simulate(const float* reflectance, const int* medium, const ImageWindow& available,
-    const ImageWindow& region, const ImageWindow& window, const Eigen::VectorXf& mean,
-    float* response, ImageWorkspace& work) const
+  void simulate(const SceneView& scene, const ImageWindow& region, const ImageWindow& window,
+    const Eigen::VectorXf& mean, float* response, ImageWorkspace& work) const
   {
     if (Registration)
     {
@@ -261,7 +310,7 @@ struct ImageSimulator::Implementation
       const int y = scattered++;
       if (float* out = responseRow(y))
       {
-        detectRow(out, tail + left, window, y, mean, work);
+        detectRow(out, tail + left, scene, window, y, mean, work);
       }
     };
     const auto useFocused = [&](const float* row)
@@ -278,12 +327,12 @@ struct ImageSimulator::Implementation
       }
       else if (out != nullptr)
       {
-        detectRow(out, nullptr, window, y, mean, work);
+        detectRow(out, nullptr, scene, window, y, mean, work);
       }
     };
     for (int y = region.y; y < region.y + region.height; ++y)
     {
-      forRuns(reflectance, medium, available, region, y,
+      forRuns(scene, region, y,
         [&](const float* source, const int* media, int x, int run)
         {
           const std::size_t place = static_cast<std::size_t>(x - region.x) * perPixel;
@@ -335,7 +384,7 @@ void ImageSimulator::addToMean(const float* reflectance, const int* medium,
   float* signal = workspace.row.data();
   for (int y = window.y; y < window.y + window.height; ++y)
   {
-    Self->forRuns(reflectance, medium, window, window, y,
+    Self->forRuns({ reflectance, medium, window }, window, y,
       [&](const float* source, const int* media, int x, int count)
       {
         Self->irradiate(source, media, x, y, count, signal, workspace);
@@ -349,10 +398,10 @@ void ImageSimulator::simulate(const float* reflectance, const int* medium,
   ImageWorkspace& workspace) const
 {
   Self->requireWindow(window, medium);
-  const ImageWindow region = grown(window, halo(), Self->Extent);
-  if (!available.contains(region))
+  const ImageWindow needed = grown(window, halo(), Self->Extent);
+  if (!available.contains(needed))
   {
-    reject("the window of ", describe(window), " depends on ", describe(region), ", but only ",
+    reject("the window of ", describe(window), " depends on ", describe(needed), ", but only ",
       describe(available), " are available");
   }
   if (needsSceneMean() && mean == nullptr)
@@ -360,7 +409,8 @@ void ImageSimulator::simulate(const float* reflectance, const int* medium,
     reject("the effect veiling_glare needs the mean of the scene");
   }
   const Eigen::VectorXf glare = needsSceneMean() ? mean->value() : Eigen::VectorXf();
-  Self->simulate(reflectance, medium, available, region, window, glare, response, workspace);
+  const ImageWindow region = grown(window, Self->reach(), Self->Extent);
+  Self->simulate({ reflectance, medium, available }, region, window, glare, response, workspace);
 }
 
 } // namespace msi

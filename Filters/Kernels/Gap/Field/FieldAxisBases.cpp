@@ -56,7 +56,7 @@ std::vector<Eigen::MatrixXd> sumOfNormals(
   const FieldData& data, const FieldStatistics& statistics, bool training)
 {
   std::vector<Eigen::MatrixXd> sum(static_cast<std::size_t>(data.channels()),
-    Eigen::MatrixXd::Zero(FieldColumn::Count, FieldColumn::Count));
+    Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count()));
   for (std::size_t b = 0; b < data.blocks.size(); ++b)
   {
     for (std::size_t k = 0; (data.blocks[b].fold >= 0) == training && k < sum.size(); ++k)
@@ -78,7 +78,8 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
     matrix.diagonal().array() += 1e-12;
     return matrix;
   };
-  std::vector<Eigen::VectorXd> change(normal.size(), Eigen::VectorXd::Zero(ModelColumns));
+  std::vector<Eigen::VectorXd> change(
+    normal.size(), Eigen::VectorXd::Zero(FieldColumn::residual()));
   // Eliminate the own columns, as in FieldFitter.
   const auto C = static_cast<Eigen::Index>(common.size());
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(C, C);
@@ -86,7 +87,7 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
   for (const Eigen::MatrixXd& N : normal)
   {
     H += part(N, common);
-    g += Eigen::VectorXd(N.col(ModelColumns))(common);
+    g += Eigen::VectorXd(N.col(FieldColumn::residual()))(common);
   }
   H = ridged(H);
   std::vector<Eigen::MatrixXd> toCommon;
@@ -94,7 +95,7 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
   for (const Eigen::MatrixXd& N : normal)
   {
     Eigen::MatrixXd E = N(own, common);
-    Eigen::VectorXd h = Eigen::VectorXd(N.col(ModelColumns))(own);
+    Eigen::VectorXd h = Eigen::VectorXd(N.col(FieldColumn::residual()))(own);
     if (!own.empty())
     {
       const Eigen::LDLT<Eigen::MatrixXd> factor(ridged(part(N, own)));
@@ -145,7 +146,7 @@ void takeCommonGain(
   {
     gain.push_back(change[k][FieldColumn::Gain] - mean);
     const Eigen::VectorXd along = normal[k].col(FieldColumn::Gain);
-    normal[k].col(ModelColumns) -= gain[k] * along;
+    normal[k].col(FieldColumn::residual()) -= gain[k] * along;
   }
   own.erase(std::remove(own.begin(), own.end(), int(FieldColumn::Gain)), own.end());
   change = regress(normal, {}, own);
@@ -159,7 +160,7 @@ void centerPosition(std::vector<Eigen::MatrixXd>& training, std::vector<Eigen::M
 {
   for (std::size_t k = 0; k < training.size(); ++k)
   {
-    Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(FieldColumn::Count, FieldColumn::Count);
+    Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(FieldColumn::count(), FieldColumn::count());
     const double square = training[k](FieldColumn::Gain, FieldColumn::Gain);
     for (const int column :
       { FieldColumn::GradientRight, FieldColumn::GradientDown, FieldColumn::RadiusSquared,
@@ -180,9 +181,9 @@ double energyLeft(
   for (std::size_t k = 0; k < normal.size(); ++k)
   {
     const Eigen::MatrixXd& N = normal[k];
-    energy += N(ModelColumns, ModelColumns) -
-      2.0 * change[k].dot(N.col(ModelColumns).head(ModelColumns)) +
-      change[k].dot(N.topLeftCorner(ModelColumns, ModelColumns) * change[k]);
+    energy += N(FieldColumn::residual(), FieldColumn::residual()) -
+      2.0 * change[k].dot(N.col(FieldColumn::residual()).head(FieldColumn::residual())) +
+      change[k].dot(N.topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * change[k]);
   }
   return energy;
 }

@@ -38,6 +38,17 @@ BlockLight::BlockLight(const FieldData& data, const FieldModel& model, const Eig
     Weights[i + 1] += model.at(surroundWeight(i), channel);
   }
   Fraction = Weights.sum();
+  for (std::size_t number = 0; number < imageLights().size(); ++number)
+  {
+    Strength.push_back(model.at(imageLight(number), channel));
+    for (int i = 0; i < static_cast<int>(block.window.pixels()); ++i)
+    {
+      const ImagePlace pixel{ block.window.x + i % block.window.width,
+        block.window.y + i / block.window.width };
+      Others.push_back(
+        lightElsewhere(data.pair, data.scene, model, imageLights()[number], pixel, Channel));
+    }
+  }
 }
 
 std::vector<double> fieldFactors(

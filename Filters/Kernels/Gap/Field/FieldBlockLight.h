@@ -56,7 +56,20 @@ public:
     const double own = self(pixel);
     return field * (own + (Weights * (surround(pixel) - own)).sum());
   }
-  double signal(int pixel, double field) const { return Lost * light(pixel, field) + Added; }
+  // From elsewhere in the image, at strength one: that of one of imageLights().
+  double other(std::size_t number, int pixel) const
+  {
+    return Others[number * Block.window.pixels() + static_cast<std::size_t>(pixel)];
+  }
+  double signal(int pixel, double field) const
+  {
+    double sum = Lost * light(pixel, field) + Added;
+    for (std::size_t number = 0; number < Strength.size(); ++number)
+    {
+      sum += Strength[number] * other(number, pixel);
+    }
+    return sum;
+  }
 
 private:
   const FieldBlock& Block;
@@ -68,7 +81,17 @@ private:
   double Added;
   double Lost;
   double Fraction = 0.0;
+  std::vector<double> Strength, Others; // light after light, pixel after pixel
 };
+
+// The light at the place from where it falls on a pixel, too: of the unmoved, unblurred scene, all channels.
+inline double lightElsewhere(const FieldPair& pair, const float* scene, const FieldModel& model,
+  LightFrom from, const ImagePlace& pixel, std::size_t channel)
+{
+  const ImagePlace place = from(pixel, pair.extent);
+  return model.fieldFactor(pair.fieldX(place.x), pair.fieldY(place.y)) *
+    static_cast<double>(scene[pair.index(place.x, place.y) * pair.channels.size() + channel]);
+}
 
 // The field's factor at each pixel of a window.
 std::vector<double> fieldFactors(

@@ -36,7 +36,7 @@ double findClipLevel(const FieldData& data, const FieldModel& model, const Field
         {
           const double level = scratch.level[n];
           parts[static_cast<std::size_t>(b)].emplace_back(
-            level, level + scratch.columns(n, FieldColumn::Residual));
+            level, level + scratch.columns(n, FieldColumn::residual()));
         }
       }
     });

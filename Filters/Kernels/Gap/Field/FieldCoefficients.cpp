@@ -8,7 +8,7 @@ Eigen::VectorXd FieldFitter::coefficients(
 {
   using P = ImageParameter;
   const FieldModel& model = Statistics.model;
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::Residual);
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::residual());
   const auto one = [&column](FieldColumn::Index at, double weight = 1.0) { column[at] = weight; };
   switch (parameter)
   {
@@ -144,9 +144,13 @@ Eigen::VectorXd FieldFitter::coefficients(
     case P::ColumnOffset:
       one(FieldColumn::ColumnOffset);
       break;
-    case P::Count:
-      break;
     default:
+      if (parameter >= P::Light)
+      {
+        column[FieldColumn::Lights + static_cast<int>(parameter) - static_cast<int>(P::Light)] =
+          1.0;
+        break;
+      }
       column[FieldColumn::Tail + 1 + static_cast<int>(parameter) -
         static_cast<int>(P::SurroundFirst)] = 1.0;
       break;

@@ -147,7 +147,7 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
   const double* columnOffset =
     linesOf(model.columns ? &model.columns->offsetFor(block.fold) : nullptr, window.x, channel);
   const auto count = static_cast<Eigen::Index>(scratch.pixel.size());
-  scratch.columns.setZero(count, FieldColumn::Count);
+  scratch.columns.setZero(count, FieldColumn::count());
   scratch.level.resize(count);
   for (Eigen::Index n = 0; n < count; ++n)
   {
@@ -214,6 +214,11 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     out[FieldColumn::Rotation] =
       Degree * (data.pair.offX(window.x + column) * down - data.pair.offY(window.y + row) * right);
     out[FieldColumn::BlurVariance] = sharp * light.scene().blur(column, row);
+    for (std::size_t other = 0; other < imageLights().size(); ++other)
+    {
+      out[FieldColumn::Lights + static_cast<int>(other)] =
+        answer.bySignal * chain * light.other(other, i);
+    }
     const TailSurround surround = light.surround(i) - light.self(i);
     for (int pass = 0; pass < TailPasses; ++pass)
     {
@@ -242,7 +247,7 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     }
     out[FieldColumn::Diagonal] = x * y * direct;
     out[FieldColumn::Saddle] = (x * x - y * y) * direct;
-    out[FieldColumn::Residual] = static_cast<double>(block.real[at * K + k]) - answer.value;
+    out[FieldColumn::residual()] = static_cast<double>(block.real[at * K + k]) - answer.value;
     scratch.level[n] = answer.value;
   }
 }

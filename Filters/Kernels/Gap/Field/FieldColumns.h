@@ -48,13 +48,19 @@ enum Index : int
   ColumnOffset,
   Diagonal, // x y u, (x^2 - y^2) u: only to see where a gap lies
   Saddle,
-  Residual, // real - predicted
-  Count
+  Lights // from elsewhere in the image, one column each of imageLights(); the last is real - predicted
 };
-}
 
-// Those of the model: all that stand before the residual.
-inline constexpr int ModelColumns = FieldColumn::Residual;
+// The number of the residual, and how many there are before it.
+inline int residual()
+{
+  return Lights + static_cast<int>(imageLights().size());
+}
+inline int count()
+{
+  return residual() + 1;
+}
+}
 
 // The weights of the tail's passes for a radius (ScatterTail), and their derivative by the radius.
 Eigen::ArrayXd tailWeights(double radius);
@@ -63,7 +69,7 @@ Eigen::ArrayXd tailSlope(double radius);
 // Memory of a thread.
 struct FieldScratch
 {
-  Eigen::MatrixXd columns; // usable pixels x FieldColumn::Count
+  Eigen::MatrixXd columns; // usable pixels x FieldColumn::count()
   Eigen::ArrayXd level;    // predicted, of each
   std::vector<int> pixel;  // number in the block, of each
   // Of every pixel of the block: the signal behind stray light, and that of the channel before.

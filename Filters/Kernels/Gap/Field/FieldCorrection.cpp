@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldCorrection.h"
 
+#include "Kernels/Gap/Field/FieldBlockLight.h"
+
 #include "Kernels/Gap/Field/FieldScene.h"
 
 #include <cmath>
@@ -97,6 +99,11 @@ void FieldCorrection::operator()(
         }
         u += Model.at(P::Glare, channel) * Glare[channel] +
           Model.at(P::ConservingGlare, channel) * (Glare[channel] - u);
+        for (std::size_t number = 0; number < imageLights().size(); ++number)
+        {
+          u += Model.at(imageLight(number), channel) *
+            lightElsewhere(Pair, scene, Model, imageLights()[number], { x, y }, k);
+        }
       }
       for (std::size_t k = 0; k < K; ++k)
       {

@@ -16,7 +16,7 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
   , Glare(sceneMean(data, statistics.model))
 {
   const auto K = static_cast<std::size_t>(data.channels());
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(FieldColumn::Count, FieldColumn::Count);
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count());
   Total.assign(K, zero);
   Fold.assign(FieldFolds, std::vector<Eigen::MatrixXd>(K, zero));
   for (std::size_t b = 0; b < data.blocks.size(); ++b)
@@ -27,7 +27,7 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
       const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
       Total[k] += sums.normal;
       Fold[static_cast<std::size_t>(fold)][k] += sums.normal;
-      Energy += sums.normal(ModelColumns, ModelColumns);
+      Energy += sums.normal(FieldColumn::residual(), FieldColumn::residual());
       Chance += sums.chance;
     }
   }
@@ -61,7 +61,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
     shape.gradientDown = start.gradientDown;
   }
   std::vector<Bound> terms;
-  std::vector<char> known(FieldParameters, 0);
+  std::vector<char> known(fieldParameterCount(), 0);
   const auto add = [&](const ImageTerm& term, bool held)
   {
     const double neutral = term.parameter == ImageParameter::TailRadius ? shape.radius
@@ -87,7 +87,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
       }
     }
   }
-  for (std::size_t p = 0; p < FieldParameters; ++p)
+  for (std::size_t p = 0; p < fieldParameterCount(); ++p)
   {
     const auto parameter = static_cast<ImageParameter>(p);
     if (known[p] == 0 && !isShape(parameter) && !model.isNeutral(parameter))
@@ -122,7 +122,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
     }
   }
   fit.next[ImageParameter::TailRadius].setConstant(shape.radius);
-  std::vector<char> seen(FieldParameters, 0);
+  std::vector<char> seen(fieldParameterCount(), 0);
   for (std::size_t t = 0; t < terms.size(); ++t)
   {
     const Bound& bound = terms[t];
@@ -143,9 +143,9 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
   }
   const auto energyOf = [](const Eigen::MatrixXd& normal, const Eigen::VectorXd& change)
   {
-    return normal(ModelColumns, ModelColumns) -
-      2.0 * change.dot(normal.col(ModelColumns).head(ModelColumns)) +
-      change.dot(normal.topLeftCorner(ModelColumns, ModelColumns) * change);
+    return normal(FieldColumn::residual(), FieldColumn::residual()) -
+      2.0 * change.dot(normal.col(FieldColumn::residual()).head(FieldColumn::residual())) +
+      change.dot(normal.topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * change);
   };
   fit.blockEnergy.setZero(
     detail == FieldDetail::Blocks ? static_cast<Eigen::Index>(Data.blocks.size()) : 0);

@@ -30,8 +30,9 @@ double neutralValue(ImageParameter parameter) noexcept
 }
 
 FieldModel::FieldModel(Eigen::Index channels)
+  : Values(fieldParameterCount())
 {
-  for (std::size_t p = 0; p < FieldParameters; ++p)
+  for (std::size_t p = 0; p < Values.size(); ++p)
   {
     Values[p].setConstant(channels, neutralValue(static_cast<ImageParameter>(p)));
   }

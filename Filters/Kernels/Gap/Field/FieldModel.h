@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,7 +30,11 @@ private:
   static std::size_t at(int fold) noexcept { return static_cast<std::size_t>(fold); }
 };
 
-inline constexpr std::size_t FieldParameters = static_cast<std::size_t>(ImageParameter::Count);
+// How many there are.
+inline std::size_t fieldParameterCount()
+{
+  return static_cast<std::size_t>(ImageParameter::Light) + imageLights().size();
+}
 
 // One number of each parameter for every channel; parameters common to the channels repeat.
 //
@@ -72,7 +75,7 @@ struct FieldModel
   std::shared_ptr<const FieldProfile> rows, columns; // null: none
 
 private:
-  std::array<Eigen::ArrayXd, FieldParameters> Values;
+  std::vector<Eigen::ArrayXd> Values;
 };
 
 double neutralValue(ImageParameter parameter) noexcept;

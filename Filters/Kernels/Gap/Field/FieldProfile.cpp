@@ -35,7 +35,7 @@ LineSums sumsOf(const FieldData& data, const FieldModel& model, const Eigen::Arr
   {
     fieldColumns(data, model, glare, block, k, scratch);
     const auto u = scratch.columns.col(FieldColumn::Gain);
-    const auto r = scratch.columns.col(FieldColumn::Residual);
+    const auto r = scratch.columns.col(FieldColumn::residual());
     for (Eigen::Index n = 0; n < u.size(); ++n)
     {
       const int pixel = scratch.pixel[static_cast<std::size_t>(n)];

@@ -34,8 +34,8 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
   std::vector<Eigen::MatrixXd> B;
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    A.emplace_back(ModelColumns, C);
-    B.emplace_back(ModelColumns, O);
+    A.emplace_back(FieldColumn::residual(), C);
+    B.emplace_back(FieldColumn::residual(), O);
     for (Eigen::Index c = 0; c < C; ++c)
     {
       A.back().col(c) =
@@ -46,11 +46,13 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
       B.back().col(o) =
         coefficients(terms[own[static_cast<std::size_t>(o)]].term.parameter, k, shape);
     }
-    const auto local =
-      normal[static_cast<std::size_t>(k)].topLeftCorner(ModelColumns, ModelColumns);
+    const auto local = normal[static_cast<std::size_t>(k)].topLeftCorner(
+      FieldColumn::residual(), FieldColumn::residual());
     H += A.back().transpose() * local * A.back();
     g += A.back().transpose() *
-      normal[static_cast<std::size_t>(k)].col(ModelColumns).head(ModelColumns);
+      normal[static_cast<std::size_t>(k)]
+        .col(FieldColumn::residual())
+        .head(FieldColumn::residual());
   }
   const auto pull = [this](const Bound& bound, Eigen::Index k, double information, double& onto)
   {
@@ -69,10 +71,11 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
   std::vector<Eigen::VectorXd> alone;
   for (std::size_t k = 0; k < normal.size(); ++k)
   {
-    const auto local = normal[k].topLeftCorner(ModelColumns, ModelColumns);
+    const auto local = normal[k].topLeftCorner(FieldColumn::residual(), FieldColumn::residual());
     const Eigen::MatrixXd LB = local * B[k];
     Eigen::MatrixXd D = B[k].transpose() * LB;
-    Eigen::VectorXd h = B[k].transpose() * normal[k].col(ModelColumns).head(ModelColumns);
+    Eigen::VectorXd h =
+      B[k].transpose() * normal[k].col(FieldColumn::residual()).head(FieldColumn::residual());
     for (Eigen::Index o = 0; o < O; ++o)
     {
       D(o, o) +=

@@ -9,10 +9,6 @@
 namespace msi
 {
 
-namespace
-{
-}
-
 Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
 {
   const auto K = Data.channels();
@@ -30,7 +26,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
   const auto p = static_cast<Eigen::Index>(single.size());
   const FieldShape shape = this->shape();
   std::vector<Eigen::MatrixXd> design(
-    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(ModelColumns, p));
+    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(FieldColumn::residual(), p));
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(p, p);
   for (Eigen::Index k = 0; k < K; ++k)
   {
@@ -44,7 +40,9 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
       }
     }
     information += columns.transpose() *
-      Total[static_cast<std::size_t>(k)].topLeftCorner(ModelColumns, ModelColumns) * columns;
+      Total[static_cast<std::size_t>(k)].topLeftCorner(
+        FieldColumn::residual(), FieldColumn::residual()) *
+      columns;
   }
   for (Eigen::Index i = 0; i < p; ++i)
   {
@@ -64,7 +62,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
     for (Eigen::Index k = 0; k < K; ++k)
     {
       g += design[static_cast<std::size_t>(k)].transpose() *
-        Statistics.at(b, k).normal.col(ModelColumns).head(ModelColumns);
+        Statistics.at(b, k).normal.col(FieldColumn::residual()).head(FieldColumn::residual());
     }
   }
   for (const auto& [number, g] : ofGroup)
@@ -85,7 +83,7 @@ Eigen::MatrixXd FieldFitter::contributionProducts(const FieldSet& set) const
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count + 1, count + 1);
   for (Eigen::Index k = 0; k < Data.channels(); ++k)
   {
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(ModelColumns, count + 1);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(FieldColumn::residual(), count + 1);
     for (Eigen::Index e = 0; e < count; ++e)
     {
       for (const ImageTerm& term : set[static_cast<std::size_t>(e)]->terms)
@@ -99,7 +97,9 @@ Eigen::MatrixXd FieldFitter::contributionProducts(const FieldSet& set) const
     }
     columns.col(count) = columns.leftCols(count).rowwise().sum();
     products += columns.transpose() *
-      Total[static_cast<std::size_t>(k)].topLeftCorner(ModelColumns, ModelColumns) * columns;
+      Total[static_cast<std::size_t>(k)].topLeftCorner(
+        FieldColumn::residual(), FieldColumn::residual()) *
+      columns;
   }
   return products;
 }

@@ -41,7 +41,7 @@ void addDifferences(const FieldScratch& scratch, const ImageWindow& window, Bloc
   {
     at[static_cast<std::size_t>(scratch.pixel[n])] = static_cast<int>(n);
   }
-  const auto residual = scratch.columns.col(FieldColumn::Residual);
+  const auto residual = scratch.columns.col(FieldColumn::residual());
   double across = 0.0;
   double down = 0.0;
   double slope = 0.0;
@@ -211,7 +211,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       const auto channel = static_cast<Eigen::Index>(k);
       fieldColumns(data, model, glare, block, channel, scratch);
       BlockSums& sums = statistics.sums[static_cast<std::size_t>(b) * K + k];
-      const auto residual = scratch.columns.col(FieldColumn::Residual);
+      const auto residual = scratch.columns.col(FieldColumn::residual());
       sums.pixels = static_cast<double>(scratch.pixel.size());
       sums.energy = residual.squaredNorm();
       if (sums.pixels > 0.0)
@@ -231,7 +231,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
         sums.chance += variance * weight;
         scratch.columns.row(n) *= std::sqrt(weight);
       }
-      sums.normal.setZero(FieldColumn::Count, FieldColumn::Count);
+      sums.normal.setZero(FieldColumn::count(), FieldColumn::count());
       sums.normal.selfadjointView<Eigen::Lower>().rankUpdate(scratch.columns.transpose());
       sums.normal.triangularView<Eigen::StrictlyUpper>() = sums.normal.transpose();
     }

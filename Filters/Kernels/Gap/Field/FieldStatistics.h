@@ -15,7 +15,7 @@ namespace msi
 struct BlockSums
 {
   Eigen::MatrixXd
-    normal;            // FieldColumn::Count^2, weighted columns' products; the last is the residual
+    normal; // FieldColumn::count()^2, weighted columns' products; the last is the residual
   double pixels = 0.0; // usable
   double energy = 0.0; // sum of squared residuals, plain
   double noise = 0.0;  // what noise allows of it

@@ -35,8 +35,8 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
     for (std::size_t k = 0; (block.fold >= 0) == training && k < K; ++k)
     {
       fieldColumns(data, statistics.model, glare, block, static_cast<Eigen::Index>(k), scratch);
-      const Eigen::VectorXd left =
-        scratch.columns.col(ModelColumns) - scratch.columns.leftCols(ModelColumns) * change[k];
+      const Eigen::VectorXd left = scratch.columns.col(FieldColumn::residual()) -
+        scratch.columns.leftCols(FieldColumn::residual()) * change[k];
       for (Eigen::Index n = 0; n < left.size(); ++n)
       {
         const int pixel = scratch.pixel[static_cast<std::size_t>(n)];
@@ -51,7 +51,8 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
         sums.resize(K, { 0.0, 0.0, 0.0 });
         sums[k][0] += left[n];
         sums[k][1] += 1.0;
-        sums[k][2] += scratch.columns(n, ModelColumns) * scratch.columns(n, ModelColumns);
+        sums[k][2] +=
+          scratch.columns(n, FieldColumn::residual()) * scratch.columns(n, FieldColumn::residual());
       }
     }
   }
@@ -81,7 +82,7 @@ std::vector<GapAxis> fieldAxes(
   double noise = 0.0;
   for (std::size_t k = 0; k < K; ++k)
   {
-    before += test[k](ModelColumns, ModelColumns);
+    before += test[k](FieldColumn::residual(), FieldColumn::residual());
   }
   std::vector<std::pair<double, double>> level;
   std::vector<std::pair<double, double>> gradient;
@@ -110,7 +111,7 @@ std::vector<GapAxis> fieldAxes(
   }
   const std::size_t subsets = std::size_t(1) << axes.size();
   std::vector<double> explained(subsets, 0.0);
-  std::vector<Eigen::VectorXd> change(K, Eigen::VectorXd::Zero(ModelColumns));
+  std::vector<Eigen::VectorXd> change(K, Eigen::VectorXd::Zero(FieldColumn::residual()));
   const auto explain = [&](std::size_t subset)
   {
     std::vector<int> common;
@@ -194,8 +195,8 @@ std::vector<GapAxis> fieldAxes(
       {
         const Eigen::MatrixXd& N = plain.at(b, static_cast<Eigen::Index>(k)).normal;
         const double pixels = N(FieldColumn::One, FieldColumn::One);
-        const double sum = N(FieldColumn::One, ModelColumns) -
-          N.row(FieldColumn::One).head(ModelColumns).dot(change[k]);
+        const double sum = N(FieldColumn::One, FieldColumn::residual()) -
+          N.row(FieldColumn::One).head(FieldColumn::residual()).dot(change[k]);
         const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
         if (pixels > 0.0)
         {

@@ -4,6 +4,7 @@
 #include "Kernels/Gap/GapCertainty.h"
 #include "Kernels/Gap/Shapley.h"
 #include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <Eigen/QR>
 
@@ -16,8 +17,6 @@ namespace msi
 
 namespace
 {
-constexpr double AlikeDoubt = 0.5;
-constexpr double RefutedDeviations = 4.0; // dispersions
 
 EffectSet subsetOf(const EffectSet& set, std::size_t subset)
 {
@@ -95,9 +94,9 @@ ChannelCurve curveOf(const EffectSet& set, std::size_t position, bool fromMean =
   }
   const int known = fromMean ? 1 : 0;
   const double fraction = commonFraction(deviation);
-  const double chance =
-    chanceOfFraction(fraction, CommonDirections - known, static_cast<int>(channels) - known);
-  return { fraction, chance < StructuredChance,
+  const double chance = chanceOfFraction(
+    fraction, TableDecision::CommonDirections - known, static_cast<int>(channels) - known);
+  return { fraction, chance < TableDecision::StructuredChance,
     std::sqrt(fraction * deviation.squaredNorm() / static_cast<double>(channels)) };
 }
 
@@ -274,7 +273,7 @@ bool refuted(const EffectFitter& fitter, const EffectFit& fit, std::size_t posit
   set.remove(position);
   set.add(plain, fitter.data().camera);
   const EffectFit other = fitter.fit(std::move(set), SearchFit);
-  return other.energy + RefutedDeviations * other.dispersion < fit.energy;
+  return other.energy + TableDecision::RefutedDeviations * other.dispersion < fit.energy;
 }
 }
 
@@ -291,7 +290,7 @@ std::vector<CauseShare> causeShares(
   for (std::size_t e = 0; e < fit.set.size(); ++e)
   {
     double credit = sum > 0.0 ? std::fmax(total, 0.0) * share[e] / sum : 0.0;
-    credit *= (1.0 - doubt * undone[e]) * (1.0 - AlikeDoubt * alike[e]) *
+    credit *= (1.0 - doubt * undone[e]) * (1.0 - TableDecision::AlikeDoubt * alike[e]) *
       gainsCredible(fit.set, e) * (refuted(fitter, fit, e) ? 0.0 : 1.0);
     shares.push_back({ credit, alone[std::size_t(1) << e], undone[e] });
   }

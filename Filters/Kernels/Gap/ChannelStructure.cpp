@@ -1,5 +1,7 @@
 #include "Kernels/Gap/ChannelStructure.h"
 
+#include "Kernels/Gap/TableDecisions.h"
+
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -37,16 +39,16 @@ double commonFraction(const Eigen::VectorXd& deviations)
 {
   const Eigen::Index channels = deviations.size();
   const double energy = deviations.squaredNorm();
-  if (channels <= CommonDirections || !(energy > 0.0))
+  if (channels <= TableDecision::CommonDirections || !(energy > 0.0))
   {
     return 0.0;
   }
-  Eigen::MatrixXd basis(channels, CommonDirections);
+  Eigen::MatrixXd basis(channels, TableDecision::CommonDirections);
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(channels, -1.0, 1.0);
   basis << Eigen::VectorXd::Ones(channels), x.matrix(), x.square().matrix(), x.cube().matrix();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
   const Eigen::MatrixXd q =
-    qr.householderQ() * Eigen::MatrixXd::Identity(channels, CommonDirections);
+    qr.householderQ() * Eigen::MatrixXd::Identity(channels, TableDecision::CommonDirections);
   return std::min((q.transpose() * deviations).squaredNorm() / energy, 1.0);
 }
 

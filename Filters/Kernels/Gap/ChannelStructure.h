@@ -13,9 +13,6 @@ double chanceOfFraction(double fraction, int directions, int channels);
 
 // The part of the deviations' energy in a cubic over the channels: what a smooth change of the light does to them.
 double commonFraction(const Eigen::VectorXd& deviations);
-constexpr int CommonDirections = 4;
 
-// Below this chance deviations count as one error common to the channels.
-constexpr double StructuredChance = 0.003;
 
 } // namespace msi

@@ -1,5 +1,7 @@
 #include "Kernels/Gap/EffectCost.h"
 
+#include "Kernels/Gap/TableDecisions.h"
+
 #include <cmath>
 
 namespace msi
@@ -7,17 +9,16 @@ namespace msi
 
 namespace
 {
-constexpr double UnlikelyForm =
-  2.0; // dispersions: a form is e times less likely than the one before it
 
 double improbability(const EffectFitter& fitter, const EffectFit& fit)
 {
   double sum = 0.0;
   for (const EffectChoice& choice : fit.set.choices)
   {
-    sum += UnlikelyForm * static_cast<double>(choice.form - choice.effect->forms.data());
+    sum +=
+      TableDecision::UnlikelyForm * static_cast<double>(choice.form - choice.effect->forms.data());
     const bool onlyMedium = !choice.medium.empty() && fitter.data().scene.media().size() == 1;
-    sum += onlyMedium || choice.whiteAfter ? UnlikelyForm : 0.0;
+    sum += onlyMedium || choice.whiteAfter ? TableDecision::UnlikelyForm : 0.0;
   }
   return sum;
 }
@@ -26,7 +27,7 @@ double improbability(const EffectFitter& fitter, const EffectFit& fit)
 double parameterPrice(const EffectFitter& fitter, double gapEnergy, double dispersion)
 {
   const double chance = 0.5 * std::log(std::fmax(fitter.trainingElements(), 2.0)) * dispersion;
-  return std::fmax(chance, FormPart * gapEnergy);
+  return std::fmax(chance, TableDecision::FormPart * gapEnergy);
 }
 
 double costOf(const EffectFitter& fitter, const EffectFit& fit, double gapEnergy, double dispersion)

@@ -6,15 +6,8 @@
 namespace msi
 {
 
-// Cross-validated energy that the best of some fifty useless effects stays below, in dispersions.
-constexpr double ChanceOfMany = 14.0;
-// Part of the gap's energy below which nothing is worth a cause.
-constexpr double RelevantPart = 0.004;
-// Part of the gap's energy that a parameter must be worth.
-constexpr double FormPart = 0.002;
-
 // The price of one parameter in cross-validated energy: what chance gives it (half of log n times the
-// dispersion), and not less than FormPart of the gap, because a form is an approximation and a further
+// dispersion), and not less than TableDecision::FormPart of the gap, because a form is an approximation and a further
 // parameter mends it a little always.
 double parameterPrice(const EffectFitter& fitter, double gapEnergy, double dispersion);
 

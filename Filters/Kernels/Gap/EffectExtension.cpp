@@ -2,17 +2,13 @@
 
 #include "Kernels/Gap/EffectCost.h"
 #include "Kernels/Gap/EffectForms.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace msi
 {
-
-namespace
-{
-constexpr int FormsFitted = 2; // of one effect
-}
 
 std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& current,
   const std::vector<ScreenedEffect>& screened, int fullFits)
@@ -21,13 +17,13 @@ std::vector<EffectFit> extendFit(const EffectFitter& fitter, const EffectFit& cu
   std::vector<EffectChoice> forms;
   for (const ScreenedEffect& effect : screened)
   {
-    if (static_cast<int>(fits.size()) >= fullFits || effect.gain <= ChanceOfMany)
+    if (static_cast<int>(fits.size()) >= fullFits || effect.gain <= TableDecision::ChanceOfMany)
     {
       break;
     }
     const auto alike = std::count_if(forms.begin(), forms.end(),
       [&effect](const EffectChoice& form) { return form.sameCause(effect.choice); });
-    if (alike >= FormsFitted + (hasSecondary(effect.choice) ? 1 : 0))
+    if (alike >= TableDecision::FormsFitted + (hasSecondary(effect.choice) ? 1 : 0))
     {
       continue;
     }

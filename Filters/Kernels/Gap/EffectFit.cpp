@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/ColumnProducts.h"
 #include "Kernels/Gap/NormalMatrix.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <Eigen/Cholesky>
 
@@ -14,7 +15,6 @@ namespace msi
 namespace
 {
 constexpr int InnerFolds = 5;
-constexpr double HuberCut = 5.0;
 constexpr double Remaining = 10.0; // times the last gain: what further iterations may gain at most
 
 using Flat = Eigen::Map<const Eigen::ArrayXd>;
@@ -42,7 +42,7 @@ Eigen::ArrayXd huber(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& weigh
   }
   const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
   std::nth_element(size.begin(), middle, size.end());
-  const double cut = HuberCut * std::fmax(1.4826 * *middle, 1.0);
+  const double cut = TableDecision::HuberCut * std::fmax(1.4826 * *middle, 1.0);
   return (whitened.abs() > cut).select((cut / whitened.abs().cwiseMax(1e-300)).sqrt(), 1.0);
 }
 

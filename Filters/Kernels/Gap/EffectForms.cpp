@@ -1,6 +1,7 @@
 #include "Kernels/Gap/EffectForms.h"
 
 #include "Kernels/Gap/EffectScreen.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,24 +11,21 @@ namespace msi
 
 namespace
 {
-constexpr double RicherFormPart = 0.0002; // of the gap's energy, a parameter
-constexpr double FormDeviations = 4.0;    // dispersions by which another form must be better
-// What a simpler cause may be worse by: part of the gap's energy, dispersions.
-constexpr double SimplerPart = 0.02;
-constexpr double SimplerDeviations = 9.0;
 
 bool betterForm(const EffectFit& other, const EffectFit& fit, double gapEnergy)
 {
   const auto more = static_cast<double>(other.parameters() - fit.parameters());
-  return other.energy + FormDeviations * other.dispersion + more * RicherFormPart * gapEnergy <
+  return other.energy + TableDecision::FormDeviations * other.dispersion +
+    more * TableDecision::RicherFormPart * gapEnergy <
     fit.energy;
 }
 
 // Little worse: a simpler cause is taken for it.
 bool nearlyAsGood(const EffectFit& other, const EffectFit& fit, double gapEnergy)
 {
-  return other.energy <=
-    fit.energy + std::fmax(SimplerPart * gapEnergy, SimplerDeviations * fit.dispersion);
+  return other.energy <= fit.energy +
+    std::fmax(
+      TableDecision::SimplerPart * gapEnergy, TableDecision::SimplerDeviations * fit.dispersion);
 }
 }
 
@@ -48,7 +46,7 @@ EffectFit withSecondary(
   freed.secondaryFree[position] = 1;
   EffectFit other =
     fitter.fit(std::move(freed), effort.unwantedAbove(std::fmin(effort.unwanted, fit.energy)));
-  return other.energy + FormDeviations * other.dispersion < fit.energy ? other : fit;
+  return other.energy + TableDecision::FormDeviations * other.dispersion < fit.energy ? other : fit;
 }
 
 EffectFit chooseForms(const EffectFitter& fitter, EffectFit fit,

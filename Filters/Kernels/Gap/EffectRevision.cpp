@@ -3,6 +3,7 @@
 #include "Kernels/Gap/EffectCost.h"
 #include "Kernels/Gap/EffectExtension.h"
 #include "Kernels/Gap/EffectForms.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +14,6 @@ namespace msi
 
 namespace
 {
-constexpr int MostExchanges = 3;
-constexpr int ExchangesFitted = 3; // for each effect that may go
-constexpr int ExchangesFormed = 6; // the best of a round in the forms that suit them
-// Times the present cost, above which an exchange is not followed: by its screen, by its fit.
-constexpr double HopefulScreen = 2.0;
-constexpr double HopefulFit = 1.25;
-constexpr double WorthAnotherRound = 0.95; // of the cost before
-constexpr double NoiseLeft = 1.1;          // times the noise: nothing is left to do better
 
 // All but one effect of the set; of three or more also all but two where `pairs`.
 std::vector<EffectSet> partsToKeep(const EffectSet& set, bool pairs)
@@ -47,14 +40,14 @@ std::vector<EffectFit> exchangesOf(const EffectFitter& fitter, const EffectSet& 
 {
   const EffectFit kept = fitter.fit(part, SearchFit);
   const std::vector<ScreenedEffect> screened =
-    screenEffects(fitter, kept, fresh, FormPart * gapEnergy);
+    screenEffects(fitter, kept, fresh, TableDecision::FormPart * gapEnergy);
   const auto promises = [&](const ScreenedEffect& effect)
-  { return kept.energy - effect.gain < HopefulScreen * present; };
+  { return kept.energy - effect.gain < TableDecision::HopefulScreen * present; };
   if (part.size() > 1 && std::none_of(screened.begin(), screened.end(), promises))
   {
     return {};
   }
-  return extendFit(fitter, kept, screened, ExchangesFitted);
+  return extendFit(fitter, kept, screened, TableDecision::ExchangesFitted);
 }
 }
 
@@ -87,7 +80,8 @@ EffectFit withoutSurplus(const EffectFitter& fitter, EffectFit fit, double gapEn
     const double loss = other.energy - fit.energy;
     if (costOf(fitter, other, gapEnergy, fit.dispersion) <=
         costOf(fitter, fit, gapEnergy, fit.dispersion) ||
-      loss < std::fmax(ChanceOfMany * fit.dispersion, RelevantPart * gapEnergy))
+      loss < std::fmax(TableDecision::ChanceOfMany * fit.dispersion,
+               TableDecision::RelevantPart * gapEnergy))
     {
       fit = std::move(other);
       position = 0;
@@ -104,8 +98,8 @@ EffectFit withExchanges(const EffectFitter& fitter, EffectFit fit,
   const std::vector<EffectChoice>& choices, double gapEnergy, bool pairs,
   const std::function<bool()>& stop)
 {
-  for (int round = 0;
-       round < MostExchanges && fit.set.size() > 1 && fit.energy > NoiseLeft * fitter.noiseEnergy();
+  for (int round = 0; round < TableDecision::MostExchanges && fit.set.size() > 1 &&
+       fit.energy > TableDecision::NoiseLeft * fitter.noiseEnergy();
        ++round)
   {
     const double dispersion = fit.dispersion;
@@ -128,13 +122,15 @@ EffectFit withExchanges(const EffectFitter& fitter, EffectFit fit,
       std::stable_sort(others.begin(), others.end(), cheaper);
       // What is kept may be in a form that suits only what went; the fewer are kept, the more that says.
       const bool alone = part.size() == 1;
-      others.resize(std::min<std::size_t>(others.size(), alone ? ExchangesFitted : 1));
+      others.resize(
+        std::min<std::size_t>(others.size(), alone ? TableDecision::ExchangesFitted : 1));
       std::copy_if(std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()),
         std::back_inserter(hopeful),
-        [&](const EffectFit& other) { return alone || cost(other) < HopefulFit * present; });
+        [&](const EffectFit& other)
+        { return alone || cost(other) < TableDecision::HopefulFit * present; });
     }
     std::stable_sort(hopeful.begin(), hopeful.end(), cheaper);
-    hopeful.resize(std::min<std::size_t>(hopeful.size(), ExchangesFormed));
+    hopeful.resize(std::min<std::size_t>(hopeful.size(), TableDecision::ExchangesFormed));
     for (EffectFit& other : hopeful)
     {
       EffectFit formed = chooseForms(fitter, std::move(other), choices, gapEnergy);
@@ -147,7 +143,7 @@ EffectFit withExchanges(const EffectFitter& fitter, EffectFit fit,
     {
       break;
     }
-    const bool much = cost(fit) < WorthAnotherRound * present;
+    const bool much = cost(fit) < TableDecision::WorthAnotherRound * present;
     fit = withoutSurplus(fitter, std::move(fit), gapEnergy);
     if (!much)
     {

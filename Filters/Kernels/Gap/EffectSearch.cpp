@@ -5,6 +5,7 @@
 #include "Kernels/Gap/EffectForms.h"
 #include "Kernels/Gap/EffectRevision.h"
 #include "Kernels/Gap/SmallErrors.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,6 @@ namespace msi
 
 namespace
 {
-constexpr double IdlePart = 0.001; // of the gap's energy
-constexpr double AlikePart = 0.05; // of the smaller change's energy, by which two changes differ
 
 // One fit for each set of causes, the cheapest.
 void keepBestForms(
@@ -51,7 +50,7 @@ std::vector<EffectFit> differentOnes(
       [&change](const Eigen::VectorXd& other)
       {
         return (change - other).squaredNorm() <
-          AlikePart * std::fmin(change.squaredNorm(), other.squaredNorm());
+          TableDecision::AlikePart * std::fmin(change.squaredNorm(), other.squaredNorm());
       });
     if (!known && kept.size() < count)
     {
@@ -74,7 +73,8 @@ void dropIdle(const EffectFitter& fitter, SearchResult& result)
 {
   for (std::size_t position = result.best.set.size(); position-- > 0;)
   {
-    if (fitter.contribution(result.best, position).squaredNorm() < IdlePart * result.gapEnergy)
+    if (fitter.contribution(result.best, position).squaredNorm() <
+      TableDecision::IdlePart * result.gapEnergy)
     {
       EffectSet rest = result.best.set;
       rest.remove(position);
@@ -102,8 +102,8 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
       {
         return result;
       }
-      std::vector<EffectFit> more = extendFit(
-        fitter, from, screenEffects(fitter, from, choices, FormPart * gapEnergy), limits.fullFits);
+      std::vector<EffectFit> more = extendFit(fitter, from,
+        screenEffects(fitter, from, choices, TableDecision::FormPart * gapEnergy), limits.fullFits);
       std::move(more.begin(), more.end(), std::back_inserter(grown));
     }
     if (grown.empty())
@@ -121,8 +121,9 @@ SearchResult searchEffects(const EffectFitter& fitter, const std::vector<EffectC
       result.singles = grown;
     }
     const double improvement = result.best.energy - grown.front().energy;
-    if (price(grown.front()) < price(result.best) && improvement > ChanceOfMany * dispersion &&
-      improvement > RelevantPart * gapEnergy)
+    if (price(grown.front()) < price(result.best) &&
+      improvement > TableDecision::ChanceOfMany * dispersion &&
+      improvement > TableDecision::RelevantPart * gapEnergy)
     {
       result.best = grown.front();
     }

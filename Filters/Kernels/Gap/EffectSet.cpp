@@ -1,6 +1,7 @@
 #include "Kernels/Gap/EffectSet.h"
 
 #include "Kernels/Camera/CameraSimulator.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,7 @@ namespace msi
 
 namespace
 {
-constexpr double RelativeStep = 1e-3;   // of a parameter's typical size
-constexpr double FreeSpread = 10.0;     // typical sizes
-constexpr double SecondarySpread = 2.0; // typical sizes
+constexpr double RelativeStep = 1e-3; // of a parameter's typical size
 
 CameraSimulatorOptions optionsOf(const EffectSet& set)
 {
@@ -200,8 +199,9 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
           }
           free.push_back({ e, index, parameter.perChannel ? k : -1, group, parameter.neutral,
             parameter.lower, parameter.upper, parameter.typical,
-            (parameter.secondary ? SecondarySpread : FreeSpread) * parameter.typical, name,
-            parameter.unit });
+            (parameter.secondary ? TableDecision::SecondarySpread : TableDecision::FreeSpread) *
+              parameter.typical,
+            name, parameter.unit });
         }
       }
       ++group;
@@ -211,7 +211,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
   {
     const EffectParameter& gain = levelEffect().forms.front().parameters.front();
     free.push_back({ effects.size(), 0, -1, group, gain.neutral, gain.lower, gain.upper,
-      gain.typical, FreeSpread * gain.typical, "level", gain.unit });
+      gain.typical, TableDecision::FreeSpread * gain.typical, "level", gain.unit });
   }
   return free;
 }

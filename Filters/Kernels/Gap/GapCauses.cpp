@@ -4,6 +4,7 @@
 #include "Kernels/Gap/EffectCost.h"
 #include "Kernels/Gap/EffectExtension.h"
 #include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <array>
@@ -16,11 +17,8 @@ namespace msi
 
 namespace
 {
-constexpr int AlternativesFitted = 8;
 constexpr std::size_t EquivalentNamed = 2;
-constexpr double LeastPart = 0.03;           // of the causes together
-constexpr double EquivalentPart = 0.02;      // of the gap's energy
-constexpr double EquivalentDeviations = 9.0; // dispersions
+constexpr double LeastPart = 0.03; // of the causes together
 
 // The place of a step lies between two samples; the error is that of a uniform distribution there.
 void addPlace(GapCause& cause, const EffectSet& set, std::size_t position, double samples)
@@ -47,7 +45,8 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
     });
   const EffectFit without = fitter.fit(rest, SearchFit);
   const std::vector<EffectFit> alternatives = extendFit(fitter, without,
-    screenEffects(fitter, without, others, FormPart * found.gapEnergy), AlternativesFitted);
+    screenEffects(fitter, without, others, TableDecision::FormPart * found.gapEnergy),
+    TableDecision::AlternativesFitted);
   struct Rival
   {
     std::string name;
@@ -57,8 +56,8 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
   const double price = parameterPrice(fitter, found.gapEnergy, best.dispersion);
   const auto cost = [price](const EffectFit& fit)
   { return fit.energy + price * static_cast<double>(fit.parameters()); };
-  const double tolerance =
-    std::fmax(EquivalentPart * found.gapEnergy, EquivalentDeviations * best.dispersion);
+  const double tolerance = std::fmax(TableDecision::EquivalentPart * found.gapEnergy,
+    TableDecision::EquivalentDeviations * best.dispersion);
   for (const EffectFit& alternative : alternatives)
   {
     if (cost(alternative) <= cost(best) + tolerance)

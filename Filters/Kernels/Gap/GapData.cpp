@@ -2,6 +2,7 @@
 
 #include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Gap/TableDecisions.h"
 #include "Kernels/Spectra/Interpolation.h"
 
 #include <algorithm>
@@ -16,7 +17,6 @@ namespace msi
 
 namespace
 {
-constexpr double FormTolerance = 0.03;
 
 template <typename... Parts>
 [[noreturn]] void reject(const Parts&... parts)
@@ -145,7 +145,8 @@ void setWeights(GapData& data)
   const Eigen::ArrayXXd gap =
     (data.count.array() > 0.0).select(data.observed - data.simulated, 0.0).array();
   const double energy = gap.square().sum() / static_cast<double>(data.elements);
-  const double tolerance = FormTolerance * FormTolerance * energy + 1e-14;
+  const double tolerance =
+    TableDecision::FormTolerance * TableDecision::FormTolerance * energy + 1e-14;
   data.weight = measured / (data.variance.array() + tolerance);
 }
 

@@ -1,5 +1,7 @@
 #include "Kernels/Gap/GapEvidence.h"
 
+#include "Kernels/Gap/TableDecisions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,18 +9,6 @@
 
 namespace msi
 {
-
-namespace
-{
-constexpr double PredictableDeviations = 4.0;
-constexpr double PredictablePart = 0.1; // of the noise energy
-constexpr double UnpredictableFactor = 1.3;
-constexpr double NegligiblePart = 0.25; // of what is left
-constexpr double Integrations = 2.0;    // times the variance of the sums over wavelength
-constexpr double MostOfIt = 0.5;
-constexpr double NearlyAll = 0.8;
-constexpr double FewSamples = 0.02;
-}
 
 Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
 {
@@ -120,20 +110,21 @@ bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShar
   }
   const double error = std::sqrt(std::fmax(square - sum * sum / samples, 0.0));
   const double noise = measuredOnly(data, data.variance).sum();
-  return sum > PredictableDeviations * error && sum > PredictablePart * noise;
+  return sum > TableDecision::PredictableDeviations * error &&
+    sum > TableDecision::PredictablePart * noise;
 }
 
 bool beyondNoise(const GapFigures& gap, double integration)
 {
   return gap.rmsBefore >
-    UnpredictableFactor * std::sqrt(gap.noiseFloor * gap.noiseFloor + integration);
+    TableDecision::UnpredictableFactor * std::sqrt(gap.noiseFloor * gap.noiseFloor + integration);
 }
 
 double negligibleEnergy(
   const GapData& data, const Eigen::MatrixXd& after, const Eigen::MatrixXd& integration)
 {
-  return std::fmax(
-    Integrations * measuredOnly(data, integration).sum(), NegligiblePart * after.squaredNorm());
+  return std::fmax(TableDecision::Integrations * measuredOnly(data, integration).sum(),
+    TableDecision::NegligiblePart * after.squaredNorm());
 }
 
 bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
@@ -141,15 +132,15 @@ bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen:
 {
   const double left = after.squaredNorm();
   const double explained = before.squaredNorm() - left;
-  const Eigen::MatrixXd allowed = Integrations * measuredOnly(data, integration);
+  const Eigen::MatrixXd allowed = TableDecision::Integrations * measuredOnly(data, integration);
   double beyond = 0.0;
   for (Eigen::Index j = 0; j < data.samples(); ++j)
   {
     const double taken = before.col(j).squaredNorm() - after.col(j).squaredNorm();
     beyond += std::fmax(taken - allowed.col(j).sum(), 0.0);
   }
-  return explained > NegligiblePart * left &&
-    (explained > allowed.sum() || beyond > MostOfIt * explained);
+  return explained > TableDecision::NegligiblePart * left &&
+    (explained > allowed.sum() || beyond > TableDecision::MostOfIt * explained);
 }
 
 bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)
@@ -159,13 +150,14 @@ bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
   const auto usable = std::count(data.usable.begin(), data.usable.end(), 1);
   const auto few = std::min<std::size_t>(sorted.size(),
-    std::max<std::size_t>(3, static_cast<std::size_t>(FewSamples * static_cast<double>(usable))));
+    std::max<std::size_t>(
+      3, static_cast<std::size_t>(TableDecision::FewSamples * static_cast<double>(usable))));
   double sum = 0.0;
   for (std::size_t i = 0; i < few; ++i)
   {
     sum += sorted[i];
   }
-  return sum > NearlyAll * energy.sum();
+  return sum > TableDecision::NearlyAll * energy.sum();
 }
 
 } // namespace msi

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/GapNoise.h"
 
+#include "Kernels/Gap/TableDecisions.h"
 #include "Kernels/Spectra/Interpolation.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@ namespace msi
 
 namespace
 {
-constexpr double ExcessVariance = 1.2; // below it a noise model counts as right
-constexpr double ExcessDeviations = 4.0;
 constexpr double FineStep = 1.0; // nm
 
 double modelVariance(const ReadingNoise& noise, double response)
@@ -102,7 +101,8 @@ NoiseFinding findNoise(const GapData& data, const std::optional<ReadingNoise>& g
   ratio /= finding.degrees;
   finding.excess = std::sqrt(ratio);
   finding.excessDeviations = (ratio - 1.0) / std::sqrt(2.0 / finding.degrees);
-  if (ratio > ExcessVariance && finding.excessDeviations > ExcessDeviations)
+  if (ratio > TableDecision::ExcessVariance &&
+    finding.excessDeviations > TableDecision::ExcessDeviations)
   {
     finding.fromRepeats = true;
     finding.reading = fitRepeats(data);

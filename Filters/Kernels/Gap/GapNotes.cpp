@@ -1,5 +1,7 @@
 #include "Kernels/Gap/GapNotes.h"
 
+#include "Kernels/Gap/TableDecisions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -9,10 +11,6 @@ namespace msi
 
 namespace
 {
-constexpr double UnrepeatedShare =
-  0.4; // of scatter beyond the model: an error of its own of each sample looks the same
-constexpr double EqualReadings =
-  0.01; // part of all elements at the largest value that speaks of a limit
 
 template <typename... Parts>
 std::string text(const Parts&... parts)
@@ -157,7 +155,8 @@ void noteSaturation(std::vector<std::string>& notes, const GapData& data)
   {
     equal += data.count(i) > 0.0 && data.observed(i) >= top - 1e-6 * std::fabs(top) ? 1 : 0;
   }
-  if (static_cast<double>(equal) > EqualReadings * static_cast<double>(data.elements))
+  if (static_cast<double>(equal) >
+    TableDecision::EqualReadings * static_cast<double>(data.elements))
   {
     notes.push_back(text(equal, " readings share the largest value ", top,
       ": they look clipped and say little about any other effect."));
@@ -230,9 +229,9 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     report.gap.shrinkInterval = { std::fmin(report.gap.shrink, 0.0), 1.0 };
     if (noise.unrepeated)
     {
-      cause.share = UnrepeatedShare;
+      cause.share = TableDecision::UnrepeatedShare;
       report.verdict = GapVerdict::PartlyExplained;
-      report.unexplained = { 1.0 - UnrepeatedShare, "scatter of single readings" };
+      report.unexplained = { 1.0 - TableDecision::UnrepeatedShare, "scatter of single readings" };
     }
   }
   else
@@ -241,7 +240,7 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     const double size = std::sqrt(std::fmax(excess, 0.0));
     const double gap = std::sqrt(std::fmax(before2 - floor2, 0.0));
     const double part = size / (size + gap);
-    cause.share = part * (noise.unrepeated ? UnrepeatedShare : 1.0);
+    cause.share = part * (noise.unrepeated ? TableDecision::UnrepeatedShare : 1.0);
     cause.shrink = 0.0;
     for (GapCause& other : report.causes)
     {

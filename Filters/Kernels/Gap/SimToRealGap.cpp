@@ -12,6 +12,7 @@
 #include "Kernels/Gap/OrderBreaks.h"
 #include "Kernels/Gap/ResidualScatter.h"
 #include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,6 @@ namespace msi
 
 namespace
 {
-constexpr double UnconfirmedShare = 0.4; // of what samples left out cannot confirm
 constexpr int MostChangePoints = 6;
 
 // Progress over jobs that may run on several threads.
@@ -250,7 +250,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     inFewSamples(data, found.best.predicted - data.simulated))
   {
     report.unconfirmed = true;
-    credit(report, fitter, found, choices, UnconfirmedShare * alone, 0.0);
+    credit(report, fitter, found, choices, TableDecision::UnconfirmedShare * alone, 0.0);
     report.unexplained.where = whereIs(where);
     report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
   }

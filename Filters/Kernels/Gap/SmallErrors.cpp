@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/ChannelStructure.h"
 #include "Kernels/Gap/EffectCost.h"
+#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,8 @@ EffectFit addSmallErrors(const EffectFitter& fitter, EffectFit fit,
     set.add(small, fitter.data().camera);
     EffectFit other = fitter.fit(std::move(set), SearchFit);
     const double gain = fit.energy - other.energy;
-    if (gain > ChanceOfMany * other.dispersion && gain > RelevantPart * gapEnergy)
+    if (gain > TableDecision::ChanceOfMany * other.dispersion &&
+      gain > TableDecision::RelevantPart * gapEnergy)
     {
       fit = std::move(other);
     }
@@ -60,7 +62,8 @@ EffectFit splitGains(
           choice.effect->has(EffectTrait::SpectralGain));
     });
   // The best of many is as good as a single one by chance more often.
-  double least = StructuredChance / std::fmax(static_cast<double>(common.size()), 1.0);
+  double least =
+    TableDecision::StructuredChance / std::fmax(static_cast<double>(common.size()), 1.0);
   EffectSet best;
   for (const EffectChoice& choice : common)
   {

@@ -8,8 +8,6 @@
 namespace msi
 {
 
-inline constexpr double PriorSize = 10.0; // typical sizes
-
 // A term with the value that is wanted (prior or hold), channel by channel.
 struct FieldFitter::Bound
 {

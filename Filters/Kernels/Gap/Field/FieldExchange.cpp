@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldExchange.h"
 
+#include "Kernels/Gap/Field/FieldDecisions.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -12,7 +14,6 @@ namespace
 constexpr std::size_t LargestSet = 4;
 constexpr std::size_t Leading = 8; // effects that are tried beside every other
 constexpr std::size_t Refitted = 2;
-constexpr double NothingLeft = 0.1; // of what noise allows
 
 // The effects of `part`, in whatever form.
 bool hasAll(const FieldSet& set, const FieldSet& part)
@@ -119,7 +120,8 @@ bool FieldExchange::exchangePairs(int maximumEffects)
     return false;
   }
   const FieldFitter here(Data, *Current.statistics);
-  if (Current.set.size() == 1 && Current.fit.energy < (1.0 + NothingLeft) * here.chance())
+  if (Current.set.size() == 1 &&
+    Current.fit.energy < (1.0 + ImageDecision::NothingLeft) * here.chance())
   {
     return false;
   }

@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
 #include "Kernels/Gap/Field/FieldBanding.h"
+#include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldHypothesis.h"
@@ -21,10 +22,6 @@ namespace msi
 
 namespace
 {
-constexpr double UnexplainedRms = 1.1;    // of the noise floor
-constexpr double UnexplainedBlocks = 2.0; // squared block means over what noise allows
-constexpr double ExplainedBlocks = 1.5;
-constexpr double ExactDoubt = 0.5;
 constexpr double FewUsable = 0.5;
 
 struct TestEnergies
@@ -223,13 +220,14 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   const double left = blockMeanExcess(data, found.after, false);
   const double shrink = report.gap.shrink;
   const bool noiseAlone =
-    report.gap.rmsAfter < UnexplainedRms * report.gap.noiseFloor && left < ExplainedBlocks;
+    report.gap.rmsAfter < ImageDecision::UnexplainedRms * report.gap.noiseFloor &&
+    left < ImageDecision::ExplainedBlocks;
   // Effects that account for little are candidates, not causes.
   if (!found.set.empty() && (shrink >= PartlyShrink || (noiseAlone && shrink > 0.0)))
   {
     const double doubt = noiseAlone ? 0.0 : doubtOf(report.gap.shrinkInterval);
     const double certain = (noiseAlone ? shrink : certainPart(shrink)) *
-      (areExact(found.set) ? 1.0 - ExactDoubt * doubt : 1.0);
+      (areExact(found.set) ? 1.0 - ImageDecision::ExactDoubt * doubt : 1.0);
     const double share = creditCauses(report, fieldCauses(data, found, choices, certain, doubt));
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
     report.verdict = noiseAlone || (shrink >= ExplainedShrink && share >= ExplainedShare * shrink)
@@ -240,8 +238,9 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   else
   {
     gap->model = found.before.model;
-    const bool gapThere = report.gap.rmsBefore > UnexplainedRms * report.gap.noiseFloor ||
-      blockMeanExcess(data, found.before, false) > UnexplainedBlocks;
+    const bool gapThere =
+      report.gap.rmsBefore > ImageDecision::UnexplainedRms * report.gap.noiseFloor ||
+      blockMeanExcess(data, found.before, false) > ImageDecision::UnexplainedBlocks;
     report.verdict = gapThere ? GapVerdict::Unexplained : GapVerdict::NoGap;
     if (gapThere)
     {

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldHypothesis.h"
 
+#include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 
 #include <algorithm>
@@ -15,7 +16,6 @@ constexpr int Iterations = 4;
 constexpr double SmallStep = 0.02; // typical sizes
 constexpr double Radii[] = { 2.0, 4.0, 8.0, 16.0, 32.0 };
 constexpr double Centers[] = { -0.3, 0.0, 0.3 }; // half fields
-constexpr double Indistinct = 0.5;               // standard error over typical size
 }
 
 double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)
@@ -158,8 +158,8 @@ std::vector<std::string> indistinctEffects(
           fitter.statistics().at(b, k).normal.topLeftCorner(column.size(), column.size()) * column);
       }
     }
-    const bool missing =
-      1.0 / std::sqrt(std::fmax(information, 1e-30)) > Indistinct * choice.terms.front().typical;
+    const bool missing = 1.0 / std::sqrt(std::fmax(information, 1e-30)) >
+      ImageDecision::Indistinct * choice.terms.front().typical;
     const std::string& name = choice.effect->name;
     if (missing && std::find(found.begin(), found.end(), name) == found.end())
     {

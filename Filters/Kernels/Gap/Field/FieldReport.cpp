@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldReport.h"
 
+#include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/GapCertainty.h"
@@ -15,8 +16,6 @@ namespace msi
 
 namespace
 {
-constexpr double EquivalentPart = 0.02; // of the gap's energy
-constexpr double EquivalentPrices = 3.0;
 constexpr std::size_t EquivalentNamed = 2;
 
 FieldSet subsetOf(const FieldSet& set, std::size_t subset)
@@ -75,8 +74,8 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
     cause.parameters = fieldParameters(*set[e], found, data.pair.channels, error, next);
     FieldSet rest = set;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
-    const double tolerance =
-      std::fmax(EquivalentPart * found.gapEnergy, EquivalentPrices * found.price);
+    const double tolerance = std::fmax(ImageDecision::EquivalentPart * found.gapEnergy,
+      ImageDecision::EquivalentPrices * found.price);
     std::vector<std::pair<double, std::string>> rivals;
     for (const FieldChoice& choice : choices)
     {

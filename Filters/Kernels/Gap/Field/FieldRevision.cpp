@@ -1,16 +1,13 @@
 #include "Kernels/Gap/Field/FieldRevision.h"
 
+#include "Kernels/Gap/Field/FieldDecisions.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 namespace msi
 {
-
-namespace
-{
-constexpr double Tolerated = 0.01; // of the gap's energy, on the way to a simpler form
-}
 
 void FieldRevision::consider(FieldFit fit, std::optional<FieldFit>& best) const
 {
@@ -90,7 +87,7 @@ bool FieldRevision::exchange()
       }
       const FieldSet other = joined(rest, choice);
       FieldFit fit = linearFit(fitter, other);
-      if (fit.energy < Current.fit.energy + Tolerated * Result.gapEnergy)
+      if (fit.energy < Current.fit.energy + ImageDecision::Tolerated * Result.gapEnergy)
       {
         for (const FieldSet& simple : simpler(other))
         {

@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldSearchState.h"
 
 #include "Kernels/Gap/Field/FieldClip.h"
+#include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldProfile.h"
 
 #include <algorithm>
@@ -9,13 +10,6 @@
 
 namespace msi
 {
-
-namespace
-{
-constexpr double PricePart = 0.0005; // for a parameter
-constexpr double LargestPricePart = 0.001;
-constexpr double LeastClip = 0.7;
-}
 
 namespace
 {
@@ -75,8 +69,8 @@ void FieldSearchState::setPrice(const FieldFitter& fitter)
   const double least = 0.5 * std::log(blocks);
   const double dispersion = fitter.energy() / std::fmax(fitter.chance(), 1e-9) *
     blockMeanExcess(Data, fitter.statistics(), true);
-  Result.price = std::fmax(std::fmax(least, PricePart * Result.gapEnergy),
-    std::fmin(least * dispersion, LargestPricePart * fitter.energy()));
+  Result.price = std::fmax(std::fmax(least, ImageDecision::PricePart * Result.gapEnergy),
+    std::fmin(least * dispersion, ImageDecision::LargestPricePart * fitter.energy()));
 }
 
 bool FieldSearchState::available(const FieldSet& set, const FieldChoice& choice) const
@@ -102,7 +96,7 @@ bool FieldSearchState::available(const FieldSet& set, const FieldChoice& choice)
 bool FieldSearchState::clips(const FieldHypothesis& hypothesis)
 {
   return !hasTerm(hypothesis.set, ImageParameter::Clip) ||
-    hypothesis.statistics->model.at(ImageParameter::Clip, 0) >= LeastClip;
+    hypothesis.statistics->model.at(ImageParameter::Clip, 0) >= ImageDecision::LeastClip;
 }
 
 FieldStatistics FieldSearchState::nominalStatistics() const

@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldBound.h"
 
+#include "Kernels/Gap/Field/FieldDecisions.h"
+
 #include <Eigen/Cholesky>
 
 #include <cmath>
@@ -59,7 +61,7 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
     const double value = Statistics.model.at(bound.term.parameter, k);
     const double precision = bound.held[static_cast<std::size_t>(k)] != 0
       ? Held * (information + 1.0)
-      : std::pow(PriorSize * bound.term.typical, -2);
+      : std::pow(ImageDecision::PriorSize * bound.term.typical, -2);
     onto += precision * (bound.wanted[k] - value);
     return precision;
   };

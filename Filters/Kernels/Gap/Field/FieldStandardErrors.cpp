@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldBound.h"
 
+#include "Kernels/Gap/Field/FieldDecisions.h"
+
 #include <Eigen/Cholesky>
 
 #include <cmath>
@@ -47,7 +49,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
   for (Eigen::Index i = 0; i < p; ++i)
   {
     information(i, i) +=
-      std::pow(PriorSize * single[static_cast<std::size_t>(i)].first.typical, -2);
+      std::pow(ImageDecision::PriorSize * single[static_cast<std::size_t>(i)].first.typical, -2);
   }
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(p, p);
   std::map<int, Eigen::VectorXd> ofGroup;

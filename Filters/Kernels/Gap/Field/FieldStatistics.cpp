@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
+#include "Kernels/Gap/Field/FieldDecisions.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,13 +10,11 @@ namespace msi
 
 namespace
 {
-constexpr double HuberDeviations = 3.0;
 constexpr double Trimmed = 0.1; // on each side
 constexpr std::size_t LevelBins = 4;
 constexpr double Unequal = 1.1; // differences along one axis this much above the other's: banding
 constexpr double LeastNoise = 1e-5;
-constexpr double FewestPairs = 4.0;    // in a block that tells the noise
-constexpr double TolerancePart = 0.05; // of the gap
+constexpr double FewestPairs = 4.0; // in a block that tells the noise
 
 double varianceOf(const ReadingNoise& noise, double level) noexcept
 {
@@ -184,9 +184,9 @@ FieldWeights fieldWeights(const FieldStatistics& statistics, const Eigen::ArrayX
       pixels += sums.pixels;
     }
     const double variance = energy / std::fmax(pixels, 1.0);
-    weights.limit[k] = HuberDeviations * std::sqrt(variance);
-    weights.tolerance[k] =
-      TolerancePart * TolerancePart * std::fmax(variance - noise / std::fmax(pixels, 1.0), 0.0);
+    weights.limit[k] = ImageDecision::HuberDeviations * std::sqrt(variance);
+    weights.tolerance[k] = ImageDecision::TolerancePart * ImageDecision::TolerancePart *
+      std::fmax(variance - noise / std::fmax(pixels, 1.0), 0.0);
   }
   if (tolerance != nullptr)
   {

@@ -18,7 +18,7 @@ MakeEffect filterBandwidth, filterShift, filterLeak, illuminantDrift;
 MakeEffect illuminationGradient, vignetting, veilingGlare, localStrayLight;
 MakeEffect exposureGain, channelGain, channelCrosstalk, sessionDrift;
 MakeEffect detectorNonlinearity, darkOffset, saturation, excessNoise;
-MakeEffect misregistration, defocus, lag, banding;
+MakeEffect misregistration, defocus, ghostReflection, lag, banding;
 
 namespace
 {
@@ -65,7 +65,7 @@ const std::vector<Effect>& effectRegistry()
            mediumGain, filterBandwidth, filterShift, filterLeak, illuminantDrift,
            illuminationGradient, vignetting, veilingGlare, localStrayLight, exposureGain,
            channelGain, channelCrosstalk, sessionDrift, detectorNonlinearity, darkOffset,
-           saturation, excessNoise, misregistration, defocus, lag, banding })
+           saturation, excessNoise, misregistration, defocus, ghostReflection, lag, banding })
     {
       effects.push_back(make());
       numberLight(effects.back(), lights);

@@ -1,0 +1,38 @@
+// Light that the lens reflects through the center of the image.
+#include "Kernels/Camera/Effects/Effect.h"
+
+namespace msi
+{
+
+namespace
+{
+EffectParameter strength(bool perChannel)
+{
+  return { "strength", "1", 0.0, 0.0, 0.3, 0.01, "share of the light at the opposite place",
+    perChannel };
+}
+
+ImagePlace throughCenter(const ImagePlace& pixel, const ImageExtent& extent)
+{
+  return { extent.width - 1 - pixel.x, extent.height - 1 - pixel.y };
+}
+}
+
+Effect ghostReflection()
+{
+  Effect effect;
+  effect.definition = { "ghost_reflection", "Ghost reflection",
+    "Detector and lens reflect a part of the light: a weak image appears on the opposite side of "
+    "the center.",
+    EffectStage::Image, EffectNeed::Nothing,
+    { { "common", "u(x, y) + strength u(-x, -y)", { strength(false) } },
+      { "per_channel", "the same with a strength of its own for each channel",
+        { strength(true) } } },
+    "one bright spot off the center of a dark field", EffectTrait::None,
+    { { "common", { imageTerm(ImageParameter::Light, strength(false)) } },
+      { "per_channel", { imageTerm(ImageParameter::Light, strength(true)) } } } };
+  effect.onImage.lightFrom = throughCenter;
+  return effect;
+}
+
+} // namespace msi

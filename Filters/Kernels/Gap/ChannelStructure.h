@@ -14,5 +14,4 @@ double chanceOfFraction(double fraction, int directions, int channels);
 // The part of the deviations' energy in a cubic over the channels: what a smooth change of the light does to them.
 double commonFraction(const Eigen::VectorXd& deviations);
 
-
 } // namespace msi

@@ -3,6 +3,7 @@
 #include "Kernels/Gap/CauseShares.h"
 #include "Kernels/Gap/EffectCost.h"
 #include "Kernels/Gap/EffectExtension.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/TableDecisions.h"
 
@@ -17,8 +18,6 @@ namespace msi
 
 namespace
 {
-constexpr std::size_t EquivalentNamed = 2;
-constexpr double LeastPart = 0.03; // of the causes together
 
 // The place of a step lies between two samples; the error is that of a uniform distribution there.
 void addPlace(GapCause& cause, const EffectSet& set, std::size_t position, double samples)
@@ -47,11 +46,6 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
   const std::vector<EffectFit> alternatives = extendFit(fitter, without,
     screenEffects(fitter, without, others, TableDecision::FormPart * found.gapEnergy),
     TableDecision::AlternativesFitted);
-  struct Rival
-  {
-    std::string name;
-    double cost;
-  };
   std::vector<Rival> rivals;
   const double price = parameterPrice(fitter, found.gapEnergy, best.dispersion);
   const auto cost = [price](const EffectFit& fit)
@@ -65,18 +59,7 @@ std::vector<std::string> equivalentsOf(const EffectFitter& fitter, const SearchR
       rivals.push_back({ alternative.set.choices.back().effect->name, cost(alternative) });
     }
   }
-  std::stable_sort(
-    rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
-  std::vector<std::string> names;
-  for (const Rival& rival : rivals)
-  {
-    if (names.size() < EquivalentNamed &&
-      std::find(names.begin(), names.end(), rival.name) == names.end())
-    {
-      names.push_back(rival.name);
-    }
-  }
-  return names;
+  return cheapestOf(std::move(rivals));
 }
 }
 
@@ -119,26 +102,6 @@ std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchRes
   std::stable_sort(causes.begin(), causes.end(),
     [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
   return causes;
-}
-
-double creditCauses(GapReport& report, std::vector<GapCause> causes)
-{
-  const auto sumOf = [](const std::vector<GapCause>& some)
-  {
-    return std::accumulate(some.begin(), some.end(), 0.0,
-      [](double sum, const GapCause& cause) { return sum + cause.share; });
-  };
-  const double all = sumOf(causes);
-  const auto first = std::stable_partition(causes.begin(), causes.end(),
-    [all](const GapCause& cause) { return cause.share > LeastPart * all; });
-  report.uncredited.clear();
-  std::transform(first, causes.end(), std::back_inserter(report.uncredited),
-    [](const GapCause& cause) { return cause.effect; });
-  causes.erase(first, causes.end());
-  report.causes = std::move(causes);
-  const double share = sumOf(report.causes);
-  report.unexplained.share = std::clamp(1.0 - share, 0.0, 1.0);
-  return share;
 }
 
 std::vector<GapCandidate> describeCandidates(

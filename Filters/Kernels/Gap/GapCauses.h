@@ -15,10 +15,6 @@ namespace msi
 std::vector<GapCause> describeCauses(const EffectFitter& fitter, const SearchResult& found,
   const std::vector<EffectChoice>& choices, double total, double doubt);
 
-// Takes the causes into the report, and what none of them explains; the sum of their shares. Those that get less than 3 %
-// of what all get are no causes: their effects go to GapReport::uncredited.
-double creditCauses(GapReport& report, std::vector<GapCause> causes);
-
 // The single effects by what each alone would do. seed: of the intervals.
 std::vector<GapCandidate> describeCandidates(
   const EffectFitter& fitter, const SearchResult& found, std::uint64_t seed);

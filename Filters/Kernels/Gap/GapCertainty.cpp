@@ -12,6 +12,16 @@ constexpr double LeastOthers = 1e-30; // of an effect's own square
 constexpr double LeastCertain = 0.2;  // of a shrink below one half
 }
 
+GapVerdict verdictOf(double shrink, double share, bool noiseAlone) noexcept
+{
+  if (share > 0.0 && (noiseAlone || (shrink >= ExplainedShrink && share >= ExplainedShare)))
+  {
+    return GapVerdict::Explained;
+  }
+  return share > 0.0 && shrink >= PartlyShrink ? GapVerdict::PartlyExplained
+                                               : GapVerdict::Unexplained;
+}
+
 double certainPart(double shrink) noexcept
 {
   return shrink * std::fmax(2.0 * shrink - 1.0, LeastCertain);

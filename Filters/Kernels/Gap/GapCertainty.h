@@ -1,6 +1,8 @@
 // How much of what the causes do is believed of them.
 #pragma once
 
+#include "Kernels/Gap/GapReport.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -8,6 +10,9 @@
 
 namespace msi
 {
+
+// noiseAlone: nothing but noise is left. share: of all causes together, 0 where there is none.
+GapVerdict verdictOf(double shrink, double share, bool noiseAlone) noexcept;
 
 inline constexpr double ExplainedShrink = 0.85;
 inline constexpr double ExplainedShare = 0.7; // of the causes together

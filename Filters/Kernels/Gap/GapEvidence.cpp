@@ -69,30 +69,6 @@ SampleEnergies energiesOf(
   return energies;
 }
 
-GapFigures figuresOf(const GapData& data, const SampleEnergies& energies, std::uint64_t seed)
-{
-  double before = 0.0;
-  double after = 0.0;
-  double noise = 0.0;
-  const std::size_t count = energies.before.size();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    before += energies.before[i];
-    after += energies.after[i];
-    noise += energies.noise[i];
-  }
-  GapFigures figures;
-  const auto elements = static_cast<double>(data.elements);
-  figures.rmsBefore = std::sqrt(before / elements);
-  figures.rmsAfter = std::sqrt(after / elements);
-  figures.noiseFloor = std::sqrt(noise / elements);
-  figures.shrink = shrinkOf(before, after, noise);
-  figures.shrinkInterval = shrinkInterval(energies, seed);
-  figures.shrinkInterval[0] = std::fmin(figures.shrinkInterval[0], figures.shrink);
-  figures.shrinkInterval[1] = std::fmax(figures.shrinkInterval[1], figures.shrink);
-  return figures;
-}
-
 bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares)
 {
   double sum = 0.0;

@@ -8,8 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <cstdint>
-
 namespace msi
 {
 
@@ -25,10 +23,9 @@ void setUnknownNoise(GapData& data);
 // it allows, only as much of it stays in data.variance as what is left shows. Returns the mean variance taken away.
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted);
 
-// Per-sample energies before and after, and what noise allows; and the figures from them.
+// Per-sample energies before and after, and what noise allows.
 SampleEnergies energiesOf(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
-GapFigures figuresOf(const GapData& data, const SampleEnergies& energies, std::uint64_t seed);
 
 // Whether the bases predict held-out samples: their gain in energy, sample by sample, against its own error.
 bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares);

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/GapNotes.h"
 
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
@@ -162,21 +163,6 @@ void noteSaturation(std::vector<std::string>& notes, const GapData& data)
       ": they look clipped and say little about any other effect."));
   }
 }
-}
-
-void noteUncredited(std::vector<std::string>& notes, const std::vector<std::string>& effects)
-{
-  if (effects.empty())
-  {
-    return;
-  }
-  std::string names;
-  for (const std::string& name : effects)
-  {
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  notes.push_back("The corrected simulator also has " + names +
-    ": with it the readings are predicted better, but it is not believed to be a cause.");
 }
 
 void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,

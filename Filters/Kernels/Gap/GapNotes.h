@@ -17,9 +17,6 @@ namespace msi
 void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,
   const std::optional<ReadingNoise>& given, const std::vector<std::string>& without);
 
-// Of GapReport::uncredited; none without effects.
-void noteUncredited(std::vector<std::string>& notes, const std::vector<std::string>& effects);
-
 // What the data cannot decide, and why.
 std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise, const GapReport& report);

@@ -59,6 +59,28 @@ double shrinkOf(const EffectFitter& fitter, const EffectFit& fit)
   return shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
 }
 
+GapFigures figuresOf(const SampleEnergies& energies, double elements, std::uint64_t seed)
+{
+  double before = 0.0;
+  double after = 0.0;
+  double noise = 0.0;
+  for (std::size_t i = 0; i < energies.before.size(); ++i)
+  {
+    before += energies.before[i];
+    after += energies.after[i];
+    noise += energies.noise[i];
+  }
+  GapFigures figures;
+  figures.rmsBefore = std::sqrt(before / elements);
+  figures.rmsAfter = std::sqrt(after / elements);
+  figures.noiseFloor = std::sqrt(noise / elements);
+  figures.shrink = shrinkOf(before, after, noise);
+  figures.shrinkInterval = shrinkInterval(energies, seed);
+  figures.shrinkInterval[0] = std::fmin(figures.shrinkInterval[0], figures.shrink);
+  figures.shrinkInterval[1] = std::fmax(figures.shrinkInterval[1], figures.shrink);
+  return figures;
+}
+
 std::array<double, 2> shrinkInterval(const SampleEnergies& energies, std::uint64_t seed)
 {
   const std::size_t count = energies.before.size();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Kernels/Gap/EffectFit.h"
+#include "Kernels/Gap/GapReport.h"
 
 #include <array>
 #include <cstdint>
@@ -22,6 +23,9 @@ SampleEnergies energiesOf(const EffectFitter& fitter, const EffectFit& fit);
 // 1 - sqrt(excess energy left / excess energy before), within [-1, 1]; 0 where there was none.
 double shrinkOf(double before, double after, double noise) noexcept;
 double shrinkOf(const EffectFitter& fitter, const EffectFit& fit);
+
+// Over so many elements. seed: of the interval, which contains the shrink itself.
+GapFigures figuresOf(const SampleEnergies& energies, double elements, std::uint64_t seed);
 
 // 95 % interval of shrinkOf over bootstrap draws of the samples; {0, 0} without samples.
 std::array<double, 2> shrinkInterval(const SampleEnergies& energies, std::uint64_t seed);

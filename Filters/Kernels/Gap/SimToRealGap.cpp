@@ -10,6 +10,7 @@
 #include "Kernels/Gap/GapNotes.h"
 #include "Kernels/Gap/HeldOut.h"
 #include "Kernels/Gap/OrderBreaks.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/ResidualScatter.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/TableDecisions.h"
@@ -98,31 +99,6 @@ double credit(GapReport& report, const EffectFitter& fitter, const SearchResult&
   return creditCauses(report, describeCauses(fitter, found, choices, certain, doubt));
 }
 
-std::string whereIs(const AxisShares& shares)
-{
-  if (shares.axes.empty())
-  {
-    return "no axis stands out";
-  }
-  const GapAxis& axis = shares.axes.front();
-  return axis.axis + (axis.worst.empty() ? "" : " " + axis.worst.front().cell);
-}
-}
-
-const char* nameOf(GapVerdict verdict) noexcept
-{
-  switch (verdict)
-  {
-    case GapVerdict::NoGap:
-      return "no gap";
-    case GapVerdict::Explained:
-      return "explained";
-    case GapVerdict::PartlyExplained:
-      return "partly explained";
-    case GapVerdict::Unexplained:
-      break;
-  }
-  return "unexplained";
 }
 
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
@@ -228,7 +204,8 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     data.variance.colwise() +=
       reflectanceNoise * reflectanceNoise * reflectanceErrorGain(data.camera);
   }
-  report.gap = figuresOf(data, energiesOf(data, before, after), options.seed);
+  report.gap =
+    figuresOf(energiesOf(data, before, after), static_cast<double>(data.elements), options.seed);
   const AxisShares where = shareOverAxes(data, before, true);
   report.where = where.axes;
   report.changePoints = OrderBreaks::significant(fitter, data.simulated, MostChangePoints);
@@ -241,17 +218,15 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   {
     const double share = credit(
       report, fitter, found, choices, certainPart(shrink), doubtOf(report.gap.shrinkInterval));
-    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
-    report.verdict = shrink >= ExplainedShrink && share >= ExplainedShare ? GapVerdict::Explained
-      : shrink >= PartlyShrink && !report.causes.empty() ? GapVerdict::PartlyExplained
-                                                         : GapVerdict::Unexplained;
+    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest.axes) : "";
+    report.verdict = verdictOf(shrink, share, false);
   }
   else if (causes && alone >= ExplainedShrink &&
     inFewSamples(data, found.best.predicted - data.simulated))
   {
     report.unconfirmed = true;
     credit(report, fitter, found, choices, TableDecision::UnconfirmedShare * alone, 0.0);
-    report.unexplained.where = whereIs(where);
+    report.unexplained.where = whereIs(where.axes);
     report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
   }
   else if ((predictable(data, before, where) &&
@@ -259,7 +234,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     beyondNoise(report.gap, doubted))
   {
     report.verdict = GapVerdict::Unexplained;
-    report.unexplained = { 1.0, whereIs(where) };
+    report.unexplained = { 1.0, whereIs(where.axes) };
   }
   if (report.correction.empty())
   {
@@ -270,15 +245,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   }
   report.candidates = describeCandidates(fitter, found, options.seed);
   addExcessNoise(report, data, noise, capture.noise, options.without);
-  for (const GapCause& cause : report.causes)
-  {
-    if (!cause.equivalent.empty() && !report.nextCapture)
-    {
-      GapNextCapture next{ separatingCapture(cause.effect), { cause.effect } };
-      next.separates.insert(next.separates.end(), cause.equivalent.begin(), cause.equivalent.end());
-      report.nextCapture = std::move(next);
-    }
-  }
+  recommendCapture(report);
   report.notes = notesOn(data, capture, noise, reflectanceNoise, report);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   report.gapBefore = (data.count.array() > 0.0).select(before, nan);

@@ -14,8 +14,13 @@ EffectParameter blur(bool perChannel)
 
 ImageTerm blurVariance(bool perChannel)
 {
-  return { ImageParameter::BlurVariance, perChannel, 0.0, 16.0, 0.25, "blur", "pixels",
-    ImageScale::Squared };
+  ImageTerm term = imageTerm(ImageParameter::BlurVariance, blur(perChannel));
+  for (double* number : { &term.lower, &term.upper, &term.typical })
+  {
+    *number *= *number;
+  }
+  term.scale = ImageScale::Squared;
+  return term;
 }
 
 SymmetricKernel makeBlur(const BoundEffect& effect)

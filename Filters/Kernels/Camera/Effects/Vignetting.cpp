@@ -69,8 +69,8 @@ Effect vignetting()
   const ImageTerm steep = imageTerm(P::Falloff, orders[0]);
   const ImageTerm fourth = imageTerm(P::Fourth, orders[1]);
   const ImageTerm sixth = imageTerm(P::Sixth, orders[2]);
-  const ImageTerm centerX{ P::CenterX, false, -1.0, 1.0, 0.1, "center_x", "half field" };
-  const ImageTerm centerY{ P::CenterY, false, -1.0, 1.0, 0.1, "center_y", "half field" };
+  const ImageTerm centerX = imageTerm(P::CenterX, center[0]);
+  const ImageTerm centerY = imageTerm(P::CenterY, center[1]);
   Effect effect;
   effect.definition = { "vignetting", "Vignetting", "The lens passes less light off its axis.",
     EffectStage::Irradiance, EffectNeed::Position,

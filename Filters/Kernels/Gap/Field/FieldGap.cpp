@@ -8,9 +8,8 @@
 #include "Kernels/Gap/Field/FieldReport.h"
 #include "Kernels/Gap/Field/FieldSearch.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
-#include "Kernels/Gap/GapCauses.h"
 #include "Kernels/Gap/GapCertainty.h"
-#include "Kernels/Gap/GapNotes.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
@@ -51,43 +50,6 @@ TestEnergies energiesOf(const FieldData& data, const FieldSearchResult& found)
   energies.samples = { groupSums(data, before, false), groupSums(data, after, false),
     groupSums(data, noise, false) };
   return energies;
-}
-
-GapFigures figuresOf(const TestEnergies& energies, std::uint64_t seed)
-{
-  const std::size_t count = energies.samples.before.size();
-  double before = 0.0;
-  double after = 0.0;
-  double noise = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    before += energies.samples.before[i];
-    after += energies.samples.after[i];
-    noise += energies.samples.noise[i];
-  }
-  GapFigures figures;
-  const double elements = std::fmax(energies.elements, 1.0);
-  figures.rmsBefore = std::sqrt(before / elements);
-  figures.rmsAfter = std::sqrt(after / elements);
-  figures.noiseFloor = std::sqrt(noise / elements);
-  figures.shrink = shrinkOf(before, after, noise);
-  figures.shrinkInterval = shrinkInterval(energies.samples, seed);
-  return figures;
-}
-
-std::string whereIs(const std::vector<GapAxis>& axes)
-{
-  if (axes.empty())
-  {
-    return "no axis stands out";
-  }
-  const GapAxis& axis = axes.front();
-  if (axis.worst.empty())
-  {
-    return axis.axis;
-  }
-  const std::string& cell = axis.worst.front().cell;
-  return cell.rfind(axis.axis, 0) == 0 ? cell : axis.axis + " " + cell;
 }
 
 // Gains and offsets are what they are: no other formula of them leaves a rest. What they leave has another cause, and they
@@ -208,7 +170,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   gap->model = found.after.model;
   gap->unit = data.unit;
   GapReport& report = gap->report;
-  report.gap = figuresOf(energiesOf(data, found), options.seed);
+  const TestEnergies energies = energiesOf(data, found);
+  report.gap = figuresOf(energies.samples, std::fmax(energies.elements, 1.0), options.seed);
   // The stripes that were found are an axis of the gap before, too.
   FieldModel nominal = found.before.model;
   nominal.rowPeriod = found.after.model.rowPeriod;
@@ -230,9 +193,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
       (areExact(found.set) ? 1.0 - ImageDecision::ExactDoubt * doubt : 1.0);
     const double share = creditCauses(report, fieldCauses(data, found, choices, certain, doubt));
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
-    report.verdict = noiseAlone || (shrink >= ExplainedShrink && share >= ExplainedShare * shrink)
-      ? GapVerdict::Explained
-      : GapVerdict::PartlyExplained;
+    report.verdict = verdictOf(shrink, share, noiseAlone);
     report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
   }
   else
@@ -252,15 +213,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.gap.shrinkInterval = { 0.0, 0.0 };
   }
   report.candidates = fieldCandidates(data, found, options.seed);
-  for (const GapCause& cause : report.causes)
-  {
-    if (!cause.equivalent.empty() && !report.nextCapture)
-    {
-      GapNextCapture next{ separatingCapture(cause.effect), { cause.effect } };
-      next.separates.insert(next.separates.end(), cause.equivalent.begin(), cause.equivalent.end());
-      report.nextCapture = std::move(next);
-    }
-  }
+  recommendCapture(report);
   report.notes = notesOn(data, found, report.causes.empty() ? FieldSet() : found.set);
   noteUncredited(report.notes, report.uncredited);
   say(1.0, "done");

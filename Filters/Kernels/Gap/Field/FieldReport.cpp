@@ -4,6 +4,7 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/GapCertainty.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shapley.h"
 #include "Kernels/Gap/Shrink.h"
 
@@ -16,7 +17,6 @@ namespace msi
 
 namespace
 {
-constexpr std::size_t EquivalentNamed = 2;
 
 FieldSet subsetOf(const FieldSet& set, std::size_t subset)
 {
@@ -76,7 +76,7 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
     const double tolerance = std::fmax(ImageDecision::EquivalentPart * found.gapEnergy,
       ImageDecision::EquivalentPrices * found.price);
-    std::vector<std::pair<double, std::string>> rivals;
+    std::vector<Rival> rivals;
     for (const FieldChoice& choice : choices)
     {
       if (choice.effect != set[e]->effect && compatible(rest, choice))
@@ -86,20 +86,11 @@ std::vector<GapCause> fieldCauses(const FieldData& data, const FieldSearchResult
         const double cost = costOf(fitter.fit(other));
         if (cost <= costOf(best) + tolerance)
         {
-          rivals.emplace_back(cost, choice.effect->name);
+          rivals.push_back({ choice.effect->name, cost });
         }
       }
     }
-    std::stable_sort(
-      rivals.begin(), rivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [cost, name] : rivals)
-    {
-      if (cause.equivalent.size() < EquivalentNamed &&
-        std::find(cause.equivalent.begin(), cause.equivalent.end(), name) == cause.equivalent.end())
-      {
-        cause.equivalent.push_back(name);
-      }
-    }
+    cause.equivalent = cheapestOf(std::move(rivals));
     causes.push_back(std::move(cause));
   }
   std::stable_sort(causes.begin(), causes.end(),

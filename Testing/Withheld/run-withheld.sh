@@ -1,23 +1,35 @@
 #!/bin/sh
-# Proves the diagnosis on withheld effects: run-withheld.sh [SEED] [fast|full] [THREADS] [OUTPUT]
-# Builds what it needs, writes the cases and, apart, their key, diagnoses without the key, scores.
-# With RESUME=1 goes on with the results of a run that was stopped, made by the same version.
+# Judges the diagnosis on cases whose effects it is not told: run-withheld.sh [small|full] [SEED] [SETS] [ENGINE]
+#   SETS    of "bench second images raw linearised chart", default all: a virtual bench; a second generator that shares nothing
+#           with the first; image pairs; effects planted in real measurements (with MULTISPECTRAL_DATA): as they are, after every
+#           channel was made linear, and of a filter-wheel camera
+#   ENGINE  a diagnosis known to Diagnose/Engines.cpp, default "present"
+# Builds what it needs, writes the cases and, apart, their keys, diagnoses without the keys, prints all sets side by side.
+# THREADS=2: cases at a time. RESUME=1 goes on with the results of a run that was stopped, made by the same version.
 set -eu
 
-seed=${1:-2026}
-size=${2:-full}
-threads=${3:-1}
+size=${1:-small}
+seed=${2:-2026}
+sets=${3:-bench second images raw linearised chart}
+engine=${4:-present}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build="$root/build/withheld"
-output=${4:-$build/run-$size-$seed}
+output="$build/run-$size-$seed"
 
 cmake -S "$root" -B "$build" -G Ninja -DMULTISPECTRAL_FACE=formats -DMULTISPECTRAL_WITHHELD=ON \
   -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF >/dev/null
 cmake --build "$build" --target GenerateWithheld DiagnoseWithheld ScoreWithheld
 programs="$build/Testing/Withheld"
 mkdir -p "$output/sealed"
-[ "${RESUME:-0}" = 1 ] || rm -f "$output/diagnoses.csv"
-"$programs/GenerateWithheld" "$output/cases" "$output/sealed/key.csv" "$size" "$seed"
-"$programs/DiagnoseWithheld" "$output/cases" "$output/diagnoses.csv" "$threads"
-"$programs/ScoreWithheld" "$output/sealed/key.csv" "$output/diagnoses.csv" \
-  "$output/confusion.svg" | tee "$output/score.txt"
+scored=
+for set in $sets; do
+  key="$output/sealed/$set.csv"
+  result="$output/$set-$engine.csv"
+  [ "${RESUME:-0}" = 1 ] && [ -s "$key" ] ||
+    "$programs/GenerateWithheld" "$set" "$output/$set" "$key" "$size" "$seed"
+  [ "${RESUME:-0}" = 1 ] || rm -f "$result"
+  "$programs/DiagnoseWithheld" "$output/$set" "$result" "${THREADS:-1}" "$engine"
+  scored="$scored $set $key $result"
+done
+# shellcheck disable=SC2086
+"$programs/ScoreWithheld" --failures $scored | tee "$output/score-$engine.txt"

@@ -1,6 +1,6 @@
-// Diagnoses withheld cases without their key: DiagnoseWithheld FOLDER RESULTFILE [threads] [case]
+// Diagnoses withheld cases without their key: DiagnoseWithheld FOLDER RESULTFILE [THREADS] [ENGINE] [CASE]
 // Every result is written as soon as it is there; cases that RESULTFILE has already are not done again.
-#include "CaptureInput.h"
+#include "Engines.h"
 
 #include <atomic>
 #include <chrono>
@@ -14,8 +14,9 @@
 
 namespace
 {
-std::string lineOf(const msi::GapReport& report, double seconds)
+std::string lineOf(const withheld::Answer& answer, double seconds)
 {
+  const msi::GapReport& report = answer.report;
   std::ostringstream line;
   line << msi::nameOf(report.verdict) << ','
        << (report.where.empty() ? std::string() : report.where.front().axis) << ',';
@@ -46,6 +47,13 @@ std::string lineOf(const msi::GapReport& report, double seconds)
     line << separator << report.candidates[c].effect << ':' << report.candidates[c].shrink;
     separator = ";";
   }
+  line << ',';
+  separator = "";
+  for (const auto& [name, probability] : answer.probabilities)
+  {
+    line << separator << name << ':' << probability;
+    separator = ";";
+  }
   line << ',' << seconds;
   return line.str();
 }
@@ -66,12 +74,18 @@ int main(int argc, char** argv)
 {
   if (argc < 3)
   {
-    std::cerr << "usage: DiagnoseWithheld FOLDER RESULTFILE [threads] [case]\n";
+    std::cerr << "usage: DiagnoseWithheld FOLDER RESULTFILE [THREADS] [ENGINE] [CASE]\n";
     return 2;
   }
   const std::string folder = argv[1];
   const int threads = argc > 3 ? std::stoi(argv[3]) : 1;
-  const std::string only = argc > 4 ? argv[4] : "";
+  const auto engine = withheld::engines().find(argc > 4 ? argv[4] : "present");
+  const std::string only = argc > 5 ? argv[5] : "";
+  if (engine == withheld::engines().end())
+  {
+    std::cerr << "there is no diagnosis named " << argv[4] << '\n';
+    return 2;
+  }
   const std::set<std::string> done = casesIn(argv[2]);
   std::ifstream list(folder + "/cases.csv");
   std::vector<std::pair<std::string, std::string>> cases;
@@ -90,7 +104,7 @@ int main(int argc, char** argv)
   if (done.empty())
   {
     output << "case,verdict,axis,where,rms_before,rms_after,noise_floor,shrink,shrink_low,shrink_"
-              "high,causes,unexplained,candidates,seconds"
+              "high,causes,unexplained,candidates,probabilities,seconds"
            << std::endl;
   }
   std::atomic<std::size_t> next{ 0 };
@@ -102,17 +116,17 @@ int main(int argc, char** argv)
     {
       try
       {
-        msi::GapOptions options;
+        std::vector<std::string> without;
         if (!cases[i].second.empty())
         {
-          options.without = { cases[i].second };
+          without.push_back(cases[i].second);
         }
-        const msi::GapCapture capture = withheld::readGapCapture(folder + "/" + cases[i].first);
+        const withheld::CaseInput input = withheld::readCase(folder + "/" + cases[i].first);
         const auto start = std::chrono::steady_clock::now();
-        const auto report = msi::diagnoseGap(capture, options);
+        const withheld::Answer answer = engine->second(input, without);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         const std::lock_guard<std::mutex> lock(console);
-        output << cases[i].first << ',' << lineOf(*report, seconds.count()) << std::endl;
+        output << cases[i].first << ',' << lineOf(answer, seconds.count()) << std::endl;
       }
       catch (const std::exception& error)
       {

@@ -1,4 +1,4 @@
-// The figures of a set of withheld cases, each beside its bar.
+// The figures of a set of withheld cases.
 #pragma once
 
 #include "CaseTable.h"
@@ -18,7 +18,6 @@ struct Figure
 {
   std::string name;
   double value = 0.0;
-  double bar = 0.0; // 0: none
   int cases = 0;
 };
 
@@ -30,7 +29,7 @@ bool firstIs(const ScoredCase& one, const std::string& effect, bool withClass);
 // the whole library declares equivalent to the planted one.
 bool unknownSaid(const ScoredCase& one, const std::vector<ScoredCase>& all, bool withClass);
 
-// Figures of the sets that are there.
+// Figures of the sets that are there, in an order that is the same for all.
 std::vector<Figure> figuresOf(const std::vector<ScoredCase>& cases);
 
 // What went wrong, one line a case.

@@ -2,8 +2,9 @@
 // wrong with them, in steps of one nanometre. Shares no code with the project's simulator.
 #pragma once
 
+#include "Cases/CaseWriter.h"
+
 #include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,6 @@ using Curve = std::vector<double>; // one value a nanometre, FirstNanometre .. L
 constexpr int FirstNanometre = 380;
 constexpr int LastNanometre = 730;
 constexpr int Nanometres = LastNanometre - FirstNanometre + 1;
-
-using Random = std::mt19937_64;
-double uniform(Random& random, double low, double high);
-double normal(Random& random, double deviation);
-int integer(Random& random, int low, int high); // both included
-bool chance(Random& random, double probability);
 
 struct Filter
 {

@@ -1,4 +1,4 @@
-#include "WithheldCase.h"
+#include "BenchCase.h"
 
 #include "PlantedEffects.h"
 #include "Swatches.h"
@@ -6,12 +6,29 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace withheld
 {
 
 namespace
 {
+struct CaseRequest
+{
+  std::uint64_t seed = 1;
+  std::vector<std::string> effects; // names to plant; none: a clean capture
+  std::string stranger;             // a kind that the library does not have
+  double strength = 1.0;
+  int samples = 200;
+  bool nominalErrors = false; // every gain 0.4 %, center 0.3 nm, dark 0.0003 off
+};
+
+struct BenchCase
+{
+  Capture capture;
+  Key key;
+};
+
 Bench drawBench(Random& random)
 {
   Bench bench;
@@ -107,24 +124,9 @@ void drawPatches(Random& random, const CaseRequest& request, bool mediumMatters,
 
 using Responses = std::vector<std::vector<double>>;
 
-double rmsDifference(const Responses& a, const Responses& b)
-{
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    for (std::size_t k = 0; k < a[i].size(); ++k)
-    {
-      sum += std::pow(a[i][k] - b[i][k], 2);
-      count += 1.0;
-    }
-  }
-  return std::sqrt(sum / count);
-}
-
 // camera.csv: its mean through a slit around each wavelength or, where the curve is smooth on the grid, its value
 // there; scaled to the white.
-void measureCamera(Random& random, const Bench& bench, CaseCapture& capture)
+void measureCamera(Random& random, const Bench& bench, Capture& capture)
 {
   const int step = chance(random, 0.5) ? 5 : 10;
   double narrowest = 1e9;
@@ -170,7 +172,7 @@ void measureCamera(Random& random, const Bench& bench, CaseCapture& capture)
   }
 }
 
-Responses modelResponses(const CaseCapture& capture, const std::vector<Patch>& patches)
+Responses modelResponses(const Capture& capture, const std::vector<Patch>& patches)
 {
   Responses u;
   for (const Patch& patch : patches)
@@ -194,13 +196,14 @@ Bench errBy(const Bench& nominal, const PlantedEffect& effect, double size)
   effect.apply(bench, size);
   return bench;
 }
-}
 
-WithheldCase makeCase(const CaseRequest& request)
+BenchCase makeCase(const CaseRequest& request)
 {
   Random random(request.seed * 7919 + 17);
-  WithheldCase result;
-  CaseCapture& capture = result.capture;
+  BenchCase result;
+  Capture& capture = result.capture;
+  std::vector<Patch> patches;
+  std::vector<std::string> media;
   Bench nominal = drawBench(random);
   const auto& surfaces = { "medium_gain", "specular_component", "interreflection", "translucency",
     "fluorescence" };
@@ -209,21 +212,20 @@ WithheldCase makeCase(const CaseRequest& request)
     { return std::find(surfaces.begin(), surfaces.end(), name) != surfaces.end(); });
   // In one medium polarisation is a gain of each channel, which the library has.
   const int fewestMedia = request.stranger == "polarisation" ? 2 : 1;
-  drawPatches(random, request, mediumMatters, fewestMedia, capture.patches, capture.media);
+  drawPatches(random, request, mediumMatters, fewestMedia, patches, media);
   const std::vector<double> white = whiteOf(nominal);
   measureCamera(random, nominal, capture);
   capture.dark = nominal.dark;
-  const Responses ideal = expose(nominal, capture.patches, white);
+  const Responses ideal = expose(nominal, patches, white);
 
   std::vector<PlantedEffect> planted;
   for (const std::string& name : request.effects)
   {
-    planted.push_back(
-      plant(name, random, nominal, static_cast<int>(capture.media.size()), capture.patches));
+    planted.push_back(plant(name, random, nominal, static_cast<int>(media.size()), patches));
   }
   if (!request.stranger.empty())
   {
-    planted.push_back(plantStranger(request.stranger, random, nominal, capture.patches));
+    planted.push_back(plantStranger(request.stranger, random, nominal, patches));
   }
   Bench real = nominal;
   bool rebalance = false;
@@ -240,8 +242,8 @@ WithheldCase makeCase(const CaseRequest& request)
       {
         size = std::sqrt(low * high);
         const Bench tried = errBy(nominal, effect, size);
-        const double rms = rmsDifference(
-          expose(tried, capture.patches, effect.rebalance ? whiteOf(tried) : white), ideal);
+        const double rms =
+          rmsDifference(expose(tried, patches, effect.rebalance ? whiteOf(tried) : white), ideal);
         (rms < target ? low : high) = size;
       }
     }
@@ -249,9 +251,9 @@ WithheldCase makeCase(const CaseRequest& request)
     rebalance = rebalance || effect.rebalance;
     result.key.effects.push_back(effect.name.empty() ? "?" : effect.name);
     result.key.kinds.push_back(effect.kind);
-    result.key.axes.push_back(effect.axes);
+    result.key.axes.insert(result.key.axes.end(), effect.axes.begin(), effect.axes.end());
   }
-  const Responses beforeErrors = expose(real, capture.patches, rebalance ? whiteOf(real) : white);
+  const Responses beforeErrors = expose(real, patches, rebalance ? whiteOf(real) : white);
   if (request.nominalErrors)
   {
     for (std::size_t k = 0; k < real.filters.size(); ++k)
@@ -267,9 +269,9 @@ WithheldCase makeCase(const CaseRequest& request)
   {
     atWhite.filters[k].center = real.filters[k].center;
   }
-  const Responses truth = expose(real, capture.patches, whiteOf(atWhite));
+  const Responses truth = expose(real, patches, whiteOf(atWhite));
   result.key.gapRms = rmsDifference(beforeErrors, ideal);
-  const double coarse = rmsDifference(modelResponses(capture, capture.patches), ideal);
+  const double coarse = rmsDifference(modelResponses(capture, patches), ideal);
   result.key.bestShrink =
     result.key.gapRms > 0.0 ? std::max(0.0, 1.0 - coarse / result.key.gapRms) : 1.0;
 
@@ -281,14 +283,17 @@ WithheldCase makeCase(const CaseRequest& request)
   {
     capture.sampleWavelengths.push_back(nm);
   }
-  for (const Patch& patch : capture.patches)
+  for (const Patch& patch : patches)
   {
-    capture.reflectance.emplace_back();
+    Sample sample{ media[static_cast<std::size_t>(patch.medium)],
+      "scene" + std::to_string(patch.scene + 1), 100.0 + 80.0 * patch.column,
+      80.0 + 80.0 * patch.row, static_cast<double>(patch.order), {} };
     for (const double nm : capture.sampleWavelengths)
     {
-      capture.reflectance.back().push_back(
+      sample.reflectance.push_back(
         patch.reflectance[static_cast<std::size_t>(nm - FirstNanometre)] + normal(random, scatter));
     }
+    capture.samples.push_back(std::move(sample));
   }
   // The readings.
   capture.read = uniform(random, 0.0004, 0.0015);
@@ -316,6 +321,106 @@ WithheldCase makeCase(const CaseRequest& request)
     }
   }
   return result;
+}
+
+struct Plan
+{
+  std::string set; // single, several, clean, stranger, removed, ...
+  CaseRequest request;
+  std::string without;
+  int twin = -1; // the plan with the same capture and the whole library
+};
+
+std::vector<std::string> someEffects(Random& random, int count)
+{
+  std::set<std::string> chosen;
+  while (static_cast<int>(chosen.size()) < count)
+  {
+    const auto& names = plantableNames();
+    chosen.insert(
+      names[static_cast<std::size_t>(integer(random, 0, static_cast<int>(names.size()) - 1))]);
+  }
+  return { chosen.begin(), chosen.end() };
+}
+
+std::vector<Plan> plans(bool full, std::uint64_t seed)
+{
+  Random random(seed);
+  std::vector<Plan> list;
+  const auto add = [&](const std::string& set, CaseRequest request, const std::string& without = {})
+  {
+    request.seed = random();
+    list.push_back({ set, std::move(request), without });
+  };
+  const auto singles =
+    [&](const std::string& set, int each, double strength, int samples, bool errors)
+  {
+    for (const std::string& name : plantableNames())
+    {
+      for (int n = 0; n < each && (!errors || name != "excess_noise"); ++n)
+      {
+        CaseRequest request;
+        request.effects = { name };
+        request.strength = strength;
+        request.samples = samples;
+        request.nominalErrors = errors;
+        add(set, request);
+      }
+    }
+  };
+  singles("single", full ? 4 : 1, 1.0, 200, false);
+  for (int n = 0; n < (full ? 40 : 4); ++n)
+  {
+    CaseRequest request;
+    request.effects = someEffects(random, n % 3 == 2 ? 3 : 2);
+    add("several", request);
+  }
+  for (int n = 0; n < (full ? 40 : 6); ++n)
+  {
+    add("clean", CaseRequest{});
+  }
+  for (int n = 0; n < (full ? 21 : 3); ++n)
+  {
+    CaseRequest request;
+    request.stranger = strangerNames()[static_cast<std::size_t>(n) % strangerNames().size()];
+    add("stranger", request);
+  }
+  // The first single cases again, without what was planted.
+  const int each = full ? 4 : 1;
+  for (std::size_t e = 0; e < plantableNames().size(); ++e)
+  {
+    for (int n = 0; n < (full ? 2 : (e % 4 == 1 ? 1 : 0)); ++n)
+    {
+      const int twin = static_cast<int>(e) * each + n;
+      list.push_back(
+        { "removed", list[static_cast<std::size_t>(twin)].request, plantableNames()[e], twin });
+    }
+  }
+  singles("nominal", full ? 2 : 0, 1.0, 200, true);
+  for (int n = 0; n < (full ? 20 : 0); ++n)
+  {
+    CaseRequest request;
+    request.effects = someEffects(random, 2);
+    request.nominalErrors = true;
+    add("nominal several", request);
+  }
+  singles("third", full ? 2 : 0, 1.0 / 3.0, 200, false);
+  singles("few", full ? 2 : 0, 1.0, 44, false);
+  return list;
+}
+}
+
+void writeBenchCases(CaseWriter& writer, bool full, std::uint64_t seed)
+{
+  std::vector<std::string> names;
+  for (const Plan& plan : plans(full, seed))
+  {
+    BenchCase made = makeCase(plan.request);
+    made.key.set = plan.set;
+    made.key.without = plan.without;
+    made.key.twin = plan.twin < 0 ? "" : names[static_cast<std::size_t>(plan.twin)];
+    names.push_back(writer.add(made.capture, made.key));
+  }
 }
 
 } // namespace withheld

@@ -1,6 +1,7 @@
 // What was planted and what the diagnosis said, case by case.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct ScoredCase
   std::vector<NamedCause> causes; // the largest share first
   double shrink = 0.0;
   double unexplained = 0.0;
+  std::map<std::string, double> probabilities; // of effects, "nothing", "unknown"; empty: not told
   double seconds = 0.0;
 };
 

@@ -1,6 +1,10 @@
-#include "CaptureInput.h"
+#include "CaseInput.h"
 
+#include "Formats/Capture.h"
+
+#include <fstream>
 #include <map>
+#include <stdexcept>
 
 namespace withheld
 {
@@ -23,9 +27,8 @@ Eigen::VectorXd numbers(const msi::SampleTable& table, const char* name)
   const std::vector<double> values = column->numbers();
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
-}
 
-msi::GapCapture readGapCapture(const std::string& folder)
+msi::GapCapture readTable(const std::string& folder)
 {
   const msi::Capture capture = msi::readCapture(folder);
   const auto& darkList = capture.description.dark;
@@ -60,6 +63,46 @@ msi::GapCapture readGapCapture(const std::string& folder)
              capture.camera.names),
     *capture.samples.wavelengths, std::move(samples), capture.readings.responses,
     std::move(sampleOf), noise };
+}
+
+CaseInput readPair(std::ifstream& file, const std::string& path)
+{
+  const auto get = [&file](void* data, std::size_t bytes)
+  { file.read(static_cast<char*>(data), static_cast<std::streamsize>(bytes)); };
+  int header[4];
+  get(header, sizeof(header));
+  CaseInput input;
+  input.extent = { header[0], header[1] };
+  for (int k = 0; k < header[2]; ++k)
+  {
+    input.channels.push_back("C" + std::to_string(k + 1));
+  }
+  const std::size_t pixels = msi::wholeImage(input.extent).pixels();
+  input.real.resize(pixels * input.channels.size());
+  input.simulated.resize(input.real.size());
+  input.labels.resize(header[3] != 0 ? pixels : 0);
+  get(input.real.data(), input.real.size() * sizeof(float));
+  get(input.simulated.data(), input.simulated.size() * sizeof(float));
+  get(input.labels.data(), input.labels.size() * sizeof(int));
+  if (!file)
+  {
+    throw std::runtime_error(path + ": ends before its pixels do");
+  }
+  return input;
+}
+}
+
+CaseInput readCase(const std::string& folder)
+{
+  const std::string path = folder + "/pair.bin";
+  std::ifstream file(path, std::ios::binary);
+  if (file)
+  {
+    return readPair(file, path);
+  }
+  CaseInput input;
+  input.capture = readTable(folder);
+  return input;
 }
 
 } // namespace withheld

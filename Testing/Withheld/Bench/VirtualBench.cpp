@@ -7,23 +7,6 @@
 namespace withheld
 {
 
-double uniform(Random& random, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-double normal(Random& random, double deviation)
-{
-  return std::normal_distribution<double>(0.0, deviation)(random);
-}
-int integer(Random& random, int low, int high)
-{
-  return std::uniform_int_distribution<int>(low, high)(random);
-}
-bool chance(Random& random, double probability)
-{
-  return uniform(random, 0.0, 1.0) < probability;
-}
-
 namespace
 {
 double light(const Lamp& lamp, double nm)

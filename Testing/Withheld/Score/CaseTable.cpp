@@ -97,6 +97,11 @@ std::vector<ScoredCase> readCases(const std::string& keyFile, const std::string&
     one.causes = causesOf(result.at("causes"));
     one.shrink = number(result, "shrink");
     one.unexplained = number(result, "unexplained");
+    for (const std::string& part : split(result.at("probabilities"), ';'))
+    {
+      const std::size_t colon = part.find(':');
+      one.probabilities[part.substr(0, colon)] = std::stod(part.substr(colon + 1));
+    }
     one.seconds = number(result, "seconds");
     cases.push_back(std::move(one));
   }

@@ -1,0 +1,27 @@
+#include "Engines.h"
+
+#include "Experiments/EvidenceEngine.h"
+
+#include "Kernels/Gap/Field/FieldGap.h"
+
+namespace withheld
+{
+
+const std::map<std::string, Engine>& engines()
+{
+  static const std::map<std::string, Engine> known = {
+    { "present",
+      [](const CaseInput& input, const std::vector<std::string>& without) -> Answer
+      {
+        msi::GapOptions options;
+        options.without = without;
+        return { input.capture ? *msi::diagnoseGap(*input.capture, options)
+                               : msi::diagnoseField(input.pair(), options)->report,
+          {} };
+      } },
+    { "evidence", diagnoseByEvidence },
+  };
+  return known;
+}
+
+} // namespace withheld

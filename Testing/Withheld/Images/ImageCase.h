@@ -1,0 +1,14 @@
+// Withheld pairs of a real and a simulated image of the same scene: every effect of images alone, pairs, none, effects that
+// the library does not have, nominal cameras that are not quite right.
+#pragma once
+
+#include "Cases/CaseWriter.h"
+
+#include <cstdint>
+
+namespace withheld
+{
+
+void writeImageCases(CaseWriter& writer, bool full, std::uint64_t seed);
+
+} // namespace withheld

@@ -1,0 +1,428 @@
+#include "ImageFaults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace withheld
+{
+
+namespace
+{
+double sign(Random& random)
+{
+  return chance(random, 0.5) ? 1.0 : -1.0;
+}
+
+using Maker = ImageFault (*)(Random&, int channels, int width, int height);
+
+ImageFault field(
+  const std::string& kind, const std::function<double(double x, double y, double size)>& factor)
+{
+  return { kind,
+    [factor](ImageFaults& f, double size)
+    {
+      const auto before = f.field;
+      f.field = [before, factor, size](double x, double y)
+      { return (before ? before(x, y) : 1.0) * factor(x, y, size); };
+    } };
+}
+
+std::vector<double> around(Random& random, int count, double spread)
+{
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k)
+  {
+    values.push_back(normal(random, spread));
+  }
+  return values;
+}
+
+// Alphabetical. Sizes are such that 1 is clearly visible.
+const std::map<std::string, Maker>& makers()
+{
+  static const std::map<std::string, Maker> known = {
+    { "banding",
+      [](Random& random, int channels, int, int) -> ImageFault
+      {
+        const bool rows = chance(random, 0.5);
+        const double period = withheld::around(random, 14.0, 2.0);
+        const int kind = integer(random, 0, 2);
+        const std::vector<double> phase = around(random, channels, kind == 2 ? 0.0 : 1.0);
+        const char* kinds[] = { "sine", "square", "sawtooth" };
+        return { kinds[kind],
+          [=](ImageFaults& f, double size)
+          {
+            f.stripes = [=](int k, int x, int y)
+            {
+              const double t = (rows ? y : x) / period + phase[static_cast<std::size_t>(k)];
+              const double part = t - std::floor(t);
+              return 1.0 +
+                0.04 * size *
+                (kind == 0      ? std::sin(6.2832 * part)
+                    : kind == 1 ? (part < 0.5 ? 1.0 : -1.0)
+                                : 2.0 * part - 1.0);
+            };
+          } };
+      } },
+    { "channel_crosstalk",
+      [](Random&, int, int, int) -> ImageFault {
+        return { "both sides", [](ImageFaults& f, double size) { f.mixed = 0.06 * size; } };
+      } },
+    { "channel_gain",
+      [](Random& random, int channels, int, int) -> ImageFault
+      {
+        const std::vector<double> spread = around(random, channels, 0.05);
+        return { "independent",
+          [spread](ImageFaults& f, double size)
+          {
+            for (std::size_t k = 0; k < spread.size(); ++k)
+            {
+              f.gain[k] *= std::exp(size * spread[k]);
+            }
+          } };
+      } },
+    { "dark_offset",
+      [](Random& random, int channels, int, int) -> ImageFault
+      {
+        const double s = sign(random);
+        const std::vector<double> spread =
+          around(random, channels, chance(random, 0.5) ? 0.5 : 0.0);
+        return { "pedestal",
+          [s, spread](ImageFaults& f, double size)
+          {
+            for (std::size_t k = 0; k < spread.size(); ++k)
+            {
+              f.offset[k] += 0.012 * s * size * std::exp(spread[k]);
+            }
+          } };
+      } },
+    { "defocus",
+      [](Random& random, int channels, int, int) -> ImageFault
+      {
+        const std::vector<double> spread =
+          around(random, channels, chance(random, 0.5) ? 0.3 : 0.0);
+        return { "Gaussian",
+          [spread](ImageFaults& f, double size)
+          {
+            for (std::size_t k = 0; k < spread.size(); ++k)
+            {
+              f.blur[k] += std::sqrt(size) * std::exp(spread[k]);
+            }
+          } };
+      } },
+    { "detector_nonlinearity",
+      [](Random& random, int, int, int) -> ImageFault
+      {
+        const double s = sign(random);
+        const int kind = integer(random, 0, 2);
+        const char* kinds[] = { "logarithm", "parabola", "S" };
+        return { kinds[kind],
+          [s, kind](ImageFaults& f, double size)
+          {
+            const double a = 0.12 * s * size;
+            f.curve = [a, kind](double u)
+            {
+              return kind == 0
+                ? std::log1p(a * u) / (std::fabs(a) < 1e-9 ? 1.0 : a) * (1.0 + 0.5 * a)
+                : kind == 1 ? u + a * u * (1.0 - u)
+                            : u - 0.2 * a * std::sin(6.2832 * u) * u;
+            };
+          } };
+      } },
+    { "exposure_gain",
+      [](Random& random, int, int, int) -> ImageFault
+      {
+        const double s = sign(random);
+        return { "stops",
+          [s](ImageFaults& f, double size)
+          {
+            for (double& gain : f.gain)
+            {
+              gain *= std::exp2(0.07 * s * size);
+            }
+          } };
+      } },
+    { "illumination_gradient",
+      [](Random& random, int, int, int) -> ImageFault
+      {
+        const double angle = uniform(random, 0.0, 6.2832);
+        return field("lamp to one side",
+          [angle](double x, double y, double size)
+          {
+            const double along = x * std::cos(angle) + y * std::sin(angle);
+            const double offset = 0.15 * size;
+            return std::pow((9.0 + along * along) / (9.0 + std::pow(along - offset, 2)), 1.5) *
+              (1.0 + 0.02 * size * along);
+          });
+      } },
+    { "lag",
+      [](Random&, int, int, int) -> ImageFault {
+        return { "charge that stays", [](ImageFaults& f, double size) { f.before = 0.04 * size; } };
+      } },
+    { "local_stray_light",
+      [](Random& random, int, int, int) -> ImageFault
+      {
+        const double radius = withheld::around(random, 12.0, 2.0);
+        return { "Lorentzian tail",
+          [radius](ImageFaults& f, double size)
+          {
+            f.tail = std::min(0.06 * size, 0.6);
+            f.tailRadius = radius;
+          } };
+      } },
+    { "misregistration",
+      [](Random& random, int channels, int width, int height) -> ImageFault
+      {
+        const std::vector<double> right = around(random, channels, 0.7);
+        const std::vector<double> down = around(random, channels, 0.7);
+        const std::vector<double> turn =
+          around(random, channels, chance(random, 0.5) ? 0.003 : 0.0);
+        const std::vector<double> larger =
+          around(random, channels, chance(random, 0.5) ? 0.004 : 0.0);
+        return { "wedge of each filter",
+          [=](ImageFaults& f, double size)
+          {
+            for (std::size_t k = 0; k < right.size(); ++k)
+            {
+              const double cosine = std::cos(size * turn[k]) / (1.0 + size * larger[k]);
+              const double sine = std::sin(size * turn[k]) / (1.0 + size * larger[k]);
+              const double dx = size * right[k];
+              const double dy = size * down[k];
+              f.moved[k] = [=](double& x, double& y)
+              {
+                const double a = x - dx - 0.5 * width;
+                const double b = y - dy - 0.5 * height;
+                x = 0.5 * width + cosine * a + sine * b;
+                y = 0.5 * height - sine * a + cosine * b;
+              };
+            }
+          } };
+      } },
+    { "saturation",
+      [](Random&, int, int, int) -> ImageFault
+      {
+        return { "full well",
+          [](ImageFaults& f, double size) { f.well = 0.93 * std::exp(-0.15 * size); } };
+      } },
+    { "veiling_glare",
+      [](Random&, int, int, int) -> ImageFault {
+        return { "haze", [](ImageFaults& f, double size) { f.glare += 0.04 * size; } };
+      } },
+    { "vignetting",
+      [](Random& random, int, int, int) -> ImageFault
+      {
+        const double cx = normal(random, 0.1);
+        const double cy = normal(random, 0.1);
+        const bool clipped = chance(random, 0.5);
+        return field(clipped ? "pupil" : "cosine",
+          [=](double x, double y, double size)
+          {
+            const double r2 = std::pow(x - cx, 2) + std::pow(y - cy, 2);
+            return clipped ? 1.0 - 0.06 * size * std::pow(r2, 1.7)
+                           : 1.0 / std::pow(1.0 + 0.04 * size * r2, 2);
+          });
+      } },
+  };
+  return known;
+}
+}
+
+const std::vector<std::string>& imageFaultNames()
+{
+  static const std::vector<std::string> names = []
+  {
+    std::vector<std::string> list;
+    for (const auto& one : makers())
+    {
+      list.push_back(one.first);
+    }
+    return list;
+  }();
+  return names;
+}
+
+const std::vector<std::string>& imageStrangerNames()
+{
+  static const std::vector<std::string> names{ "barrel distortion", "dust", "ghost",
+    "wrong colors of patches", "two amplifiers" };
+  return names;
+}
+
+ImageFaults noFaults(int channels)
+{
+  ImageFaults faults;
+  const auto K = static_cast<std::size_t>(channels);
+  faults.moved.resize(K);
+  faults.blur.assign(K, 0.0);
+  faults.gain.assign(K, 1.0);
+  faults.offset.assign(K, 0.0);
+  return faults;
+}
+
+ImageFault drawImageFault(const std::string& name, Random& random, const ImageScene& scene)
+{
+  return makers().at(name)(random, scene.channels(), scene.width(), scene.height());
+}
+
+ImageFault drawImageStranger(const std::string& name, Random& random, const ImageScene& scene)
+{
+  const int width = scene.width();
+  const int height = scene.height();
+  if (name == "barrel distortion")
+  {
+    return { name,
+      [=](ImageFaults& f, double size)
+      {
+        for (Place& moved : f.moved)
+        {
+          moved = [=](double& x, double& y)
+          {
+            const double a = 2.0 * x / width - 1.0;
+            const double b = 2.0 * y / height - 1.0;
+            const double stretch = 0.015 * size * (a * a + b * b - 0.6);
+            x += 0.5 * width * a * stretch;
+            y += 0.5 * height * b * stretch;
+          };
+        }
+      } };
+  }
+  struct Spot
+  {
+    double x, y, radius;
+  };
+  std::vector<Spot> spots;
+  std::vector<double> colors;
+  for (int s = 0; s < 60; ++s)
+  {
+    spots.push_back({ uniform(random, 0.0, width), uniform(random, 0.0, height),
+      withheld::around(random, 7.0, 2.0) });
+  }
+  for (int i = 0; i < 64 * scene.channels(); ++i)
+  {
+    colors.push_back(normal(random, 0.05));
+  }
+  const double border = uniform(random, 0.35, 0.65) * width;
+  const auto change = [=](double u, int k, int x, int y, const std::vector<double>& plane)
+  {
+    if (name == "dust")
+    {
+      double shade = 0.0;
+      for (std::size_t s = 0; s < 14; ++s)
+      {
+        const double r = std::hypot(x - spots[s].x, y - spots[s].y) / spots[s].radius;
+        shade += 1.0 / (1.0 + std::exp(6.0 * (r - 1.0)));
+      }
+      return -0.15 * u * shade;
+    }
+    if (name == "ghost")
+    {
+      const auto mirrored =
+        static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+        static_cast<std::size_t>(width - 1 - x);
+      return 0.05 * plane[mirrored];
+    }
+    if (name == "two amplifiers")
+    {
+      return x > border ? 0.25 * u * (u - 0.35) : 0.0;
+    }
+    const int label = scene.label(x, y);
+    return label > 0 ? u * colors[static_cast<std::size_t>(label % 64 * scene.channels() + k)]
+                     : 0.0;
+  };
+  return { name,
+    [change](ImageFaults& f, double size)
+    {
+      f.other = [change, size](Planes& planes, const ImageScene& where)
+      {
+        for (std::size_t k = 0; k < planes.size(); ++k)
+        {
+          const std::vector<double> before = planes[k];
+          for (int y = 0; y < where.height(); ++y)
+          {
+            for (int x = 0; x < where.width(); ++x)
+            {
+              const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(where.width()) +
+                static_cast<std::size_t>(x);
+              planes[k][i] += size * change(before[i], static_cast<int>(k), x, y, before);
+            }
+          }
+        }
+      };
+    } };
+}
+
+Planes expose(const ImageScene& scene, const ImageFaults& faults)
+{
+  const double half = 0.5 * (std::max(scene.width(), scene.height()) - 1);
+  Planes planes;
+  for (int k = 0; k < scene.channels(); ++k)
+  {
+    const auto at = static_cast<std::size_t>(k);
+    Fine fine = render(scene, k, faults.moved[at]);
+    for (int j = 0; j < fine.height && faults.field; ++j)
+    {
+      for (int i = 0; i < fine.width; ++i)
+      {
+        const double x = (i + 0.5) / Fine::Parts - 0.5 - 0.5 * (scene.width() - 1);
+        const double y = (j + 0.5) / Fine::Parts - 0.5 - 0.5 * (scene.height() - 1);
+        fine.at(i, j) *= faults.field(x / half, y / half);
+      }
+    }
+    std::vector<double> u = pixels(blurred(fine, faults.blur[at]));
+    if (faults.tail > 0.0)
+    {
+      // Three Gaussians on the pixels make the tail.
+      Fine coarse{ scene.width(), scene.height(), u };
+      std::vector<double> sum(u.size(), 0.0);
+      for (const double part : { 0.4, 1.0, 2.0 })
+      {
+        const Fine wide = blurred(coarse, part * faults.tailRadius / Fine::Parts);
+        for (std::size_t i = 0; i < u.size(); ++i)
+        {
+          sum[i] += wide.value[i] / 3.0;
+        }
+      }
+      for (std::size_t i = 0; i < u.size(); ++i)
+      {
+        u[i] += faults.tail * (sum[i] - u[i]);
+      }
+    }
+    const double mean = std::accumulate(u.begin(), u.end(), 0.0) / static_cast<double>(u.size());
+    for (double& value : u)
+    {
+      value += faults.glare * mean;
+    }
+    planes.push_back(std::move(u));
+  }
+  const Planes light = planes;
+  for (std::size_t k = 0; k < planes.size(); ++k)
+  {
+    for (std::size_t i = 0; i < planes[k].size(); ++i)
+    {
+      const auto width = static_cast<std::size_t>(scene.width());
+      double u = light[k][i];
+      const bool first = k == 0;
+      const bool last = k + 1 == planes.size();
+      u += first ? 0.0 : (faults.before + 0.5 * faults.mixed) * light[k - 1][i];
+      u += last ? 0.0 : 0.5 * faults.mixed * light[k + 1][i];
+      u -= (first || last ? 0.5 : 1.0) * faults.mixed * light[k][i];
+      if (faults.stripes)
+      {
+        u *= faults.stripes(
+          static_cast<int>(k), static_cast<int>(i % width), static_cast<int>(i / width));
+      }
+      u *= faults.gain[k];
+      u = faults.curve ? faults.curve(u) : u;
+      planes[k][i] = std::min(u + faults.offset[k], faults.well);
+    }
+  }
+  if (faults.other)
+  {
+    faults.other(planes, scene);
+  }
+  return planes;
+}
+
+} // namespace withheld

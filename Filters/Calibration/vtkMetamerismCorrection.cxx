@@ -11,40 +11,15 @@
 #include "vtkTable.h"
 
 #include "Kernels/Colorimetry/TristimulusTransform.h"
-#include "Kernels/Estimation/MetamerismCorrection.h"
-#include "Kernels/Estimation/MethodComparison.h"
-#include "Kernels/Estimation/PseudoinverseCalibration.h"
-#include "Kernels/Estimation/RModelCorrection.h"
+#include "Kernels/Estimation/EstimationMethod.h"
 
+#include <algorithm>
 #include <cmath>
 
 vtkStandardNewMacro(vtkMetamerismCorrection);
 
 namespace
 {
-// What a method leaves behind, whatever the method.
-struct Correction
-{
-  msi::FitSummary summary;
-  msi::AffineTransform reflectance;
-  msi::AffineTransform metamerism;
-  std::vector<msi::MetamerismRound> history;
-};
-
-Correction linearCorrection(msi::AffineTransform transform, msi::FitSummary summary)
-{
-  auto identity = msi::AffineTransform::identity(transform.inputs());
-  return { std::move(summary), std::move(transform), std::move(identity), {} };
-}
-
-Correction rModelCorrection(const msi::SampleSet& calibration, const msi::SampleSet& tuning)
-{
-  const auto direct = msi::fitPseudoinverse(calibration);
-  const auto model = msi::fitRModel(direct.transform(tuning.response), tuning.reflectance);
-  return linearCorrection(
-    msi::AffineTransform::compose(model.correction, direct.transform), model.summary);
-}
-
 void writeHistory(const std::vector<msi::MetamerismRound>& history, vtkTable* table)
 {
   vtkNew<vtkDoubleArray> columns[4];
@@ -69,6 +44,17 @@ vtkMetamerismCorrection::vtkMetamerismCorrection()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(4);
+}
+
+void vtkMetamerismCorrection::SetMethod(int method)
+{
+  const int last = static_cast<int>(msi::estimationMethods().size()) - 1;
+  const int clamped = std::min(std::max(method, 0), last);
+  if (this->Method != clamped)
+  {
+    this->Method = clamped;
+    this->Modified();
+  }
 }
 
 void vtkMetamerismCorrection::PrintSelf(ostream& os, vtkIndent indent)
@@ -111,70 +97,42 @@ int vtkMetamerismCorrection::RequestData(
       msi::requireSameChannels(
         chart.channels, "the calibration table", medium.channels, "the tuning table");
       msi::requireSameBands(chart.bands, "the calibration table", medium.bands, "the tuning table");
-      const auto method = static_cast<msi::EstimationMethod>(this->Method);
-      const std::string name(msi::nameOf(method));
-
-      auto* out = vtkTable::GetData(outputs, 0);
-      if (method == msi::EstimationMethod::Transfer)
+      msi::EstimationOptions options;
+      options.metamerism.structure = static_cast<msi::BandStructure>(this->Structure);
+      options.metamerism.channelWavelengths = chart.channels.wavelengths;
+      options.metamerism.maximumRounds = this->MaximumRounds;
+      options.metamerism.tuningWeight = this->TuningWeight;
+      if (this->StopOnColor)
       {
-        const auto fit = msi::fitTransfer(chart.samples, medium.samples);
-        msi::write(msi::TransferModel{ chart.bands, chart.channels, fit.estimator }, out);
-        msi::write(msi::MetamerismTransform{ chart.channels,
-                     msi::AffineTransform::identity(chart.samples.channels()) },
-          vtkTable::GetData(outputs, 1));
-        msi::write(name, fit.summary, vtkTable::GetData(outputs, 2));
-        writeHistory({}, vtkTable::GetData(outputs, 3));
-        return;
+        const msi::TristimulusTransform color(*chart.bands.wavelengths,
+          msi::Illuminant::named(this->Illuminant), msi::StandardObserver::named(this->Observer));
+        options.metamerism.colorStop =
+          msi::ColorStopRule{ color.weights(), color.whitePoint(), this->ColorThreshold };
       }
-      const auto correction = [&]() -> Correction
+      const auto& methods = msi::estimationMethods();
+      const auto& method = methods[static_cast<std::size_t>(this->Method)];
+      const std::string name(method.name);
+      const auto fit = method.fit(chart.samples, medium.samples, options);
+      if (!fit.summary.complete && fit.factors)
       {
-        switch (method)
-        {
-          case msi::EstimationMethod::Direct:
-          {
-            auto fit = msi::fitPseudoinverse(chart.samples);
-            return linearCorrection(fit.transform, fit.summary);
-          }
-          case msi::EstimationMethod::Pinv:
-          {
-            auto fit = msi::fitPseudoinverse(medium.samples);
-            return linearCorrection(fit.transform, fit.summary);
-          }
-          case msi::EstimationMethod::Pooled:
-          {
-            auto fit = msi::fitPooled(
-              chart.samples, medium.samples, this->TuningWeight > 0.0 ? this->TuningWeight : 1.0);
-            return linearCorrection(fit.transform, fit.summary);
-          }
-          case msi::EstimationMethod::RModel:
-            return rModelCorrection(chart.samples, medium.samples);
-          default:
-            break;
-        }
-        msi::MetamerismOptions options;
-        options.structure = static_cast<msi::BandStructure>(this->Structure);
-        options.channelWavelengths = chart.channels.wavelengths;
-        options.maximumRounds = this->MaximumRounds;
-        options.tuningWeight = this->TuningWeight;
-        if (this->StopOnColor)
-        {
-          const msi::TristimulusTransform color(*chart.bands.wavelengths,
-            msi::Illuminant::named(this->Illuminant), msi::StandardObserver::named(this->Observer));
-          options.colorStop =
-            msi::ColorStopRule{ color.weights(), color.whitePoint(), this->ColorThreshold };
-        }
-        const auto fit = msi::fitMetamerismCorrection(chart.samples, medium.samples, options);
-        return { fit.summary, fit.reflectance, fit.metamerism, fit.history };
-      }();
-      if (!correction.summary.complete)
-      {
-        vtkWarningMacro(<< name << ": " << correction.summary.status);
+        vtkWarningMacro(<< name << ": " << fit.summary.status);
       }
-      msi::write(
-        msi::ReflectanceTransform{ chart.bands, chart.channels, correction.reflectance }, out);
-      msi::write(msi::MetamerismTransform{ chart.channels, correction.metamerism },
+      auto* transform = vtkTable::GetData(outputs, 0);
+      if (fit.factors)
+      {
+        msi::write(
+          msi::ReflectanceTransform{ chart.bands, chart.channels, fit.factors->reflectance },
+          transform);
+      }
+      else
+      {
+        msi::write(msi::EstimationModel{ chart.bands, chart.channels, fit.estimator }, transform);
+      }
+      msi::write(msi::MetamerismTransform{ chart.channels,
+                   fit.factors ? fit.factors->metamerism
+                               : msi::AffineTransform::identity(chart.samples.channels()) },
         vtkTable::GetData(outputs, 1));
-      msi::write(name, correction.summary, vtkTable::GetData(outputs, 2));
-      writeHistory(correction.history, vtkTable::GetData(outputs, 3));
+      msi::write(name, fit.summary, vtkTable::GetData(outputs, 2));
+      writeHistory(fit.history, vtkTable::GetData(outputs, 3));
     });
 }

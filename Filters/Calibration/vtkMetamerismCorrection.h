@@ -6,7 +6,7 @@
  * medium); both with measured reflectance (R400, ..) and camera responses (C400, ..) of the same
  * bands and channels.
  *
- * Output 0 is the reflectance transform W (for the method Transfer: its model), output 1 the
+ * Output 0 is the reflectance transform W (for a method that is not linear: its model), output 1 the
  * metamerism transform D (the identity where the method has none); both are for Reflectance
  * Estimation, which computes W D v. Output 2 is the summary of the fit, output 3 the history of the
  * rounds of the method Banded.
@@ -26,7 +26,7 @@ public:
   vtkTypeMacro(vtkMetamerismCorrection, vtkTableAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  // The numbering of msi::EstimationMethod.
+  // The first of the registry msi::estimationMethods(), whose order is the numbering of Method.
   enum MethodType
   {
     DIRECT = 0,

@@ -119,7 +119,7 @@ void writeSpectra(const msi::WavelengthGrid& bands, const msi::ComparisonDraw& d
   msi::setNumbers(table, "measured", target.col(draw.heldOut[static_cast<std::size_t>(sample)]));
   for (const auto& estimate : draw.estimates)
   {
-    const std::string name(msi::nameOf(estimate.method));
+    const std::string& name = estimate.method;
     const Eigen::VectorXd mean = estimate.reflectance.col(sample);
     msi::setNumbers(table, name, mean);
     if (estimate.standardDeviation.size() > 0)
@@ -184,10 +184,10 @@ int vtkMethodComparison::RequestData(
         chart.channels, "the calibration table", medium.channels, "the target table");
       msi::requireSameBands(chart.bands, "the calibration table", medium.bands, "the target table");
       msi::ComparisonOptions options;
-      options.methods.clear();
-      for (const auto& name : msi::namesIn(this->Methods))
+      options.methods = msi::namesIn(this->Methods);
+      if (options.methods == std::vector<std::string>{ "all" })
       {
-        options.methods.push_back(msi::estimationMethodNamed(name));
+        options.methods = msi::allMethodNames();
       }
       options.seed = static_cast<std::uint64_t>(this->Seed);
       options.channelWavelengths = chart.channels.wavelengths;
@@ -275,7 +275,7 @@ int vtkMethodComparison::RequestData(
         tuning[static_cast<Eigen::Index>(count)] = static_cast<double>(counts[count]);
         for (std::size_t method = 0; method < options.methods.size(); ++method)
         {
-          const std::string name(msi::nameOf(options.methods[method]));
+          const std::string& name = options.methods[method];
           for (std::size_t metric = 0; metric < judge.metrics().size(); ++metric)
           {
             double mean[msi::FigureCount] = {};
@@ -308,8 +308,8 @@ int vtkMethodComparison::RequestData(
       msi::setNumbers(curves, "tuning", tuning);
       for (std::size_t method = 0; method < options.methods.size(); ++method)
       {
-        msi::setNumbers(curves, std::string(msi::nameOf(options.methods[method])),
-          meanRms.col(static_cast<Eigen::Index>(method)));
+        msi::setNumbers(
+          curves, options.methods[method], meanRms.col(static_cast<Eigen::Index>(method)));
       }
       writeSpectra(*chart.bands.wavelengths, comparisons.front().run(0), target,
         vtkTable::GetData(outputs, 2));

@@ -34,8 +34,8 @@ public:
 
   ///@{
   /**
-   * Methods by name, separated by commas or spaces: direct, pinv, pooled, r-model, banded, transfer.
-   * Default all of them.
+   * Methods by name, separated by commas or spaces; the names are those of the registry
+   * (Kernels/Estimation/EstimationMethod.h). Default "all".
    */
   vtkSetStdStringFromCharMacro(Methods);
   vtkGetCharFromStdStringMacro(Methods);
@@ -97,7 +97,7 @@ private:
   vtkMethodComparison(const vtkMethodComparison&) = delete;
   void operator=(const vtkMethodComparison&) = delete;
 
-  std::string Methods = "direct, pinv, pooled, r-model, banded, transfer";
+  std::string Methods = "all";
   std::string TuningSamples = "16";
   int Draws = 10;
   int Seed = 1;

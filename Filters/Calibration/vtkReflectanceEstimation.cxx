@@ -14,33 +14,18 @@
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
 
+#include <memory>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkReflectanceEstimation);
 
 namespace
 {
-// Either kind of estimator behind one call.
 struct Estimator
 {
   msi::SpectralAxis bands;
   msi::SpectralAxis channels;
-  std::variant<msi::AffineTransform, msi::TransferEstimator> kernel;
-
-  bool knowsUncertainty() const { return std::holds_alternative<msi::TransferEstimator>(kernel); }
-
-  template <typename T>
-  void apply(const T* response, T* reflectance, T* uncertainty, vtkIdType pixels) const noexcept
-  {
-    if (const auto* affine = std::get_if<msi::AffineTransform>(&kernel))
-    {
-      affine->apply(response, reflectance, pixels);
-    }
-    else if (const auto* transfer = std::get_if<msi::TransferEstimator>(&kernel))
-    {
-      transfer->apply(response, reflectance, uncertainty, pixels);
-    }
-  }
+  std::shared_ptr<const msi::ReflectanceEstimator> kernel;
 };
 
 Estimator readEstimator(vtkTable* transformTable, vtkTable* metamerismTable)
@@ -52,14 +37,15 @@ Estimator readEstimator(vtkTable* transformTable, vtkTable* metamerismTable)
     throw std::invalid_argument(
       name + " is a metamerism transform; connect it to the third input instead");
   }
-  if (auto* model = std::get_if<msi::TransferModel>(&transform))
+  if (auto* model = std::get_if<msi::EstimationModel>(&transform))
   {
     return { model->bands, model->channels, model->estimator };
   }
   auto& reflectance = std::get<msi::ReflectanceTransform>(transform);
   if (!metamerismTable)
   {
-    return { reflectance.bands, reflectance.channels, reflectance.transform };
+    return { reflectance.bands, reflectance.channels,
+      std::make_shared<msi::AffineEstimator>(reflectance.transform) };
   }
   const std::string nameOfD = "the metamerism transform";
   const auto second = msi::readTransform(metamerismTable, nameOfD);
@@ -70,7 +56,8 @@ Estimator readEstimator(vtkTable* transformTable, vtkTable* metamerismTable)
   }
   msi::requireSameChannels(metamerism->channels, nameOfD, reflectance.channels, name);
   return { reflectance.bands, metamerism->channels,
-    msi::AffineTransform::compose(reflectance.transform, metamerism->transform) };
+    std::make_shared<msi::AffineEstimator>(
+      msi::AffineTransform::compose(reflectance.transform, metamerism->transform)) };
 }
 
 template <typename ArrayType>
@@ -108,7 +95,7 @@ void estimateImage(vtkAlgorithm* self, const Estimator& estimator, vtkDataArray*
   msi::forBlocks(self, pixels,
     [&](vtkIdType begin, vtkIdType end)
     {
-      estimator.apply(in + begin * channels, out + begin * bands,
+      estimator.kernel->apply(in + begin * channels, out + begin * bands,
         deviation ? deviation + begin * bands : nullptr, end - begin);
     });
   msi::setAxis(output, reflectance, estimator.bands);
@@ -166,7 +153,7 @@ int vtkReflectanceEstimation::RequestData(
     {
       const auto estimator =
         readEstimator(vtkTable::GetData(inputs[1]), vtkTable::GetData(inputs[2]));
-      const bool uncertainty = estimator.knowsUncertainty() && this->Uncertainty != 1;
+      const bool uncertainty = estimator.kernel->knowsUncertainty() && this->Uncertainty != 1;
 
       if (auto* table = vtkTable::GetData(inputs[0]))
       {
@@ -176,7 +163,7 @@ int vtkReflectanceEstimation::RequestData(
           responses.axis, "the sample table", estimator.channels, "the reflectance transform");
         Eigen::MatrixXd reflectance(estimator.bands.size(), responses.values.cols());
         Eigen::MatrixXd deviation(uncertainty ? reflectance.rows() : 0, reflectance.cols());
-        estimator.apply(responses.values.data(), reflectance.data(),
+        estimator.kernel->apply(responses.values.data(), reflectance.data(),
           uncertainty ? deviation.data() : nullptr, responses.values.cols());
         auto* output = vtkTable::GetData(outputs, 0);
         output->ShallowCopy(table);

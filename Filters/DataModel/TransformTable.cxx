@@ -23,7 +23,7 @@ constexpr const char* MatrixColumn = "matrix";
 constexpr const char* RowColumn = "row";
 constexpr const char* ColumnColumn = "column";
 constexpr const char* ValueColumn = "value";
-// Of the transfer model: what its bands and channels are, beside the estimator's own matrices.
+// Of an estimation model: what its bands and channels are, beside the estimator's own matrices.
 constexpr const char* BandMatrix = "band wavelength";
 constexpr const char* ChannelMatrix = "channel wavelength";
 
@@ -123,7 +123,7 @@ SpectralAxis numberedChannels(Eigen::Index count)
   return axis;
 }
 
-TransferModel readTransfer(vtkTable* table, const std::string& nameOfTable)
+EstimationModel readModel(vtkTable* table, const std::string& nameOfTable)
 {
   auto matrices = readMatrices(table, nameOfTable);
   const auto bands = matrices.find(BandMatrix);
@@ -140,10 +140,10 @@ TransferModel readTransfer(vtkTable* table, const std::string& nameOfTable)
     channelAxis = axisOf(gridOf(channels->second.col(0)));
     matrices.erase(channels);
   }
-  TransferEstimator estimator(matrices);
+  auto estimator = estimatorFrom(matrices);
   if (!channelAxis)
   {
-    channelAxis = numberedChannels(estimator.channels());
+    channelAxis = numberedChannels(estimator->channels());
   }
   return { std::move(bandAxis), std::move(*channelAxis), std::move(estimator) };
 }
@@ -167,9 +167,9 @@ void write(const MetamerismTransform& transform, vtkTable* table)
   addCoefficients(table, transform.channels, transform.transform);
 }
 
-void write(const TransferModel& model, vtkTable* table)
+void write(const EstimationModel& model, vtkTable* table)
 {
-  auto matrices = model.estimator.parameters();
+  auto matrices = model.estimator->parameters();
   matrices[BandMatrix] = model.bands.wavelengths->vector();
   if (model.channels.wavelengths)
   {
@@ -211,7 +211,7 @@ TransformVariant readTransform(vtkTable* table, const std::string& nameOfTable)
   }
   if (table->GetColumnByName(MatrixColumn))
   {
-    return readTransfer(table, nameOfTable);
+    return readModel(table, nameOfTable);
   }
   const auto linear = requireSpectra(table, SampleQuantity::Response, nameOfTable);
   AffineTransform transform(coefficients(table, linear, nameOfTable));

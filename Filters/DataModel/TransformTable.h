@@ -2,15 +2,16 @@
 //
 //   reflectance transform W   wavelength | C400 .. C700 | constant      one row per band
 //   metamerism transform D    channel    | C400 .. C700 | constant      one row per channel
-//   transfer model            matrix | row | column | value             one row per element
+//   estimation model          matrix | row | column | value             one row per element
 #ifndef TransformTable_h
 #define TransformTable_h
 
 #include "SpectralAxis.h"
 
 #include "Kernels/Estimation/AffineTransform.h"
-#include "Kernels/Estimation/TransferEstimation.h"
+#include "Kernels/Estimation/ReflectanceEstimator.h"
 
+#include <memory>
 #include <string>
 #include <variant>
 
@@ -32,19 +33,20 @@ struct MetamerismTransform
   AffineTransform transform;
 };
 
-struct TransferModel
+// Of a method that is not linear.
+struct EstimationModel
 {
   SpectralAxis bands;
   SpectralAxis channels;
-  TransferEstimator estimator;
+  std::shared_ptr<const ReflectanceEstimator> estimator; // never null
 };
 
 void write(const ReflectanceTransform& transform, vtkTable* table);
 void write(const MetamerismTransform& transform, vtkTable* table);
-void write(const TransferModel& model, vtkTable* table);
+void write(const EstimationModel& model, vtkTable* table);
 
 // Whatever the table's columns say it is; throws std::invalid_argument naming what is missing.
-using TransformVariant = std::variant<ReflectanceTransform, MetamerismTransform, TransferModel>;
+using TransformVariant = std::variant<ReflectanceTransform, MetamerismTransform, EstimationModel>;
 TransformVariant readTransform(vtkTable* table, const std::string& nameOfTable);
 
 } // namespace msi

@@ -1,9 +1,6 @@
 #include "Kernels/Estimation/MethodComparison.h"
 
-#include "Kernels/Estimation/MetamerismCorrection.h"
-#include "Kernels/Estimation/PseudoinverseCalibration.h"
-#include "Kernels/Estimation/RModelCorrection.h"
-#include "Kernels/Estimation/TransferEstimation.h"
+#include "Kernels/Estimation/EstimationMethod.h"
 
 #include <sstream>
 #include <stdexcept>
@@ -12,99 +9,14 @@
 namespace msi
 {
 
-namespace
+std::vector<std::string> allMethodNames()
 {
-MethodEstimate withTransform(EstimationMethod method, const AffineTransform& transform,
-  const FitSummary& summary, const SampleSet& heldOut)
-{
-  return { method, transform(heldOut.response), {}, {}, summary };
-}
-
-MethodEstimate estimateWith(EstimationMethod method, const SampleSet& calibration,
-  const SampleSet& tuning, const SampleSet& heldOut, const ComparisonOptions& options)
-{
-  switch (method)
+  std::vector<std::string> names;
+  for (const EstimationMethod& method : estimationMethods())
   {
-    case EstimationMethod::Direct:
-    {
-      const CalibrationFit fit = fitPseudoinverse(calibration);
-      return withTransform(method, fit.transform, fit.summary, heldOut);
-    }
-    case EstimationMethod::Pinv:
-    {
-      const CalibrationFit fit = fitPseudoinverse(tuning);
-      return withTransform(method, fit.transform, fit.summary, heldOut);
-    }
-    case EstimationMethod::Pooled:
-    {
-      const CalibrationFit fit = fitPooled(calibration, tuning);
-      return withTransform(method, fit.transform, fit.summary, heldOut);
-    }
-    case EstimationMethod::RModel:
-    {
-      const CalibrationFit direct = fitPseudoinverse(calibration);
-      const RModelFit fit = fitRModel(direct.transform(tuning.response), tuning.reflectance);
-      return withTransform(
-        method, AffineTransform::compose(fit.correction, direct.transform), fit.summary, heldOut);
-    }
-    case EstimationMethod::Banded:
-    {
-      MetamerismOptions metamerism;
-      metamerism.channelWavelengths = options.channelWavelengths;
-      const MetamerismFit fit = fitMetamerismCorrection(calibration, tuning, metamerism);
-      return withTransform(method, fit.composite, fit.summary, heldOut);
-    }
-    case EstimationMethod::Transfer:
-      break;
+    names.emplace_back(method.name);
   }
-  const TransferFit fit = fitTransfer(calibration, tuning);
-  return { method, fit.estimator(heldOut.response),
-    fit.estimator.standardDeviation(heldOut.response), {}, fit.summary };
-}
-}
-
-std::string_view nameOf(EstimationMethod method) noexcept
-{
-  switch (method)
-  {
-    case EstimationMethod::Direct:
-      return "direct";
-    case EstimationMethod::Pinv:
-      return "pinv";
-    case EstimationMethod::Pooled:
-      return "pooled";
-    case EstimationMethod::RModel:
-      return "r-model";
-    case EstimationMethod::Banded:
-      return "banded";
-    case EstimationMethod::Transfer:
-      break;
-  }
-  return "transfer";
-}
-
-const std::vector<EstimationMethod>& allEstimationMethods()
-{
-  static const std::vector<EstimationMethod> methods{ EstimationMethod::Direct,
-    EstimationMethod::Pinv, EstimationMethod::Pooled, EstimationMethod::RModel,
-    EstimationMethod::Banded, EstimationMethod::Transfer };
-  return methods;
-}
-
-EstimationMethod estimationMethodNamed(std::string_view name)
-{
-  std::ostringstream message;
-  message << "there is no estimation method '" << name << "'; expected one of";
-  const char* separator = " ";
-  for (const EstimationMethod method : allEstimationMethods())
-  {
-    if (nameOf(method) == name)
-    {
-      return method;
-    }
-    message << std::exchange(separator, ", ") << nameOf(method);
-  }
-  throw std::invalid_argument(message.str());
+  return names;
 }
 
 MethodComparison::MethodComparison(
@@ -119,6 +31,10 @@ MethodComparison::MethodComparison(
   if (Options.methods.empty())
   {
     throw std::invalid_argument("no estimation method is asked for; expected at least one");
+  }
+  for (const std::string& name : Options.methods)
+  {
+    estimationMethodNamed(name);
   }
   if (Options.tuningSamples < 1 || Options.tuningSamples >= Target.size())
   {
@@ -137,11 +53,15 @@ ComparisonDraw MethodComparison::run(std::uint64_t draw) const
   result.heldOut = remainingSamples(Target.size(), result.tuning);
   const SampleSet tuning = Target.subset(result.tuning);
   const SampleSet heldOut = Target.subset(result.heldOut);
-  for (const EstimationMethod method : Options.methods)
+  EstimationOptions estimation;
+  estimation.metamerism.channelWavelengths = Options.channelWavelengths;
+  for (const std::string& name : Options.methods)
   {
     try
     {
-      MethodEstimate estimate = estimateWith(method, Calibration, tuning, heldOut, Options);
+      const EstimationFit fit = estimationMethodNamed(name).fit(Calibration, tuning, estimation);
+      MethodEstimate estimate{ name, (*fit.estimator)(heldOut.response),
+        fit.estimator->standardDeviation(heldOut.response), {}, fit.summary };
       estimate.rms = (estimate.reflectance - heldOut.reflectance)
                        .array()
                        .square()
@@ -153,7 +73,7 @@ ComparisonDraw MethodComparison::run(std::uint64_t draw) const
     }
     catch (const std::invalid_argument& error)
     {
-      throw std::invalid_argument("method " + std::string(nameOf(method)) + ": " + error.what());
+      throw std::invalid_argument("method " + name + ": " + error.what());
     }
   }
   return result;

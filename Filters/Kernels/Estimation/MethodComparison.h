@@ -11,32 +11,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace msi
 {
 
-enum class EstimationMethod
-{
-  Direct,
-  Pinv,
-  Pooled,
-  RModel,
-  Banded,
-  Transfer
-};
-
-// "direct", "pinv", "pooled", "r-model", "banded", "transfer".
-std::string_view nameOf(EstimationMethod method) noexcept;
-// All methods in the order above.
-const std::vector<EstimationMethod>& allEstimationMethods();
-// Throws std::invalid_argument, listing the known names, for any other name.
-EstimationMethod estimationMethodNamed(std::string_view name);
+// The names of all methods, in the registry's order.
+std::vector<std::string> allMethodNames();
 
 struct ComparisonOptions
 {
-  std::vector<EstimationMethod> methods = allEstimationMethods();
+  std::vector<std::string> methods = allMethodNames(); // names in the registry (EstimationMethod.h)
   Eigen::Index tuningSamples = 16;
   std::uint64_t seed = 1;
   std::optional<WavelengthGrid> channelWavelengths; // for the structure of the method banded
@@ -45,9 +30,9 @@ struct ComparisonOptions
 // One method on the held-out samples of one draw.
 struct MethodEstimate
 {
-  EstimationMethod method;
+  std::string method;
   Eigen::MatrixXd reflectance;       // N x held-out
-  Eigen::MatrixXd standardDeviation; // N x held-out for the method transfer, else 0 x 0
+  Eigen::MatrixXd standardDeviation; // N x held-out where the method knows it, else 0 x 0
   Eigen::VectorXd rms;               // held-out: sqrt(mean over bands of the squared error), Eq. 21
   FitSummary summary;
 };
@@ -63,7 +48,7 @@ struct ComparisonDraw
 // run(0), run(1), ... over threads or ranks and get the same numbers.
 //
 // Errors: the constructor throws std::invalid_argument where a set is empty or not finite, bands or
-//         channels differ, no method is asked for, or tuningSamples leaves nothing to hold out;
+//         channels differ, no method is asked for or one is not known, or tuningSamples leaves nothing to hold out;
 //         run() throws what the method's fit throws (std::invalid_argument), with the method's name.
 class MethodComparison
 {

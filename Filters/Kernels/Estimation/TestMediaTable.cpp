@@ -10,8 +10,6 @@
 namespace
 {
 
-using msi::EstimationMethod;
-
 struct Expected
 {
   double mean;
@@ -24,7 +22,7 @@ struct MediaCase
   std::string target;
   int channels;
   double transferLimit;
-  std::map<EstimationMethod, Expected> expected;
+  std::map<std::string, Expected> expected;
 };
 
 void PrintTo(const MediaCase& media, std::ostream* out)
@@ -80,11 +78,11 @@ TEST_P(MediaTable, AgreesWithTheSeparateProgram)
   for (std::size_t m = 0; m < means.size(); ++m)
   {
     const Expected& expected = media.expected.at(options.methods[m]);
-    const double tolerance = options.methods[m] == EstimationMethod::Direct
+    const double tolerance = options.methods[m] == "direct"
       ? 0.01 * expected.mean
       : 3.0 * expected.standardError + Rounding;
-    EXPECT_NEAR(means[m], expected.mean, tolerance) << msi::nameOf(options.methods[m]);
-    RecordProperty(std::string(msi::nameOf(options.methods[m])), std::to_string(means[m]));
+    EXPECT_NEAR(means[m], expected.mean, tolerance) << options.methods[m];
+    RecordProperty(options.methods[m], std::to_string(means[m]));
   }
 }
 
@@ -102,7 +100,7 @@ TEST_P(MediaTable, TransferIsBetterThanAllOfThem)
   }
   const msi::MethodComparison comparison(*calibration, *target);
   constexpr int draws = 8;
-  std::map<EstimationMethod, double> means;
+  std::map<std::string, double> means;
   double inside = 0.0;
   for (int draw = 0; draw < draws; ++draw)
   {
@@ -117,12 +115,12 @@ TEST_P(MediaTable, TransferIsBetterThanAllOfThem)
       (transfer.reflectance - measured).array() / transfer.standardDeviation.array();
     inside += (z.abs() < 1.96).cast<double>().mean() / draws;
   }
-  const double transfer = means.at(EstimationMethod::Transfer);
+  const double transfer = means.at("transfer");
   for (const auto& [method, mean] : means)
   {
-    if (method != EstimationMethod::Transfer)
+    if (method != "transfer")
     {
-      EXPECT_LT(transfer, 0.85 * mean) << msi::nameOf(method);
+      EXPECT_LT(transfer, 0.85 * mean) << method;
     }
   }
   EXPECT_LT(transfer, media.transferLimit);
@@ -133,29 +131,22 @@ TEST_P(MediaTable, TransferIsBetterThanAllOfThem)
 }
 
 INSTANTIATE_TEST_SUITE_P(Real, MediaTable,
-  testing::Values(
-    MediaCase{ "paper", "cotton", 16, 0.0054,
-      { { EstimationMethod::Direct, { 0.0086, 0.0 } }, { EstimationMethod::Pinv, { 0.069, 0.026 } },
-        { EstimationMethod::Pooled, { 0.0069, 0.0001 } },
-        { EstimationMethod::RModel, { 0.0084, 0.0003 } },
-        { EstimationMethod::Banded, { 0.0082, 0.0005 } } } },
+  testing::Values(MediaCase{ "paper", "cotton", 16, 0.0054,
+                    { { "direct", { 0.0086, 0.0 } }, { "pinv", { 0.069, 0.026 } },
+                      { "pooled", { 0.0069, 0.0001 } }, { "r-model", { 0.0084, 0.0003 } },
+                      { "banded", { 0.0082, 0.0005 } } } },
     MediaCase{ "paper", "cotton", 9, 0.0077,
-      { { EstimationMethod::Direct, { 0.0119, 0.0 } },
-        { EstimationMethod::Pinv, { 0.0139, 0.0009 } },
-        { EstimationMethod::Pooled, { 0.0102, 0.0001 } },
-        { EstimationMethod::RModel, { 0.0103, 0.0003 } },
-        { EstimationMethod::Banded, { 0.0093, 0.0002 } } } },
+      { { "direct", { 0.0119, 0.0 } }, { "pinv", { 0.0139, 0.0009 } },
+        { "pooled", { 0.0102, 0.0001 } }, { "r-model", { 0.0103, 0.0003 } },
+        { "banded", { 0.0093, 0.0002 } } } },
     MediaCase{ "cotton", "paper", 16, 0.0054,
-      { { EstimationMethod::Direct, { 0.0096, 0.0 } }, { EstimationMethod::Pinv, { 0.054, 0.015 } },
-        { EstimationMethod::Pooled, { 0.0072, 0.0001 } },
-        { EstimationMethod::RModel, { 0.0087, 0.0003 } },
-        { EstimationMethod::Banded, { 0.0085, 0.0004 } } } },
+      { { "direct", { 0.0096, 0.0 } }, { "pinv", { 0.054, 0.015 } },
+        { "pooled", { 0.0072, 0.0001 } }, { "r-model", { 0.0087, 0.0003 } },
+        { "banded", { 0.0085, 0.0004 } } } },
     MediaCase{ "cotton", "paper", 9, 0.0090,
-      { { EstimationMethod::Direct, { 0.0147, 0.0 } },
-        { EstimationMethod::Pinv, { 0.0197, 0.0012 } },
-        { EstimationMethod::Pooled, { 0.0131, 0.0001 } },
-        { EstimationMethod::RModel, { 0.0124, 0.0002 } },
-        { EstimationMethod::Banded, { 0.0116, 0.0001 } } } }),
+      { { "direct", { 0.0147, 0.0 } }, { "pinv", { 0.0197, 0.0012 } },
+        { "pooled", { 0.0131, 0.0001 } }, { "r-model", { 0.0124, 0.0002 } },
+        { "banded", { 0.0116, 0.0001 } } } }),
   [](const auto& media)
   {
     return media.param.calibration + "To" + media.param.target +

@@ -275,7 +275,7 @@ TEST(TransferEstimator, RefusesParametersThatDoNotFitAndSaysWhich)
     "element 5 of matrix 'linear.scalars' of the transfer estimator is 0; expected a positive "
     "number");
   EXPECT_EQ(messageOf([] { exampleFit().estimator(Eigen::MatrixXd::Zero(4, 2)); }),
-    "the block has 4 values a pixel but the transfer estimator takes 5; expected the same number");
+    "the block has 4 values per pixel but the estimator takes 5; expected the same number");
 }
 
 }

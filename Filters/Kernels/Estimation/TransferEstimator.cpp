@@ -2,7 +2,6 @@
 
 #include "Kernels/Estimation/TransferBlocks.h"
 
-#include <algorithm>
 #include <array>
 #include <sstream>
 #include <stdexcept>
@@ -20,42 +19,17 @@ std::string prefixOf(TransferSpace space)
   return space == TransferSpace::Linear ? "linear." : "squareRoot.";
 }
 
-constexpr Eigen::Index Any = -1;
-
-// The matrix of that name; a given size must agree.
 const Eigen::MatrixXd& require(
   const NamedMatrices& parameters, const std::string& name, Eigen::Index rows, Eigen::Index columns)
 {
-  const auto found = parameters.find(name);
-  std::ostringstream message;
-  if (found == parameters.end())
-  {
-    message << "the transfer estimator has no matrix '" << name << "'";
-    throw std::invalid_argument(message.str());
-  }
-  const Eigen::MatrixXd& matrix = found->second;
-  if ((rows != Any && matrix.rows() != rows) || (columns != Any && matrix.cols() != columns) ||
-    matrix.size() == 0)
-  {
-    const auto size = [](Eigen::Index n) { return n == Any ? "any" : std::to_string(n); };
-    message << "matrix '" << name << "' of the transfer estimator is " << matrix.rows() << " x "
-            << matrix.cols() << "; expected " << size(rows) << " x " << size(columns)
-            << ", not empty";
-    throw std::invalid_argument(message.str());
-  }
-  if (!matrix.allFinite())
-  {
-    message << "matrix '" << name << "' of the transfer estimator holds a value that is not finite";
-    throw std::invalid_argument(message.str());
-  }
-  return matrix;
+  return requireMatrix(parameters, name, rows, columns, "the transfer estimator");
 }
 
 PackedTransferExpert readExpert(
   const NamedMatrices& parameters, TransferSpace space, Eigen::Index bands)
 {
   const std::string prefix = prefixOf(space);
-  const Eigen::MatrixXd& points = require(parameters, prefix + "points", Any, Any);
+  const Eigen::MatrixXd& points = require(parameters, prefix + "points", AnySize, AnySize);
   const Eigen::Index channels = points.rows();
   const Eigen::Index count = points.cols();
   const Eigen::MatrixXd& scalars = require(parameters, prefix + "scalars", 7, 1);
@@ -91,7 +65,7 @@ PackedTransferExpert readExpert(
 
 PackedTransfer readMixture(const NamedMatrices& parameters)
 {
-  const Eigen::MatrixXd& variance = require(parameters, "bandVariance", Any, 1);
+  const Eigen::MatrixXd& variance = require(parameters, "bandVariance", AnySize, 1);
   if (variance.minCoeff() < 0.0)
   {
     throw std::invalid_argument(
@@ -167,57 +141,6 @@ void TransferEstimator::apply(const double* response, double* mean, double* stan
   Eigen::Index pixels) const noexcept
 {
   runTransfer(Impl->Mixture, response, mean, standardDeviation, pixels);
-}
-
-void TransferEstimator::apply(
-  const float* response, float* mean, float* standardDeviation, Eigen::Index pixels) const noexcept
-{
-  constexpr Eigen::Index piece = 256;
-  std::vector<double> in(static_cast<std::size_t>(piece * channels()));
-  std::vector<double> out(static_cast<std::size_t>(piece * bands()));
-  std::vector<double> deviation(standardDeviation != nullptr ? out.size() : 0);
-  for (Eigen::Index first = 0; first < pixels; first += piece)
-  {
-    const Eigen::Index count = std::min(piece, pixels - first);
-    std::copy_n(response + first * channels(), count * channels(), in.begin());
-    apply(in.data(), out.data(), standardDeviation != nullptr ? deviation.data() : nullptr, count);
-    const auto narrow = [](double value) { return static_cast<float>(value); };
-    std::transform(out.begin(), out.begin() + count * bands(), mean + first * bands(), narrow);
-    if (standardDeviation != nullptr)
-    {
-      std::transform(deviation.begin(), deviation.begin() + count * bands(),
-        standardDeviation + first * bands(), narrow);
-    }
-  }
-}
-
-void TransferEstimator::requireChannels(const Eigen::MatrixXd& response) const
-{
-  if (response.rows() != channels())
-  {
-    std::ostringstream message;
-    message << "the block has " << response.rows()
-            << " values a pixel but the transfer estimator takes " << channels()
-            << "; expected the same number";
-    throw std::invalid_argument(message.str());
-  }
-}
-
-Eigen::MatrixXd TransferEstimator::operator()(const Eigen::MatrixXd& response) const
-{
-  requireChannels(response);
-  Eigen::MatrixXd mean(bands(), response.cols());
-  apply(response.data(), mean.data(), nullptr, response.cols());
-  return mean;
-}
-
-Eigen::MatrixXd TransferEstimator::standardDeviation(const Eigen::MatrixXd& response) const
-{
-  requireChannels(response);
-  Eigen::MatrixXd mean(bands(), response.cols());
-  Eigen::MatrixXd deviation(bands(), response.cols());
-  apply(response.data(), mean.data(), deviation.data(), response.cols());
-  return deviation;
 }
 
 NamedMatrices transferParameters(const TransferMixture& mixture)

@@ -1,20 +1,16 @@
 // What the method "transfer" has learned, run on blocks of pixels.
 #pragma once
 
+#include "Kernels/Estimation/ReflectanceEstimator.h"
 #include "Kernels/Estimation/TransferExpert.h"
 
 #include <Eigen/Core>
 
-#include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace msi
 {
-
-// Everything an estimator consists of, under stable names, so that a table or a file can keep it.
-using NamedMatrices = std::map<std::string, Eigen::MatrixXd>;
 
 // An immutable estimator of target reflectance with its uncertainty; copies share the parameters.
 //
@@ -32,30 +28,23 @@ using NamedMatrices = std::map<std::string, Eigen::MatrixXd>;
 //         Float blocks are computed in double.
 // Cost:   per pixel and expert about m (2 K + 2 N + 40) flop for the mean and 2 m^2 more for the
 //         standard deviation; scratch memory is allocated once a call.
-class TransferEstimator
+class TransferEstimator final : public ReflectanceEstimator
 {
 public:
   explicit TransferEstimator(const NamedMatrices& parameters);
-  NamedMatrices parameters() const;
+  NamedMatrices parameters() const override;
 
-  Eigen::Index bands() const noexcept;
-  Eigen::Index channels() const noexcept;
+  Eigen::Index bands() const noexcept override;
+  Eigen::Index channels() const noexcept override;
+  bool knowsUncertainty() const noexcept override { return true; }
 
   // standardDeviation may be null. It is of the error to expect against a measurement, scaled so that
   // mean +- 1.96 standard deviations holds about 95 % of the measured values.
+  using ReflectanceEstimator::apply;
   void apply(const double* response, double* mean, double* standardDeviation,
-    Eigen::Index pixels) const noexcept;
-  void apply(const float* response, float* mean, float* standardDeviation,
-    Eigen::Index pixels) const noexcept;
-
-  // The same for a matrix; throws std::invalid_argument, naming both numbers, unless
-  // response.rows() == channels().
-  Eigen::MatrixXd operator()(const Eigen::MatrixXd& response) const;
-  Eigen::MatrixXd standardDeviation(const Eigen::MatrixXd& response) const;
+    Eigen::Index pixels) const noexcept override;
 
 private:
-  void requireChannels(const Eigen::MatrixXd& response) const;
-
   struct Implementation;
   std::shared_ptr<const Implementation> Impl;
 };

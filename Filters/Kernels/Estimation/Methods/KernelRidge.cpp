@@ -1,0 +1,107 @@
+#include "Kernels/Estimation/Methods/Methods.h"
+
+#include "Kernels/Estimation/CrossValidation.h"
+#include "Kernels/Estimation/KernelEstimator.h"
+#include "Kernels/Estimation/KernelSystem.h"
+#include "Kernels/Estimation/LocalChoice.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace msi
+{
+
+namespace
+{
+struct Candidate
+{
+  RegressionKernel kernel = RegressionKernel::Gaussian;
+  double length = 1.0; // in units of sqrt(K) standard deviations
+  double penalty = 0.0;
+  double tuningWeight = 1.0;
+};
+
+EstimationFit fit(
+  const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
+{
+  requireTrainingSamples(calibration, tuning);
+  const SampleSet samples = joined(calibration, tuning);
+  const LocalSamples scaled = localSamples(samples);
+  const Eigen::VectorXd center = scaled.points.rowwise().mean();
+  const Eigen::MatrixXd outputs = samples.reflectance.transpose();
+  const auto root = std::sqrt(static_cast<double>(samples.channels()));
+  const auto points = [&](double length) -> Eigen::MatrixXd
+  { return (scaled.points.colwise() - center) / (length * root); };
+  const auto solve = [&](const Candidate& candidate, const Eigen::MatrixXd& gram)
+  {
+    return solveKernelSystem(gram, outputs,
+      joinedWeights(calibration.size(), tuning.size(), candidate.tuningWeight), candidate.penalty);
+  };
+
+  CandidateChoice choice;
+  choice.leftOutRms = std::numeric_limits<double>::quiet_NaN();
+  Candidate best{ RegressionKernel::Gaussian, 4.0, 1e-4, 1.0 };
+  if (tuning.size() >= FewestToChoose)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (const RegressionKernel kernel :
+      { RegressionKernel::Gaussian, RegressionKernel::Logarithmic })
+    {
+      for (const double length : { 1.0, 2.0, 4.0, 8.0 })
+      {
+        const Eigen::MatrixXd gram = kernelMatrix(kernel, points(length), points(length));
+        for (const double penalty : { 1e-3, 1e-4, 1e-5, 1e-6, 1e-7 })
+        {
+          for (const double weight : tuningWeights(calibration, tuning))
+          {
+            const Candidate candidate{ kernel, length, penalty, weight };
+            const double squares =
+              solve(candidate, gram).leftOutError.bottomRows(tuning.size()).squaredNorm();
+            if (squares < least)
+            {
+              least = squares;
+              best = candidate;
+            }
+          }
+        }
+      }
+    }
+    choice.leftOutRms = std::sqrt(least / static_cast<double>(tuning.reflectance.size()));
+    choice.chosen = true;
+  }
+
+  const Eigen::MatrixXd at = points(best.length);
+  const KernelSolution solution = solve(best, kernelMatrix(best.kernel, at, at));
+  Eigen::VectorXd constant = solution.constant;
+  if (best.kernel == RegressionKernel::Logarithmic)
+  {
+    const Eigen::RowVectorXd fromOrigin =
+      at.colwise().squaredNorm().unaryExpr([](double d) { return std::log1p(d); });
+    constant += (fromOrigin * solution.coefficients).transpose();
+  }
+  Eigen::MatrixXd channels(samples.channels(), 2);
+  channels << scaled.scale / (best.length * root), center / (best.length * root);
+  EstimationFit result;
+  result.estimator = std::make_shared<KernelEstimator>(NamedMatrices{
+    { "kernel.kind",
+      Eigen::MatrixXd::Constant(1, 1, best.kernel == RegressionKernel::Gaussian ? 0.0 : 1.0) },
+    { "kernel.channels", channels }, { "kernel.points", at },
+    { "kernel.coefficients", solution.coefficients }, { "kernel.constant", constant } });
+  std::ostringstream status;
+  status.precision(3);
+  status << (best.kernel == RegressionKernel::Gaussian ? "Gaussian" : "logarithmic")
+         << " kernel of length " << best.length << ", penalty " << best.penalty
+         << ", tuning weight " << best.tuningWeight << ", " << choiceText(choice, tuning);
+  result.summary = summaryOfChoice(choice, calibration, tuning, status.str());
+  return result;
+}
+}
+
+EstimationMethod kernelRidgeMethod()
+{
+  return { "kernel-ridge", "Kernel ridge",
+    "kernel ridge regression with a Gaussian or logarithmic kernel", fit };
+}
+
+} // namespace msi

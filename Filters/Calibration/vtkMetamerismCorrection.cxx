@@ -113,7 +113,7 @@ int vtkMetamerismCorrection::RequestData(
       const auto& method = methods[static_cast<std::size_t>(this->Method)];
       const std::string name(method.name);
       const auto fit = method.fit(chart.samples, medium.samples, options);
-      if (!fit.summary.complete && fit.factors)
+      if (!fit.summary.complete && !fit.estimator->knowsUncertainty())
       {
         vtkWarningMacro(<< name << ": " << fit.summary.status);
       }

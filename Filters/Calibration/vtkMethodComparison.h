@@ -35,7 +35,8 @@ public:
   ///@{
   /**
    * Methods by name, separated by commas or spaces; the names are those of the registry
-   * (Kernels/Estimation/EstimationMethod.h). Default "all".
+   * (Kernels/Estimation/EstimationMethod.h), and "all" stands for every one. Default "direct, pinv,
+   * pooled, r-model, banded, transfer".
    */
   vtkSetStdStringFromCharMacro(Methods);
   vtkGetCharFromStdStringMacro(Methods);
@@ -97,7 +98,7 @@ private:
   vtkMethodComparison(const vtkMethodComparison&) = delete;
   void operator=(const vtkMethodComparison&) = delete;
 
-  std::string Methods = "all";
+  std::string Methods = "direct, pinv, pooled, r-model, banded, transfer";
   std::string TuningSamples = "16";
   int Draws = 10;
   int Seed = 1;

@@ -10,7 +10,7 @@ from support import command  # noqa: E402
 OPTIONS = command.parser("demo", __doc__, "", "--output demo --ranks 2").parse_args()  # before ParaView is loaded
 
 from support import comparison, diagnosis, estimation, pipeline, report  # noqa: E402
-from support.methods import NAMES  # noqa: E402
+from support.methods import COMPARED  # noqa: E402
 
 TUNING = 16
 DRAWS = 10
@@ -29,7 +29,7 @@ def sample_table(name):
 
 def compare_methods(chart, fabric, folder):
     command.say(f"Methods compared: {TUNING} tuning swatches, {DRAWS} draws, the rest held out")
-    return comparison.compare(chart, fabric, folder=folder, methods=",".join(NAMES),
+    return comparison.compare(chart, fabric, folder=folder, methods=",".join(COMPARED),
                               tuning=TUNING, draws=DRAWS, seed=SEED)
 
 

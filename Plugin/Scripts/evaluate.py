@@ -24,8 +24,9 @@ def arguments():
                         help="random choices of tuning samples (default: %(default)s)")
     parser.add_argument("--seed", metavar="N", type=command.whole_number(0), default=1,
                         help="seed of the choices (default: %(default)s)")
-    parser.add_argument("--methods", metavar="LIST", default=",".join(methods.NAMES),
-                        help="methods, separated by commas (default: %(default)s)")
+    parser.add_argument("--methods", metavar="LIST", default=",".join(methods.COMPARED),
+                        help="methods, separated by commas, or all; known: " + ", ".join(methods.NAMES) +
+                             " (default: %(default)s)")
     return parser.parse_args()
 
 
@@ -43,7 +44,7 @@ def main():
               for path in (options.calibration, options.target)]
     pipeline.update(*tables)
     tables = [comparison.select_channels(table, options.channels) for table in tables]
-    comparison.compare(*tables, folder=folder, methods=options.methods, tuning=options.tuning,
+    comparison.compare(*tables, folder=folder, methods=",".join(methods.chosen(options.methods)), tuning=options.tuning,
                        draws=options.draws, seed=options.seed)
     command.say(f"results, draws and pictures: {folder}")
 

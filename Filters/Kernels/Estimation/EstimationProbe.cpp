@@ -1,5 +1,6 @@
-// Solves the problem on standard input with the kernels and prints every transform, for
+// Solves the problem on standard input with the kernels and prints every transform and estimate, for
 // reference_estimation.py to compare.
+#include "Kernels/Estimation/EstimationMethod.h"
 #include "Kernels/Estimation/MetamerismCorrection.h"
 #include "Kernels/Estimation/NamedMatrixText.h"
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
@@ -30,6 +31,15 @@ int main()
     print("banded_w", banded.reflectance);
     print("banded_d", banded.metamerism);
     print("banded", banded.composite);
+    if (given.count("X") != 0)
+    {
+      for (const char* name : { "wiener", "adaptive-wiener", "pca", "kernel-ridge", "local-linear",
+             "polynomial", "root-polynomial" })
+      {
+        const auto fit = msi::estimationMethodNamed(name).fit(calibration, tuning, {});
+        msi::writeNamedMatrix(std::cout, name, (*fit.estimator)(given.at("X")));
+      }
+    }
   }
   catch (const std::exception& error)
   {

@@ -1,49 +1,95 @@
 #include "Kernels/Estimation/Lasso.h"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace msi
 {
 
 namespace
 {
-constexpr int MostSweeps = 10000;
-constexpr double SmallestGain = 1e-14;
+constexpr int MostRounds = 200;
+constexpr int SweepsPerRound = 20;
+// Of the penalty and the largest gradient, by which an optimality condition may miss.
+constexpr double Slack = 1e-9;
 
 double softened(double value, double penalty) noexcept
 {
   return std::copysign(std::max(std::abs(value) - penalty, 0.0), value);
 }
 
-Eigen::VectorXd solveOne(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double penalty)
+struct Problem
 {
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(b.size());
-  Eigen::VectorXd gradient = b; // b - A w
-  double scale = 0.0;
-  for (Eigen::Index k = 0; k < b.size(); ++k)
+  const Eigen::MatrixXd& a;
+  Eigen::VectorXd b;
+  double penalty;
+};
+
+void sweep(const Problem& problem, Eigen::VectorXd& w, Eigen::VectorXd& gradient)
+{
+  for (Eigen::Index k = 0; k < w.size(); ++k)
   {
-    scale = a(k, k) > 0.0 ? std::max(scale, b[k] * b[k] / a(k, k)) : scale;
-  }
-  for (int sweep = 0; sweep < MostSweeps; ++sweep)
-  {
-    double gain = 0.0;
-    for (Eigen::Index k = 0; k < b.size(); ++k)
+    const double curvature = problem.a(k, k);
+    if (!(curvature > 0.0))
     {
-      if (!(a(k, k) > 0.0))
-      {
-        continue;
-      }
-      const double next = softened(gradient[k] + a(k, k) * w[k], penalty) / a(k, k);
-      const double step = next - w[k];
-      if (step != 0.0)
-      {
-        gain = std::max(gain, a(k, k) * step * step);
-        gradient -= step * a.col(k);
-        w[k] = next;
-      }
+      continue;
     }
-    if (gain <= SmallestGain * scale)
+    const double next = softened(gradient[k] + curvature * w[k], problem.penalty) / curvature;
+    if (next != w[k])
+    {
+      gradient -= (next - w[k]) * problem.a.col(k);
+      w[k] = next;
+    }
+  }
+}
+
+// The minimum if the coefficients that are not zero, and their signs, are those of w; returns whether
+// it is the minimum over all coefficients.
+bool solveActive(const Problem& problem, Eigen::VectorXd& w, Eigen::VectorXd& gradient)
+{
+  std::vector<Eigen::Index> active;
+  for (Eigen::Index k = 0; k < w.size(); ++k)
+  {
+    if (w[k] != 0.0)
+    {
+      active.push_back(k);
+    }
+  }
+  const Eigen::MatrixXd a = problem.a(active, active);
+  const Eigen::VectorXd signs = w(active).cwiseSign();
+  const Eigen::VectorXd solved = a.ldlt().solve(problem.b(active) - problem.penalty * signs);
+  if (!solved.allFinite() || (solved.array() * signs.array() < 0.0).any())
+  {
+    return false;
+  }
+  Eigen::VectorXd exact = Eigen::VectorXd::Zero(w.size());
+  exact(active) = solved;
+  const Eigen::VectorXd slope = problem.b - problem.a * exact;
+  const double allowed =
+    problem.penalty + Slack * (problem.penalty + problem.b.cwiseAbs().maxCoeff());
+  if ((slope.cwiseAbs().array() > allowed).any())
+  {
+    return false;
+  }
+  w = exact;
+  gradient = slope;
+  return true;
+}
+
+Eigen::VectorXd solveOne(const Problem& problem)
+{
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(problem.b.size());
+  Eigen::VectorXd gradient = problem.b; // b - A w
+  for (int round = 0; round < MostRounds; ++round)
+  {
+    for (int i = 0; i < SweepsPerRound; ++i)
+    {
+      sweep(problem, w, gradient);
+    }
+    if (solveActive(problem, w, gradient))
     {
       break;
     }
@@ -58,7 +104,7 @@ Eigen::MatrixXd solveLasso(
   Eigen::MatrixXd w(a.rows(), b.cols());
   for (Eigen::Index n = 0; n < b.cols(); ++n)
   {
-    w.col(n) = solveOne(a, b.col(n), penalty[n]);
+    w.col(n) = solveOne({ a, b.col(n), penalty[n] });
   }
   return w;
 }

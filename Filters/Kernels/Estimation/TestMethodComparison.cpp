@@ -67,7 +67,7 @@ TEST(MethodComparison, RefusesBadInputAndSaysWhy)
     "method r-model: the R-model has 3 tuning samples for 4 unknowns a "
     "band; expected at least 4 samples");
   options.methods = { "magic" };
-  EXPECT_EQ(compare(options).substr(0, 36), "there is no estimation method 'magic'");
+  EXPECT_EQ(compare(options).substr(0, 37), "there is no estimation method 'magic'");
   options.methods.clear();
   EXPECT_EQ(compare(options), "no estimation method is asked for; expected at least one");
 }

@@ -78,7 +78,7 @@ def condensed(names, rows):
 def print_results(names, rows):
     titles, lines = condensed(names, rows)
     for line in [titles] + lines:
-        command.say(f"{line[0]:<10}" + "".join(f"{cell:>27}" for cell in line[1:]).rstrip())
+        command.say(f"{line[0]:<16}" + "".join(f"{cell:>27}" for cell in line[1:]).rstrip())
     command.say("(mean / median / max over held-out samples, mean over draws)")
 
 

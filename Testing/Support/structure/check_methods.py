@@ -1,0 +1,54 @@
+"""Every method of estimation is known wherever methods are listed, in the registry's order.
+
+    check_methods.py ROOT
+"""
+import pathlib
+import re
+import sys
+
+KERNELS = "Filters/Kernels/Estimation"
+
+
+def registered(root):
+    """Names and labels in the order of the registry."""
+    records = {}
+    for path in sorted((root / KERNELS / "Methods").glob("*.cpp")):
+        for function, name, label in re.findall(
+                r"EstimationMethod (\w+)\(\)\s*\{\s*return \{ \"([^\"]+)\", \"([^\"]+)\"", path.read_text(encoding="utf-8")):
+            records[function] = (name, label)
+    registry = (root / KERNELS / "EstimationMethod.cpp").read_text(encoding="utf-8")
+    return [records[function] for function in re.findall(r"(\w+Method)\(\)", registry) if function in records]
+
+
+def faults_of(root):
+    methods = registered(root)
+    names = [name for name, _ in methods]
+    if not methods:
+        yield f"{KERNELS}/EstimationMethod.cpp: no methods are registered"
+    xml = (root / "Plugin/Proxies/MetamerismCorrection.xml").read_text(encoding="utf-8")
+    entries = re.search(r'name="Method".*?</EnumerationDomain>', xml, re.DOTALL).group(0)
+    if re.findall(r'value="(\d+)" text="([^"]+)"', entries) != [
+            (str(i), label) for i, (_, label) in enumerate(methods)]:
+        yield "Plugin/Proxies/MetamerismCorrection.xml: the entries of Method are not the registry's"
+    scripts = (root / "Plugin/Scripts/support/methods.py").read_text(encoding="utf-8")
+    listed = scripts[scripts.index("NAMES = {"):scripts.index("}")]
+    if re.findall(r'"([^"]+)": "([^"]+)"', listed) != methods:
+        yield "Plugin/Scripts/support/methods.py: NAMES are not the registry's methods"
+    page = (root / "Documentation/Filters/MethodComparison.md").read_text(encoding="utf-8")
+    for name in names:
+        if f"| `{name}` |" not in page:
+            yield f"Documentation/Filters/MethodComparison.md: no row about the method {name}"
+    tests = (root / KERNELS / "TestEstimationMethods.cpp").read_text(encoding="utf-8")
+    for name in names:
+        if f'"{name}"' not in tests:
+            yield f"{KERNELS}/TestEstimationMethods.cpp: the method {name} is not tested"
+
+
+def main():
+    faults = list(faults_of(pathlib.Path(sys.argv[1])))
+    print("\n".join(faults) or f"{len(registered(pathlib.Path(sys.argv[1])))} methods are known everywhere")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

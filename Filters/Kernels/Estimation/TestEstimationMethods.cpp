@@ -28,7 +28,9 @@ msi::SampleSet smoothSamples(Eigen::Index count, double gain, unsigned seed)
   basis << Eigen::VectorXd::Ones(6), band.matrix(), band.square().matrix();
   Eigen::MatrixXd reflectance = 0.1 * basis * randomMatrix(3, count, seed);
   reflectance.array() += 0.5;
-  const Eigen::MatrixXd camera = randomMatrix(4, 6, 8).cwiseAbs() / 6.0;
+  Eigen::MatrixXd camera(4, 6);
+  camera << 0.7, 0.3, 0, 0, 0, 0, 0, 0.4, 0.5, 0.1, 0, 0, 0, 0, 0.1, 0.5, 0.4, 0, 0, 0, 0, 0, 0.3,
+    0.7;
   return { reflectance, gain * camera * reflectance + 0.001 * randomMatrix(4, count, seed + 1) };
 }
 

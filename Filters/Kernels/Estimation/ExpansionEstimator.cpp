@@ -11,11 +11,11 @@ namespace msi
 
 namespace
 {
-const std::string Owner = "the expansion estimator";
+const std::string ExpansionOwner = "the expansion estimator";
 
 Expansion kindOf(const NamedMatrices& parameters)
 {
-  const double kind = requireMatrix(parameters, "expansion.kind", 1, 1, Owner)(0, 0);
+  const double kind = requireMatrix(parameters, "expansion.kind", 1, 1, ExpansionOwner)(0, 0);
   for (const Expansion expansion :
     { Expansion::Linear, Expansion::Squares, Expansion::Products, Expansion::Roots })
   {
@@ -25,7 +25,7 @@ Expansion kindOf(const NamedMatrices& parameters)
     }
   }
   throw std::invalid_argument(
-    "matrix 'expansion.kind' of " + Owner + " holds no known kind; expected 0, 1, 2 or 3");
+    "matrix 'expansion.kind' of " + ExpansionOwner + " holds no known kind; expected 0, 1, 2 or 3");
 }
 
 // Keeps NaN, unlike std::max.
@@ -91,9 +91,9 @@ Eigen::MatrixXd expanded(Expansion expansion, const Eigen::MatrixXd& responses)
 
 ExpansionEstimator::ExpansionEstimator(const NamedMatrices& parameters)
   : Kind(kindOf(parameters))
-  , Scale(requireMatrix(parameters, "expansion.scale", AnySize, 1, Owner))
-  , Transform(requireMatrix(
-      parameters, "expansion.coefficients", AnySize, expansionTerms(Kind, Scale.size()) + 1, Owner))
+  , Scale(requireMatrix(parameters, "expansion.scale", AnySize, 1, ExpansionOwner))
+  , Transform(requireMatrix(parameters, "expansion.coefficients", AnySize,
+      expansionTerms(Kind, Scale.size()) + 1, ExpansionOwner))
 {
   Parameters = { { "expansion.kind", Eigen::MatrixXd::Constant(1, 1, static_cast<double>(Kind)) },
     { "expansion.scale", Scale }, { "expansion.coefficients", Transform.coefficients() } };

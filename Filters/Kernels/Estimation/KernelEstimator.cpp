@@ -14,7 +14,7 @@ double kernelValue(RegressionKernel kernel, double squaredDistance) noexcept
                                               : -std::log1p(squaredDistance);
 }
 
-const std::string Owner = "the kernel estimator";
+const std::string KernelOwner = "the kernel estimator";
 }
 
 Eigen::MatrixXd kernelMatrix(
@@ -40,17 +40,17 @@ Eigen::MatrixXd kernelMatrix(
 
 KernelEstimator::KernelEstimator(const NamedMatrices& parameters)
 {
-  Points = requireMatrix(parameters, "kernel.points", AnySize, AnySize, Owner);
+  Points = requireMatrix(parameters, "kernel.points", AnySize, AnySize, KernelOwner);
   const Eigen::MatrixXd& channels =
-    requireMatrix(parameters, "kernel.channels", Points.rows(), 2, Owner);
+    requireMatrix(parameters, "kernel.channels", Points.rows(), 2, KernelOwner);
   const Eigen::MatrixXd& coefficients =
-    requireMatrix(parameters, "kernel.coefficients", Points.cols(), AnySize, Owner);
-  Constant = requireMatrix(parameters, "kernel.constant", coefficients.cols(), 1, Owner);
-  const double kind = requireMatrix(parameters, "kernel.kind", 1, 1, Owner)(0, 0);
+    requireMatrix(parameters, "kernel.coefficients", Points.cols(), AnySize, KernelOwner);
+  Constant = requireMatrix(parameters, "kernel.constant", coefficients.cols(), 1, KernelOwner);
+  const double kind = requireMatrix(parameters, "kernel.kind", 1, 1, KernelOwner)(0, 0);
   if (kind != 0.0 && kind != 1.0)
   {
     throw std::invalid_argument(
-      "matrix 'kernel.kind' of " + Owner + " is neither 0 (Gaussian) nor 1 (logarithmic)");
+      "matrix 'kernel.kind' of " + KernelOwner + " is neither 0 (Gaussian) nor 1 (logarithmic)");
   }
   Kernel = kind == 0.0 ? RegressionKernel::Gaussian : RegressionKernel::Logarithmic;
   Scale = channels.col(0);

@@ -21,14 +21,14 @@ double softened(double value, double penalty) noexcept
   return std::copysign(std::max(std::abs(value) - penalty, 0.0), value);
 }
 
-struct Problem
+struct LassoProblem
 {
   const Eigen::MatrixXd& a;
   Eigen::VectorXd b;
   double penalty;
 };
 
-void sweep(const Problem& problem, Eigen::VectorXd& w, Eigen::VectorXd& gradient)
+void sweep(const LassoProblem& problem, Eigen::VectorXd& w, Eigen::VectorXd& gradient)
 {
   for (Eigen::Index k = 0; k < w.size(); ++k)
   {
@@ -48,7 +48,7 @@ void sweep(const Problem& problem, Eigen::VectorXd& w, Eigen::VectorXd& gradient
 
 // The minimum if the coefficients that are not zero, and their signs, are those of w; returns whether
 // it is the minimum over all coefficients.
-bool solveActive(const Problem& problem, Eigen::VectorXd& w, Eigen::VectorXd& gradient)
+bool solveActive(const LassoProblem& problem, Eigen::VectorXd& w, Eigen::VectorXd& gradient)
 {
   std::vector<Eigen::Index> active;
   for (Eigen::Index k = 0; k < w.size(); ++k)
@@ -79,7 +79,7 @@ bool solveActive(const Problem& problem, Eigen::VectorXd& w, Eigen::VectorXd& gr
   return true;
 }
 
-Eigen::VectorXd solveOne(const Problem& problem)
+Eigen::VectorXd solveOne(const LassoProblem& problem)
 {
   Eigen::VectorXd w = Eigen::VectorXd::Zero(problem.b.size());
   Eigen::VectorXd gradient = problem.b; // b - A w

@@ -14,29 +14,29 @@ namespace msi
 
 namespace
 {
-const std::string Owner = "the local estimator";
+const std::string LocalOwner = "the local estimator";
 
 LocalSamples readSamples(const NamedMatrices& parameters)
 {
   LocalSamples samples;
-  samples.points = requireMatrix(parameters, "local.points", AnySize, AnySize, Owner);
+  samples.points = requireMatrix(parameters, "local.points", AnySize, AnySize, LocalOwner);
   const Eigen::Index channels = samples.points.rows();
   const Eigen::Index count = samples.points.cols();
-  samples.scale = requireMatrix(parameters, "local.scale", channels, 1, Owner);
-  samples.regressors = requireMatrix(parameters, "local.regressors", channels, count, Owner);
-  samples.weights = requireMatrix(parameters, "local.weights", count, 1, Owner);
-  samples.reflectance = requireMatrix(parameters, "local.reflectance", AnySize, count, Owner);
-  samples.noise = requireMatrix(parameters, "local.noise", channels, 1, Owner);
-  const Eigen::MatrixXd& scalars = requireMatrix(parameters, "local.scalars", 2, 1, Owner);
+  samples.scale = requireMatrix(parameters, "local.scale", channels, 1, LocalOwner);
+  samples.regressors = requireMatrix(parameters, "local.regressors", channels, count, LocalOwner);
+  samples.weights = requireMatrix(parameters, "local.weights", count, 1, LocalOwner);
+  samples.reflectance = requireMatrix(parameters, "local.reflectance", AnySize, count, LocalOwner);
+  samples.noise = requireMatrix(parameters, "local.noise", channels, 1, LocalOwner);
+  const Eigen::MatrixXd& scalars = requireMatrix(parameters, "local.scalars", 2, 1, LocalOwner);
   samples.ridge = scalars(0, 0);
   samples.neighbours = static_cast<Eigen::Index>(scalars(1, 0));
   return samples;
 }
 
 // What one pixel after the other is computed in.
-struct Workspace
+struct LocalWorkspace
 {
-  explicit Workspace(const LocalSamples& s)
+  explicit LocalWorkspace(const LocalSamples& s)
     : distances(s.points.cols())
     , covariance(s.points.rows(), s.points.rows())
   {
@@ -50,8 +50,8 @@ struct Workspace
   Eigen::VectorXd solved;
 };
 
-void estimate(const LocalSamples& s, const Eigen::VectorXd& response, Eigen::Index without,
-  Workspace& w, Eigen::VectorXd& mean)
+void estimatePixel(const LocalSamples& s, const Eigen::VectorXd& response, Eigen::Index without,
+  LocalWorkspace& w, Eigen::VectorXd& mean)
 {
   const Eigen::VectorXd scaled = response.cwiseProduct(s.scale);
   if (!scaled.allFinite())
@@ -123,7 +123,7 @@ LocalEstimator::LocalEstimator(LocalSamples samples)
   if (Samples.neighbours < 1 || Samples.neighbours > Samples.points.cols())
   {
     std::ostringstream message;
-    message << Owner << " is to use " << Samples.neighbours << " neighbours of "
+    message << LocalOwner << " is to use " << Samples.neighbours << " neighbours of "
             << Samples.points.cols() << " samples; expected a number from 1 to "
             << Samples.points.cols();
     throw std::invalid_argument(message.str());
@@ -146,13 +146,13 @@ NamedMatrices LocalEstimator::parameters() const
 void LocalEstimator::apply(const double* response, double* mean, double* /*standardDeviation*/,
   Eigen::Index pixels) const noexcept
 {
-  Workspace workspace(Samples);
+  LocalWorkspace workspace(Samples);
   Eigen::VectorXd one(channels());
   Eigen::VectorXd result(bands());
   for (Eigen::Index pixel = 0; pixel < pixels; ++pixel)
   {
     one = Eigen::Map<const Eigen::VectorXd>(response + pixel * channels(), channels());
-    estimate(Samples, one, -1, workspace, result);
+    estimatePixel(Samples, one, -1, workspace, result);
     Eigen::Map<Eigen::VectorXd>(mean + pixel * bands(), bands()) = result;
   }
 }
@@ -160,9 +160,9 @@ void LocalEstimator::apply(const double* response, double* mean, double* /*stand
 Eigen::VectorXd localEstimate(
   const LocalSamples& samples, const Eigen::VectorXd& response, Eigen::Index withoutSample)
 {
-  Workspace workspace(samples);
+  LocalWorkspace workspace(samples);
   Eigen::VectorXd result(samples.reflectance.rows());
-  estimate(samples, response, withoutSample, workspace, result);
+  estimatePixel(samples, response, withoutSample, workspace, result);
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace msi
 
 namespace
 {
-EstimationFit fit(
+EstimationFit fitAdaptiveWiener(
   const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
 {
   const WienerFit wiener = fitWiener(calibration, tuning);
@@ -45,7 +45,7 @@ EstimationFit fit(
 EstimationMethod adaptiveWienerMethod()
 {
   return { "adaptive-wiener", "Adaptive Wiener",
-    "Wiener estimation with the statistics of the nearest samples", fit };
+    "Wiener estimation with the statistics of the nearest samples", fitAdaptiveWiener };
 }
 
 } // namespace msi

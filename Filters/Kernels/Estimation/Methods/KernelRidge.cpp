@@ -14,7 +14,7 @@ namespace msi
 
 namespace
 {
-struct Candidate
+struct KernelCandidate
 {
   RegressionKernel kernel = RegressionKernel::Gaussian;
   double length = 1.0; // in units of sqrt(K) standard deviations
@@ -22,7 +22,7 @@ struct Candidate
   double tuningWeight = 1.0;
 };
 
-EstimationFit fit(
+EstimationFit fitKernelRidge(
   const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
 {
   requireTrainingSamples(calibration, tuning);
@@ -33,7 +33,7 @@ EstimationFit fit(
   const auto root = std::sqrt(static_cast<double>(samples.channels()));
   const auto points = [&](double length) -> Eigen::MatrixXd
   { return (scaled.points.colwise() - center) / (length * root); };
-  const auto solve = [&](const Candidate& candidate, const Eigen::MatrixXd& gram)
+  const auto solve = [&](const KernelCandidate& candidate, const Eigen::MatrixXd& gram)
   {
     return solveKernelSystem(gram, outputs,
       joinedWeights(calibration.size(), tuning.size(), candidate.tuningWeight), candidate.penalty);
@@ -41,7 +41,7 @@ EstimationFit fit(
 
   CandidateChoice choice;
   choice.leftOutRms = std::numeric_limits<double>::quiet_NaN();
-  Candidate best{ RegressionKernel::Gaussian, 4.0, 1e-4, 1.0 };
+  KernelCandidate best{ RegressionKernel::Gaussian, 4.0, 1e-4, 1.0 };
   if (tuning.size() >= FewestToChoose)
   {
     double least = std::numeric_limits<double>::infinity();
@@ -55,7 +55,7 @@ EstimationFit fit(
         {
           for (const double weight : tuningWeights(calibration, tuning))
           {
-            const Candidate candidate{ kernel, length, penalty, weight };
+            const KernelCandidate candidate{ kernel, length, penalty, weight };
             const double squares =
               solve(candidate, gram).leftOutError.bottomRows(tuning.size()).squaredNorm();
             if (squares < least)
@@ -101,7 +101,7 @@ EstimationFit fit(
 EstimationMethod kernelRidgeMethod()
 {
   return { "kernel-ridge", "Kernel ridge",
-    "kernel ridge regression with a Gaussian or logarithmic kernel", fit };
+    "kernel ridge regression with a Gaussian or logarithmic kernel", fitKernelRidge };
 }
 
 } // namespace msi

@@ -9,7 +9,7 @@ namespace msi
 
 namespace
 {
-EstimationFit fit(
+EstimationFit fitLocalLinear(
   const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
 {
   requireTrainingSamples(calibration, tuning);
@@ -42,7 +42,7 @@ EstimationFit fit(
 
 EstimationMethod localLinearMethod()
 {
-  return { "local-linear", "Local linear", "locally weighted linear regression", fit };
+  return { "local-linear", "Local linear", "locally weighted linear regression", fitLocalLinear };
 }
 
 } // namespace msi

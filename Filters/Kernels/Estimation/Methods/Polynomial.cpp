@@ -14,7 +14,7 @@ namespace msi
 
 namespace
 {
-struct Candidate
+struct ExpansionCandidate
 {
   Expansion expansion = Expansion::Linear;
   double penalty = 1e-5;
@@ -68,7 +68,7 @@ EstimationFit fitExpansions(
     [](double size) { return size > 0.0 ? 1.0 / size : 1.0; });
   const Eigen::MatrixXd responses = scale.asDiagonal() * samples.response;
   const Eigen::MatrixXd outputs = samples.reflectance.transpose();
-  const auto solve = [&](const Candidate& candidate, const Eigen::MatrixXd& gram)
+  const auto solve = [&](const ExpansionCandidate& candidate, const Eigen::MatrixXd& gram)
   {
     return solveKernelSystem(gram, outputs,
       joinedWeights(calibration.size(), tuning.size(), candidate.tuningWeight), candidate.penalty);
@@ -76,7 +76,7 @@ EstimationFit fitExpansions(
 
   CandidateChoice choice;
   choice.leftOutRms = std::numeric_limits<double>::quiet_NaN();
-  Candidate best;
+  ExpansionCandidate best;
   if (tuning.size() >= FewestToChoose)
   {
     double least = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ EstimationFit fitExpansions(
       {
         for (const double weight : tuningWeights(calibration, tuning))
         {
-          const Candidate candidate{ expansion, penalty, weight };
+          const ExpansionCandidate candidate{ expansion, penalty, weight };
           const double squares =
             solve(candidate, gram).leftOutError.bottomRows(tuning.size()).squaredNorm();
           if (squares < least)

@@ -17,14 +17,14 @@ namespace
 constexpr Eigen::Index MostComponents = 12;
 constexpr Eigen::Index FewestComponents = 3;
 
-struct Candidate
+struct ComponentsCandidate
 {
   double tuningWeight;
   Eigen::Index components;
 };
 
 AffineTransform fitComponents(
-  const SampleSet& calibration, const SampleSet& tuning, const Candidate& candidate)
+  const SampleSet& calibration, const SampleSet& tuning, const ComponentsCandidate& candidate)
 {
   const SampleSet samples = joined(calibration, tuning);
   const Eigen::VectorXd weights =
@@ -43,14 +43,14 @@ AffineTransform fitComponents(
   return AffineTransform(std::move(coefficients));
 }
 
-EstimationFit fit(
+EstimationFit fitPrincipalComponents(
   const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
 {
   requireTrainingSamples(calibration, tuning);
   // A fold's samples span one dimension less than their number, and no more than the bands.
   const Eigen::Index most =
     std::min({ calibration.bands(), calibration.size() - 1 + tuning.size(), MostComponents });
-  std::vector<Candidate> candidates;
+  std::vector<ComponentsCandidate> candidates;
   for (const double weight : tuningWeights(calibration, tuning))
   {
     for (Eigen::Index p = std::min(FewestComponents, most); p <= most; ++p)
@@ -61,7 +61,7 @@ EstimationFit fit(
   const CandidateChoice choice = chooseCandidate(tuning, candidates.size(),
     [&](std::size_t i, const SampleSet& kept, const Eigen::MatrixXd& leftOut)
     { return fitComponents(calibration, kept, candidates[i])(leftOut); });
-  Candidate best = candidates[choice.best];
+  ComponentsCandidate best = candidates[choice.best];
   if (!choice.chosen)
   {
     best.components = std::min(most, calibration.channels());
@@ -79,7 +79,8 @@ EstimationFit fit(
 
 EstimationMethod pcaMethod()
 {
-  return { "pca", "Principal components", "principal components of the reflectances", fit };
+  return { "pca", "Principal components", "principal components of the reflectances",
+    fitPrincipalComponents };
 }
 
 } // namespace msi

@@ -13,16 +13,16 @@ namespace msi
 
 namespace
 {
-constexpr std::array<double, 7> Penalties{ 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-2, 1e-1 };
+constexpr std::array<double, 7> SparsePenalties{ 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-2, 1e-1 };
 
-struct Candidate
+struct SparseCandidate
 {
   double tuningWeight;
   double penalty;
 };
 
 AffineTransform fitSparse(
-  const SampleSet& calibration, const SampleSet& tuning, const Candidate& candidate)
+  const SampleSet& calibration, const SampleSet& tuning, const SparseCandidate& candidate)
 {
   const SampleSet samples = joined(calibration, tuning);
   const Eigen::VectorXd weights =
@@ -44,14 +44,14 @@ AffineTransform fitSparse(
   return AffineTransform(std::move(coefficients));
 }
 
-EstimationFit fit(
+EstimationFit fitSparseMethod(
   const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
 {
   requireTrainingSamples(calibration, tuning);
-  std::vector<Candidate> candidates;
+  std::vector<SparseCandidate> candidates;
   for (const double weight : tuningWeights(calibration, tuning))
   {
-    for (const double penalty : Penalties)
+    for (const double penalty : SparsePenalties)
     {
       candidates.push_back({ weight, penalty });
     }
@@ -59,7 +59,7 @@ EstimationFit fit(
   const CandidateChoice choice = chooseCandidate(tuning, candidates.size(),
     [&](std::size_t i, const SampleSet& kept, const Eigen::MatrixXd& leftOut)
     { return fitSparse(calibration, kept, candidates[i])(leftOut); });
-  const Candidate& best = candidates[choice.best];
+  const SparseCandidate& best = candidates[choice.best];
   AffineTransform transform = fitSparse(calibration, tuning, best);
   const Eigen::Index nonZero = (transform.linear().array() != 0.0).count();
   std::ostringstream status;
@@ -75,7 +75,7 @@ EstimationFit fit(
 
 EstimationMethod sparseMethod()
 {
-  return { "sparse", "Sparse", "W with an L1 penalty", fit };
+  return { "sparse", "Sparse", "W with an L1 penalty", fitSparseMethod };
 }
 
 } // namespace msi

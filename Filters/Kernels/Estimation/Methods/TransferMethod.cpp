@@ -7,7 +7,7 @@ namespace msi
 
 namespace
 {
-EstimationFit fit(
+EstimationFit fitTransferMethod(
   const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
 {
   TransferFit transfer = fitTransfer(calibration, tuning);
@@ -17,7 +17,7 @@ EstimationFit fit(
 
 EstimationMethod transferMethod()
 {
-  return { "transfer", "Transfer", "statistical transfer with uncertainty", fit };
+  return { "transfer", "Transfer", "statistical transfer with uncertainty", fitTransferMethod };
 }
 
 } // namespace msi

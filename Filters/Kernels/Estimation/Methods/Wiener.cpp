@@ -16,16 +16,16 @@ namespace
 constexpr std::array<double, 4> Correlations{ 0.99, 0.97, 0.995, 0.999 };
 constexpr std::array<double, 3> Ridges{ 1e-4, 1e-3, 1e-5 };
 
-struct Candidate
+struct WienerCandidate
 {
   double correlation;
   double ridge;
   double tuningWeight;
 };
 
-std::vector<Candidate> candidatesFor(const SampleSet& calibration, const SampleSet& tuning)
+std::vector<WienerCandidate> wienerCandidates(const SampleSet& calibration, const SampleSet& tuning)
 {
-  std::vector<Candidate> candidates;
+  std::vector<WienerCandidate> candidates;
   for (const double weight : tuningWeights(calibration, tuning))
   {
     for (const double ridge : Ridges)
@@ -40,7 +40,7 @@ std::vector<Candidate> candidatesFor(const SampleSet& calibration, const SampleS
 }
 
 AffineTransform smoothWiener(
-  const SampleSet& calibration, const SampleSet& tuning, const Candidate& candidate)
+  const SampleSet& calibration, const SampleSet& tuning, const WienerCandidate& candidate)
 {
   const SampleSet samples = joined(calibration, tuning);
   const Eigen::VectorXd weights =
@@ -53,7 +53,7 @@ AffineTransform smoothWiener(
     fit, mean, markovCovariance(samples.bands(), variance, candidate.correlation));
 }
 
-EstimationFit fit(
+EstimationFit fitWienerMethod(
   const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
 {
   WienerFit wiener = fitWiener(calibration, tuning);
@@ -85,11 +85,11 @@ AffineTransform wienerTransform(
 WienerFit fitWiener(const SampleSet& calibration, const SampleSet& tuning)
 {
   requireTrainingSamples(calibration, tuning);
-  const auto candidates = candidatesFor(calibration, tuning);
+  const auto candidates = wienerCandidates(calibration, tuning);
   const CandidateChoice choice = chooseCandidate(tuning, candidates.size(),
     [&](std::size_t i, const SampleSet& kept, const Eigen::MatrixXd& leftOut)
     { return smoothWiener(calibration, kept, candidates[i])(leftOut); });
-  const Candidate& best = candidates[choice.best];
+  const WienerCandidate& best = candidates[choice.best];
   WienerFit fit{ smoothWiener(calibration, tuning, best), best.ridge, best.tuningWeight, {} };
   std::ostringstream status;
   status.precision(3);
@@ -102,7 +102,7 @@ WienerFit fitWiener(const SampleSet& calibration, const SampleSet& tuning)
 
 EstimationMethod wienerMethod()
 {
-  return { "wiener", "Wiener", "Wiener estimation with a smoothness prior", fit };
+  return { "wiener", "Wiener", "Wiener estimation with a smoothness prior", fitWienerMethod };
 }
 
 } // namespace msi

@@ -47,10 +47,10 @@ public:
   /**
    * How the tuning samples are used: DIRECT (not at all), PINV (they alone), POOLED (together with
    * the chart), R_MODEL (a band-wise correction of the estimate), BANDED (the banded metamerism
-   * transform D and W solved in turn), TRANSFER (statistical transfer with uncertainty). Default
-   * TRANSFER.
+   * transform D and W solved in turn), TRANSFER (statistical transfer with uncertainty); further numbers are
+   * the other methods of the registry. Default TRANSFER.
    */
-  vtkSetClampMacro(Method, int, DIRECT, TRANSFER);
+  void SetMethod(int method);
   vtkGetMacro(Method, int);
   ///@}
 

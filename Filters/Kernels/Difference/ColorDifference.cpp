@@ -1,0 +1,222 @@
+#include "Kernels/Difference/ColorDifference.h"
+
+#include "Kernels/Difference/CIE76.h"
+#include "Kernels/Difference/CIEDE2000.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+
+double ciede2000Of(const ColorDifferenceFactors& factors, const double* lab1, const double* lab2)
+{
+  const CIEDE2000 formula({ factors.lightness, factors.chroma, factors.hue });
+  return formula(Eigen::Map<const Eigen::Vector3d>(lab1), Eigen::Map<const Eigen::Vector3d>(lab2));
+}
+
+double cie76Of(const ColorDifferenceFactors& /*factors*/, const double* lab1, const double* lab2)
+{
+  return deltaE76(Eigen::Map<const Eigen::Vector3d>(lab1), Eigen::Map<const Eigen::Vector3d>(lab2));
+}
+
+struct PolarDifference
+{
+  double lightness;
+  double chroma;
+  double hueSquared;
+};
+
+PolarDifference polarDifference(const double* lab1, const double* lab2)
+{
+  const double chroma1 = std::hypot(lab1[1], lab1[2]);
+  const double chroma2 = std::hypot(lab2[1], lab2[2]);
+  // 2 (C1 C2 - a1 a2 - b1 b2) without cancellation: (a1 b2 - a2 b1)^2 over half of the sum of both.
+  const double dot = lab1[1] * lab2[1] + lab1[2] * lab2[2];
+  const double cross = lab1[1] * lab2[2] - lab2[1] * lab1[2];
+  const double product = chroma1 * chroma2;
+  const double hueSquared =
+    dot > 0.0 ? 2.0 * cross * cross / (product + dot) : 2.0 * (product - dot);
+  return { lab2[0] - lab1[0], chroma2 - chroma1, hueSquared };
+}
+
+// k1, k2: 0.045, 0.015 for graphic arts, 0.048, 0.014 for textiles. The first color is the standard.
+double cie94With(double k1, double k2, const ColorDifferenceFactors& factors, const double* lab1,
+  const double* lab2)
+{
+  const PolarDifference d = polarDifference(lab1, lab2);
+  const double chroma = std::hypot(lab1[1], lab1[2]);
+  const double l = d.lightness / factors.lightness;
+  const double c = d.chroma / (factors.chroma * (1.0 + k1 * chroma));
+  const double weightH = factors.hue * (1.0 + k2 * chroma);
+  return std::sqrt(l * l + c * c + d.hueSquared / (weightH * weightH));
+}
+
+double cie94Of(const ColorDifferenceFactors& factors, const double* lab1, const double* lab2)
+{
+  return cie94With(0.045, 0.015, factors, lab1, lab2);
+}
+
+double cie94TextilesOf(
+  const ColorDifferenceFactors& factors, const double* lab1, const double* lab2)
+{
+  return cie94With(0.048, 0.014, factors, lab1, lab2);
+}
+
+double cmcOf(const ColorDifferenceFactors& factors, const double* lab1, const double* lab2)
+{
+  const PolarDifference d = polarDifference(lab1, lab2);
+  const double lightness = lab1[0];
+  const double chroma = std::hypot(lab1[1], lab1[2]);
+  double hue = std::atan2(lab1[2], lab1[1]) * 180.0 / Pi;
+  hue = hue < 0.0 ? hue + 360.0 : hue;
+  const auto cosine = [](double degrees) { return std::cos(degrees * Pi / 180.0); };
+  const double t = hue >= 164.0 && hue <= 345.0 ? 0.56 + std::abs(0.2 * cosine(hue + 168.0))
+                                                : 0.36 + std::abs(0.4 * cosine(hue + 35.0));
+  const double fourth = chroma * chroma * chroma * chroma;
+  const double f = std::sqrt(fourth / (fourth + 1900.0));
+  const double weightL =
+    lightness < 16.0 ? 0.511 : 0.040975 * lightness / (1.0 + 0.01765 * lightness);
+  const double weightC = 0.0638 * chroma / (1.0 + 0.0131 * chroma) + 0.638;
+  const double weightH = factors.hue * weightC * (f * t + 1.0 - f);
+  const double l = d.lightness / (factors.lightness * weightL);
+  const double c = d.chroma / (factors.chroma * weightC);
+  return std::sqrt(l * l + c * c + d.hueSquared / (weightH * weightH));
+}
+
+Eigen::Vector3d din99Color(const double* lab)
+{
+  constexpr double Turn = 16.0 * Pi / 180.0;
+  const double e = lab[1] * std::cos(Turn) + lab[2] * std::sin(Turn);
+  const double f = 0.7 * (lab[2] * std::cos(Turn) - lab[1] * std::sin(Turn));
+  const double g = std::hypot(e, f);
+  const double scale = g > 0.0 ? std::log1p(0.045 * g) / (0.045 * g) : 1.0;
+  return { 105.509 * std::log1p(0.0158 * lab[0]), scale * e, scale * f };
+}
+
+double din99Of(const ColorDifferenceFactors& /*factors*/, const double* lab1, const double* lab2)
+{
+  const double lightness =
+    105.509 * std::log1p(0.0158 * (lab2[0] - lab1[0]) / (1.0 + 0.0158 * lab1[0]));
+  const Eigen::Vector3d apart = din99Color(lab2) - din99Color(lab1);
+  return std::sqrt(lightness * lightness + apart[1] * apart[1] + apart[2] * apart[2]);
+}
+
+double hyabOf(const ColorDifferenceFactors& /*factors*/, const double* lab1, const double* lab2)
+{
+  return std::abs(lab2[0] - lab1[0]) + std::hypot(lab2[1] - lab1[1], lab2[2] - lab1[2]);
+}
+
+void requireFactor(const ColorDifferenceFormula& formula, double factor, const char* name)
+{
+  if (!std::isfinite(factor) || !(factor > 0.0))
+  {
+    std::ostringstream message;
+    message << "the " << name << " factor of " << formula.label << " is " << factor
+            << "; expected a finite value above zero";
+    throw std::invalid_argument(message.str());
+  }
+  if (!formula.hasFactors && factor != 1.0)
+  {
+    std::ostringstream message;
+    message << "the " << name << " factor of " << formula.label << " is " << factor
+            << "; this formula has no factors, expected 1";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+template <typename Scalar>
+void applyFormula(const ColorDifferenceFormula& formula, const ColorDifferenceFactors& factors,
+  const Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>>& lab1,
+  const Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>>& lab2,
+  Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>& difference) noexcept
+{
+  if (formula.difference == ciede2000Of)
+  {
+    const CIEDE2000 blocks({ factors.lightness, factors.chroma, factors.hue });
+    blocks.apply(lab1, lab2, difference);
+    return;
+  }
+  for (Eigen::Index i = 0; i < difference.size(); ++i)
+  {
+    const Eigen::Vector3d first = lab1.col(i).template cast<double>();
+    const Eigen::Vector3d second = lab2.col(i).template cast<double>();
+    difference(i) = static_cast<Scalar>(formula.difference(factors, first.data(), second.data()));
+  }
+}
+}
+
+const std::vector<ColorDifferenceFormula>& colorDifferences()
+{
+  static const std::vector<ColorDifferenceFormula> formulas{
+    { "ciede2000", "dE00", "CIEDE2000", "ISO/CIE 11664-6:2014", {}, true, true, ciede2000Of },
+    { "cie94", "dE94", "CIE94", "CIE 116-1995", {}, true, false, cie94Of },
+    { "cie94-textiles", "dE94t", "CIE94, textiles", "CIE 116-1995", { 2.0, 1.0, 1.0 }, true, false,
+      cie94TextilesOf },
+    { "cmc", "dECMC", "CMC(l:c)", "ISO 105-J03:2009", { 2.0, 1.0, 1.0 }, true, false, cmcOf },
+    { "din99", "dE99", "DIN99", "ASTM D2244-07", {}, false, true, din99Of },
+    { "cie76", "dEab", "CIELAB 1976", "ISO/CIE 11664-4:2019", {}, false, true, cie76Of },
+    { "hyab", "dEHyAB", "HyAB", "Abasi, Amani Tehran and Fairchild, 2020, doi 10.1002/col.22451",
+      {}, false, true, hyabOf }
+  };
+  return formulas;
+}
+
+const ColorDifferenceFormula& colorDifferenceNamed(std::string_view name)
+{
+  std::ostringstream message;
+  message << "there is no color difference '" << name << "'; expected one of";
+  const char* separator = " ";
+  for (const ColorDifferenceFormula& formula : colorDifferences())
+  {
+    if (formula.name == name)
+    {
+      return formula;
+    }
+    message << std::exchange(separator, ", ") << formula.name;
+  }
+  throw std::invalid_argument(message.str());
+}
+
+ColorDifference::ColorDifference(const ColorDifferenceFormula& formula)
+  : ColorDifference(formula, formula.factors)
+{
+}
+
+ColorDifference::ColorDifference(
+  const ColorDifferenceFormula& formula, const ColorDifferenceFactors& factors)
+  : Formula(&formula)
+  , Factors(factors)
+{
+  requireFactor(formula, factors.lightness, "lightness");
+  requireFactor(formula, factors.chroma, "chroma");
+  requireFactor(formula, factors.hue, "hue");
+}
+
+double ColorDifference::operator()(
+  const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) const noexcept
+{
+  return Formula->difference(Factors, lab1.data(), lab2.data());
+}
+
+void ColorDifference::apply(const Eigen::Ref<const Eigen::Matrix3Xd>& lab1,
+  const Eigen::Ref<const Eigen::Matrix3Xd>& lab2,
+  Eigen::Ref<Eigen::VectorXd> difference) const noexcept
+{
+  applyFormula<double>(*Formula, Factors, lab1, lab2, difference);
+}
+
+void ColorDifference::apply(const Eigen::Ref<const Eigen::Matrix3Xf>& lab1,
+  const Eigen::Ref<const Eigen::Matrix3Xf>& lab2,
+  Eigen::Ref<Eigen::VectorXf> difference) const noexcept
+{
+  applyFormula<float>(*Formula, Factors, lab1, lab2, difference);
+}
+
+} // namespace msi

@@ -46,6 +46,15 @@ void requireConvex(const PatchGrid::Corners& corners)
   }
 }
 
+void requireFraction(double fraction)
+{
+  if (!(fraction > 0.0 && fraction <= 1.0))
+  {
+    throw std::invalid_argument(
+      "the patch fraction is " + std::to_string(fraction) + "; expected more than 0, at most 1");
+  }
+}
+
 // Heckbert's square-to-quadrilateral map: the unit square's (0,0), (1,0), (1,1), (0,1) to the corners.
 Eigen::Matrix3d squareToCorners(const PatchGrid::Corners& c)
 {
@@ -73,14 +82,18 @@ PatchGrid::PatchGrid(int columns, int rows, const Corners& corners, double fract
     throw std::invalid_argument("a chart of " + std::to_string(columns) + " x " +
       std::to_string(rows) + " patches; expected 1 to 1000 columns and rows");
   }
-  if (!(fraction > 0.0 && fraction <= 1.0))
-  {
-    throw std::invalid_argument(
-      "the patch fraction is " + std::to_string(fraction) + "; expected more than 0, at most 1");
-  }
+  requireFraction(fraction);
   requireConvex(corners);
   const Eigen::Vector3d cells(columns, rows, 1.0);
   ToChart = cells.asDiagonal() * squareToCorners(corners).inverse();
+}
+
+PatchGrid PatchGrid::withFraction(double fraction) const
+{
+  requireFraction(fraction);
+  PatchGrid other(*this);
+  other.Fraction = fraction;
+  return other;
 }
 
 int PatchGrid::labelAt(double x, double y) const noexcept

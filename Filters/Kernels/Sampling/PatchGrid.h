@@ -26,6 +26,9 @@ public:
   PatchGrid(int columns, int rows, const Corners& corners, double fraction = 0.5);
 
   int patches() const noexcept { return Columns * Rows; }
+  double fraction() const noexcept { return Fraction; }
+  // The same chart with another part of each cell.
+  PatchGrid withFraction(double fraction) const;
   // The number of the patch, or 0 between and outside patches.
   int labelAt(double x, double y) const noexcept;
 

@@ -3,6 +3,7 @@
 #define SpectralPreview_h
 
 #include "Formats/SpectralImageFile.h"
+#include "Kernels/Colorimetry/SpectralPicture.h"
 
 #include <Eigen/Core>
 
@@ -11,11 +12,9 @@
 namespace msi
 {
 
-// Colors of the pixels of one image, which depend on the pixel and the file alone.
+// Colors of the pixels of one image (Kernels/Colorimetry/SpectralPicture.h), which depend on the pixel and the file
+// alone.
 //
-// Where the bands reach over the visible spectrum: sRGB under D65 (CIE 1931 2 degree observer), values taken as
-// reflectance. Elsewhere the bands that the file wants to be shown, else the longest, the middle and the shortest
-// wavelength as red, green and blue; one or two bands as gray.
 // White: 1 where the file holds reflectance, else the 99th percentile of the largest value of each pixel over some rows
 // spread over the image.
 class SpectralPreview
@@ -27,9 +26,12 @@ public:
   void apply(const float* pixels, Eigen::Index count, unsigned char* rgb) const noexcept;
   // What the colors are, one remark.
   const std::string& description() const noexcept { return Description; }
+  // The value that is shown as white.
+  double white() const noexcept { return White; }
 
 private:
-  Eigen::Matrix3Xf Weights; // to linear sRGB
+  SpectralPicture Picture;
+  double White = 1.0;
   std::string Description;
 };
 

@@ -1,6 +1,7 @@
 #include "vtkSpectralImageReader.h"
 
 #include "AlgorithmSupport.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 #include "SpectralPreview.h"
 
@@ -15,6 +16,7 @@
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
+#include "Formats/FileKind.h"
 #include "Formats/ImageSelection.h"
 #include "Formats/SpectralImageFile.h"
 
@@ -273,4 +275,10 @@ void vtkSpectralImageReader::AddPreview(vtkImageData* image, vtkFloatArray* spec
     [&](vtkIdType begin, vtkIdType end)
     { this->Picture->apply(in + begin * bands, end - begin, out + 3 * begin); });
   msi::replaceArray(image, nullptr, picture);
+  msi::setPictureWhite(image, this->Picture->white());
+}
+
+int vtkSpectralImageReader::CanReadFile(const char* name)
+{
+  return name && msi::fileKind(name) == msi::FileKind::SpectralImage ? 1 : 0;
 }

@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "SampleColumns.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 #include "TransformTable.h"
 
@@ -117,6 +118,7 @@ vtkReflectanceEstimation::vtkReflectanceEstimation()
 void vtkReflectanceEstimation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preview: " << this->Preview << "\n";
   os << indent << "ResponseArray: " << this->ResponseArray << "\n"
      << indent << "Uncertainty: " << this->Uncertainty << "\n";
 }
@@ -194,6 +196,12 @@ int vtkReflectanceEstimation::RequestData(
       {
         estimateImage<vtkFloatArray>(
           this, estimator, responses, uncertainty && this->Uncertainty == 2, output);
+      }
+      // The picture of the responses is not one of the reflectance.
+      msi::removePicture(output);
+      if (this->Preview)
+      {
+        msi::setPicture(this, output, output->GetPointData()->GetScalars());
       }
     });
 }

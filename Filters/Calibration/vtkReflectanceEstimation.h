@@ -44,6 +44,16 @@ public:
   vtkGetMacro(Uncertainty, int);
   ///@}
 
+  ///@{
+  /**
+   * Add the point array "sRGB" (3 bytes a pixel), the colors that a view shows at first: sRGB under D65 where the
+   * bands reach over the visible spectrum. Default on.
+   */
+  vtkSetMacro(Preview, bool);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
 protected:
   vtkReflectanceEstimation();
   ~vtkReflectanceEstimation() override = default;
@@ -60,6 +70,8 @@ private:
 
   std::string ResponseArray;
   int Uncertainty = 0;
+
+  bool Preview = true;
 };
 
 #endif

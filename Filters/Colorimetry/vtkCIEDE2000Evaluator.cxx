@@ -5,6 +5,7 @@
 #include "ErrorStatisticsReduction.h"
 #include "ErrorSummaryTable.h"
 #include "ImageBlocks.h"
+#include "ImagePicture.h"
 #include "ImagePieces.h"
 #include "NameList.h"
 #include "SampleColumns.h"
@@ -245,6 +246,7 @@ int vtkCIEDE2000Evaluator::RequestData(
             estimate, reference, errors);
         });
       output->ShallowCopy(image);
+      msi::removePicture(output);
       for (const auto& array : errors)
       {
         output->GetPointData()->AddArray(array);

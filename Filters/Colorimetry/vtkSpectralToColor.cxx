@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "SampleColumns.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkFloatArray.h"
@@ -204,6 +205,7 @@ vtkIdType vtkSpectralToColor::ColorImage(vtkImageData* image, vtkImageData* outp
       }
       clipped += clippedHere;
     });
+  msi::removePicture(output);
   msi::replaceArray(output, nullptr, srgb);
   return clipped;
 }

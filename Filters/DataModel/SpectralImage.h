@@ -23,6 +23,8 @@ inline constexpr const char* ResponsesArray = "Responses";
 inline constexpr const char* UncertaintyArray = "Uncertainty";
 inline constexpr const char* LabelArray = "Label";
 inline constexpr const char* PictureArray = "sRGB"; // 3 bytes a pixel, for views
+// Field data: the value of the spectra that the picture shows as white; 1 where it is missing.
+inline constexpr const char* PictureWhiteArray = "PictureWhite";
 inline constexpr const char* WavelengthArray = "Wavelength";
 inline constexpr const char* FwhmArray = "FWHM"; // field data: nm, one value per component
 inline constexpr const char* GoodBandsArray =

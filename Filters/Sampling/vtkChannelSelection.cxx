@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "SampleColumns.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkDataArray.h"
@@ -66,6 +67,7 @@ vtkChannelSelection::vtkChannelSelection()
 void vtkChannelSelection::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preview: " << this->Preview << "\n";
   os << indent << "Channels:";
   for (const int channel : this->Channels)
   {
@@ -159,5 +161,10 @@ int vtkChannelSelection::RequestData(
         addChosen(output, image->GetFieldData()->GetArray(name), axis.size(), chosen);
       }
       msi::replaceArray(output, array, cut);
+      output->GetPointData()->RemoveArray(msi::PictureArray);
+      if (this->Preview)
+      {
+        msi::setPicture(this, output, cut);
+      }
     });
 }

@@ -28,6 +28,16 @@ public:
   void ClearChannels();
   ///@}
 
+  ///@{
+  /**
+   * Add the point array "sRGB" (3 bytes a pixel), the colors that a view shows at first: sRGB under D65 where the
+   * bands reach over the visible spectrum. Default on.
+   */
+  vtkSetMacro(Preview, bool);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
 protected:
   vtkChannelSelection();
   ~vtkChannelSelection() override = default;
@@ -44,6 +54,8 @@ private:
   std::vector<std::size_t> Chosen(std::size_t channels) const;
 
   std::vector<int> Channels;
+
+  bool Preview = true;
 };
 
 #endif

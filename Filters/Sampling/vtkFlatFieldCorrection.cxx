@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "ImagePieces.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkFloatArray.h"
@@ -152,6 +153,7 @@ vtkFlatFieldCorrection::vtkFlatFieldCorrection()
 void vtkFlatFieldCorrection::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preview: " << this->Preview << "\n";
   os << indent << "WhiteReflectance: " << this->WhiteReflectance << "\n"
      << indent << "WhiteLevel: " << this->WhiteLevel << "\n"
      << indent << "ExposureTimes:";
@@ -313,6 +315,11 @@ int vtkFlatFieldCorrection::RequestData(
       const auto axis = msi::axisOf(rawImage, rawArray);
       msi::nameComponents(responses, axis);
       msi::replaceArray(output, rawArray, responses);
+      msi::removePicture(output);
+      if (this->Preview)
+      {
+        msi::setPicture(this, output, responses);
+      }
       if (flags)
       {
         msi::nameComponents(mask, axis);

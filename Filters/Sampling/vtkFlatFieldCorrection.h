@@ -84,6 +84,16 @@ public:
   vtkGetMacro(SaturatedCount, vtkIdType);
   ///@}
 
+  ///@{
+  /**
+   * Add the point array "sRGB" (3 bytes a pixel), the colors that a view shows at first: sRGB under D65 where the
+   * bands reach over the visible spectrum. Default on.
+   */
+  vtkSetMacro(Preview, bool);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
 protected:
   vtkFlatFieldCorrection();
   ~vtkFlatFieldCorrection() override = default;
@@ -108,6 +118,8 @@ private:
   bool ComputeMask = false;
   vtkIdType DeadCount = 0;
   vtkIdType SaturatedCount = 0;
+
+  bool Preview = true;
 };
 
 #endif

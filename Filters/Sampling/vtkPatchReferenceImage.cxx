@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "SampleColumns.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkFloatArray.h"
@@ -61,6 +62,7 @@ vtkPatchReferenceImage::vtkPatchReferenceImage()
 void vtkPatchReferenceImage::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preview: " << this->Preview << "\n";
 }
 
 int vtkPatchReferenceImage::FillInputPortInformation(int port, vtkInformation* info)
@@ -117,5 +119,9 @@ int vtkPatchReferenceImage::RequestData(
         });
       msi::setAxis(output, reflectance, measured.axis);
       output->GetPointData()->SetScalars(reflectance);
+      if (this->Preview)
+      {
+        msi::setPicture(this, output, reflectance);
+      }
     });
 }

@@ -20,6 +20,16 @@ public:
   vtkTypeMacro(vtkPatchReferenceImage, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  ///@{
+  /**
+   * Add the point array "sRGB" (3 bytes a pixel), the colors that a view shows at first: sRGB under D65 where the
+   * bands reach over the visible spectrum. Default on.
+   */
+  vtkSetMacro(Preview, bool);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
 protected:
   vtkPatchReferenceImage();
   ~vtkPatchReferenceImage() override = default;
@@ -33,6 +43,8 @@ protected:
 private:
   vtkPatchReferenceImage(const vtkPatchReferenceImage&) = delete;
   void operator=(const vtkPatchReferenceImage&) = delete;
+
+  bool Preview = true;
 };
 
 #endif

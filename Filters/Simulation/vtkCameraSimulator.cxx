@@ -6,6 +6,7 @@
 #include "NameList.h"
 #include "SampleColumns.h"
 #include "SceneTable.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkImageData.h"
@@ -74,6 +75,7 @@ vtkCameraSimulator::~vtkCameraSimulator() = default;
 void vtkCameraSimulator::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preview: " << this->Preview << "\n";
   os << indent << "Effects: " << this->Effects << "\n"
      << indent << "EffectList: " << this->EffectList << "\n"
      << indent << "EffectFile: " << this->EffectFile << "\n"
@@ -205,6 +207,11 @@ void vtkCameraSimulator::SimulateTable(const Work& work, vtkTable* input, vtkTab
   }
   msi::setSpectra(output, msi::SampleQuantity::Response, msi::channelsOf(work.camera), response);
   msi::setWhiteLevel(output, work.whiteLevel);
+  msi::removePicture(output);
+  if (this->Preview)
+  {
+    msi::setPicture(this, output, output->GetPointData()->GetScalars());
+  }
 }
 
 bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* information,

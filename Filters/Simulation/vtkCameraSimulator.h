@@ -173,6 +173,16 @@ public:
   vtkGetCharFromStdStringMacro(MediumArray);
   ///@}
 
+  ///@{
+  /**
+   * Add the point array "sRGB" (3 bytes a pixel), the colors that a view shows at first: sRGB under D65 where the
+   * bands reach over the visible spectrum. Default on.
+   */
+  vtkSetMacro(Preview, bool);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
 protected:
   vtkCameraSimulator();
   ~vtkCameraSimulator() override;
@@ -214,6 +224,8 @@ private:
   // Of the last execution, and so most likely of the next: pixels around the extent wanted, or the whole image.
   int Margin = 0;
   bool WholeImage = false;
+
+  bool Preview = true;
 };
 
 #endif

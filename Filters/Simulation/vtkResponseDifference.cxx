@@ -3,6 +3,7 @@
 #include "AlgorithmSupport.h"
 #include "ImagePieces.h"
 #include "SampleColumns.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkFloatArray.h"
@@ -187,4 +188,5 @@ void vtkResponseDifference::CompareImages(
     });
   msi::setAxis(output, difference, msi::axisOf(real, array));
   msi::replaceArray(output, array, difference);
+  msi::removePicture(output);
 }

@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "SampleColumns.h"
+#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkFloatArray.h"
@@ -131,6 +132,7 @@ vtkSyntheticScene::vtkSyntheticScene()
 void vtkSyntheticScene::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preview: " << this->Preview << "\n";
   os << indent << "Subject: " << this->Subject << "\n"
      << indent << "Size: " << this->Size[0] << ", " << this->Size[1] << "\n"
      << indent << "Wavelengths: " << this->Wavelengths[0] << ", " << this->Wavelengths[1] << ", "
@@ -183,7 +185,12 @@ int vtkSyntheticScene::RequestData(
       if (request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()) != 1)
       {
         const int* extent = outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT());
-        draw(this, scene, extent, vtkImageData::GetData(outputs, 0));
+        auto* output = vtkImageData::GetData(outputs, 0);
+        draw(this, scene, extent, output);
+        if (this->Preview)
+        {
+          msi::setPicture(this, output, output->GetPointData()->GetScalars());
+        }
       }
     });
 }

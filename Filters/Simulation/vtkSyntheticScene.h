@@ -83,6 +83,16 @@ public:
   vtkGetMacro(YarnWidth, double);
   ///@}
 
+  ///@{
+  /**
+   * Add the point array "sRGB" (3 bytes a pixel), the colors that a view shows at first: sRGB under D65 where the
+   * bands reach over the visible spectrum. Default on.
+   */
+  vtkSetMacro(Preview, bool);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
 protected:
   vtkSyntheticScene();
   ~vtkSyntheticScene() override = default;
@@ -104,6 +114,8 @@ private:
   double Texture = 1.0;
   double Interreflection = 0.16;
   double YarnWidth = 4.4;
+
+  bool Preview = true;
 };
 
 #endif

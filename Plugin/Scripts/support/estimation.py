@@ -38,7 +38,7 @@ def flat_field(image, white, dark):
         frames["White"] = white
     if dark is not None:
         frames["Dark"] = dark
-    return pipeline.create("FlatFieldCorrection", Input=image, **frames)
+    return pipeline.create("FlatFieldCorrection", Input=image, Preview=0, **frames)
 
 
 def stride_of_pictures(image):
@@ -68,7 +68,7 @@ def estimate(image, transforms, folder):
     for name, source in transforms.items():
         words = "".join("-" + c.lower() if c.isupper() else c for c in name).lstrip("-")
         pipeline.save_table(source, os.path.join(folder, f"{words}.csv"))
-    return pipeline.create("ReflectanceEstimation", Input=image, **transforms)
+    return pipeline.create("ReflectanceEstimation", Input=image, Preview=0, **transforms)
 
 
 def save_view(reflectance, folder):
@@ -84,7 +84,7 @@ def save_reflectance(reflectance, folder):
 
 
 def error_maps(reflectance, labels, held_out):
-    reference = pipeline.create("PatchReferenceImage", Input=labels, PatchTable=held_out)
+    reference = pipeline.create("PatchReferenceImage", Input=labels, PatchTable=held_out, Preview=0)
     return pipeline.create("CIEDE2000Evaluator", Input=reflectance, Reference=reference)
 
 

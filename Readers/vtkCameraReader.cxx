@@ -7,6 +7,7 @@
 #include "vtkTable.h"
 
 #include "Formats/CameraDescription.h"
+#include "Formats/FileKind.h"
 
 #include <stdexcept>
 
@@ -50,4 +51,9 @@ int vtkCameraReader::RequestData(
         this->Notes += (this->Notes.empty() ? "" : "\n") + note;
       }
     });
+}
+
+int vtkCameraReader::CanReadFile(const char* name)
+{
+  return name && msi::fileKind(name) == msi::FileKind::Camera ? 1 : 0;
 }

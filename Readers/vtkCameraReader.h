@@ -34,6 +34,11 @@ public:
    */
   vtkGetCharFromStdStringMacro(Notes);
 
+  /**
+   * Whether the content of the file is what this reader reads; ParaView asks before it opens a file.
+   */
+  virtual int CanReadFile(const char* name);
+
 protected:
   vtkCameraReader();
   ~vtkCameraReader() override = default;

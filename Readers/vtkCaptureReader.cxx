@@ -12,6 +12,7 @@
 #include "vtkTable.h"
 
 #include "Formats/Capture.h"
+#include "Formats/FileKind.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -137,4 +138,9 @@ int vtkCaptureReader::RequestData(
         samples->GetFieldData()->AddArray(notes);
       }
     });
+}
+
+int vtkCaptureReader::CanReadFile(const char* name)
+{
+  return name && msi::fileKind(name) == msi::FileKind::Capture ? 1 : 0;
 }

@@ -10,6 +10,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 
+#include "Formats/FileKind.h"
 #include "Formats/LabelImage.h"
 
 #include <stdexcept>
@@ -98,4 +99,9 @@ int vtkLabelImageReader::RequestData(
         labels->GetPointer((extent[3] - extent[2]) * width), -width);
       output->GetPointData()->SetScalars(labels);
     });
+}
+
+int vtkLabelImageReader::CanReadFile(const char* name)
+{
+  return name && msi::fileKind(name) == msi::FileKind::LabelImage ? 1 : 0;
 }

@@ -43,6 +43,11 @@ public:
   vtkGetVector2Macro(Stride, int);
   ///@}
 
+  /**
+   * Whether the content of the file is what this reader reads; ParaView asks before it opens a file.
+   */
+  virtual int CanReadFile(const char* name);
+
 protected:
   vtkLabelImageReader();
   ~vtkLabelImageReader() override;

@@ -9,6 +9,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include "Formats/FileKind.h"
 #include "Formats/SampleTable.h"
 
 #include <stdexcept>
@@ -63,4 +64,9 @@ int vtkSampleTableReader::RequestData(
         output->GetFieldData()->AddArray(notes);
       }
     });
+}
+
+int vtkSampleTableReader::CanReadFile(const char* name)
+{
+  return name && msi::fileKind(name) == msi::FileKind::SampleTable ? 1 : 0;
 }

@@ -1,9 +1,9 @@
 /**
  * @class   vtkSMSpectralImageInitializationHelper
- * @brief   Shows the colors of a spectral image as they are
+ * @brief   Chooses what a view shows of a spectral image at first
  *
- * ParaView maps every array to colors by a color map, an array of colors too. This switches Map Scalars off
- * for the representations that name it in their hints.
+ * The picture "sRGB" where there is one, else the first map of color differences ("dE00 .."), else what ParaView
+ * chooses.
  */
 #ifndef vtkSMSpectralImageInitializationHelper_h
 #define vtkSMSpectralImageInitializationHelper_h

@@ -144,6 +144,24 @@ def save_image(source, path, **properties):
     save("SpectralImageWriter", source, path, **properties)
 
 
+def save_png(source, array, path):
+    """Writes one array of bytes or 16 bit numbers at the image's own size."""
+    from vtkmodules.vtkIOImage import vtkPNGWriter
+    image = whole(source)
+    if rank() != 0:
+        return
+    shown = image.NewInstance()
+    shown.ShallowCopy(image)
+    shown.GetPointData().SetActiveScalars(array)
+    writer = vtkPNGWriter()
+    writer.SetInputData(shown)
+    writer.SetFileName(path + ".part")
+    writer.Write()
+    if not os.path.isfile(path + ".part"):
+        raise Failure(f"{path}: cannot be written")
+    os.replace(path + ".part", path)
+
+
 def save_camera(source, path):
     """Writes a camera's description and curves through the plugin's writer."""
     save("CameraWriter", source, path)

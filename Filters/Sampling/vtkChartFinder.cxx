@@ -34,8 +34,8 @@ vtkStandardNewMacro(vtkChartFinder);
 
 namespace
 {
-constexpr const char* LabelColumn = "label";
-constexpr int MostPatches = 65535; // of labels in a file of 16 bits
+constexpr const char* ChartLabelColumn = "label";
+constexpr int MostChartPatches = 65535; // of labels in a file of 16 bits
 // From these shares on a patch is marked.
 constexpr double Clipped = 0.01;
 constexpr double Uneven = 0.02;
@@ -45,7 +45,7 @@ constexpr double Sloped = 0.1;
 std::vector<int> labelsOf(vtkTable* reference, int columns, int rows)
 {
   std::vector<int> labels;
-  if (auto* column = vtkDataArray::SafeDownCast(reference->GetColumnByName(LabelColumn)))
+  if (auto* column = vtkDataArray::SafeDownCast(reference->GetColumnByName(ChartLabelColumn)))
   {
     std::set<int> seen;
     for (vtkIdType row = 0; row < column->GetNumberOfTuples(); ++row)
@@ -220,7 +220,7 @@ void writePatches(vtkTable* reference, std::vector<int> labels,
   }
   const auto rows = static_cast<Eigen::Index>(labels.size());
   vtkNew<vtkIntArray> column;
-  column->SetName(LabelColumn);
+  column->SetName(ChartLabelColumn);
   vtkNew<vtkStringArray> notes;
   notes->SetName("note");
   Eigen::MatrixX3d shares(rows, 3);
@@ -232,7 +232,7 @@ void writePatches(vtkTable* reference, std::vector<int> labels,
     notes->InsertNextValue(noteOf(quality));
     shares.row(i) << quality.clipped, quality.outliers, quality.slope;
   }
-  output->RemoveColumnByName(LabelColumn);
+  output->RemoveColumnByName(ChartLabelColumn);
   output->AddColumn(column);
   const char* names[] = { "clipped", "outliers", "slope" };
   for (int i = 0; i < 3; ++i)
@@ -356,10 +356,10 @@ int vtkChartFinder::RequestData(
       const auto axis = msi::axisOf(image, array);
       const auto spectra = msi::asFloats(array);
       const int patches = this->GridColumns * this->GridRows;
-      if (patches > MostPatches)
+      if (patches > MostChartPatches)
       {
         throw std::invalid_argument("a chart of " + std::to_string(patches) +
-          " patches; expected at most " + std::to_string(MostPatches));
+          " patches; expected at most " + std::to_string(MostChartPatches));
       }
       int whole[6];
       image->GetExtent(whole);

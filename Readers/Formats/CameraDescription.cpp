@@ -77,11 +77,21 @@ void noteUnknownKeys(const std::string& path, const Json& json, std::vector<std:
   }
 }
 
-std::string curvesPath(const std::string& path, const std::optional<std::string>& name)
+// A description names its curves beside it or below it: one that came from elsewhere must not have other files read.
+std::string curvesPath(const JsonText& reader, const std::string& path, const Json& json)
 {
   const fs::path file(path);
-  return name ? (file.parent_path() / *name).string()
-              : fs::path(file).replace_extension(".csv").string();
+  const auto name = reader.text(json, "camera");
+  if (!name)
+  {
+    return fs::path(file).replace_extension(".csv").string();
+  }
+  const fs::path curves(*name);
+  const bool leaves = std::find(curves.begin(), curves.end(), "..") != curves.end();
+  reader.requireType(
+    !name->empty() && name->find('\0') == std::string::npos && !curves.is_absolute() && !leaves,
+    "camera", "the name of a file beside this one, or in a folder below");
+  return (file.parent_path() / curves).string();
 }
 
 CameraDescription parseDescription(const std::string& path, const std::string& text)
@@ -93,7 +103,7 @@ CameraDescription parseDescription(const std::string& path, const std::string& t
     throw FormatError(path, std::string("holds ") + json.type_name(),
       "an object with camera, dark, noise and effects", "see Formats.md");
   }
-  Curves curves = readCameraCurves(curvesPath(path, reader.text(json, "camera")));
+  Curves curves = readCameraCurves(curvesPath(reader, path, json));
   std::vector<std::string> notes = std::move(curves.notes);
   const Eigen::VectorXd dark = darkOf(reader, json, curves.names.size());
   CameraDescription description{ modelOf(std::move(curves), dark) };

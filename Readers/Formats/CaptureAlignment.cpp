@@ -3,6 +3,8 @@
 #include "Formats/FormatError.h"
 #include "Formats/Text/NumberText.h"
 
+#include "Kernels/Spectra/PossibleValues.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,8 +16,6 @@ namespace msi
 
 namespace
 {
-constexpr double LargestRelative = 2.0; // twice the perfect white
-
 // The place of each name in `order`; empty where the names differ.
 std::vector<Eigen::Index> placesIn(
   const std::vector<std::string>& names, const std::vector<std::string>& order)
@@ -34,15 +34,6 @@ std::vector<Eigen::Index> placesIn(
   return places;
 }
 
-// Of the channels' largest values, the median.
-double typicalLevel(const Eigen::MatrixXd& channels)
-{
-  Eigen::VectorXd largest = channels.cwiseAbs().rowwise().maxCoeff();
-  const auto middle = largest.begin() + largest.size() / 2;
-  std::nth_element(largest.begin(), middle, largest.end());
-  return *middle;
-}
-
 class Counts
 {
 public:
@@ -56,11 +47,11 @@ public:
   // 1, or what to divide by.
   double divisor(const char* file, const char* part, double level) const
   {
-    if (!(level > LargestRelative))
+    if (!(level > LargestRelativeLevel))
     {
       return 1.0;
     }
-    if (!WhiteLevel || *WhiteLevel <= LargestRelative)
+    if (!WhiteLevel || *WhiteLevel <= LargestRelativeLevel)
     {
       throw FormatError((std::filesystem::path(Folder) / file).string(),
         std::string(part) + " reach " + numberText(level) + ", which looks like counts",

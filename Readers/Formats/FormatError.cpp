@@ -1,5 +1,7 @@
 #include "Formats/FormatError.h"
 
+#include "Formats/Text/PrintableText.h"
+
 namespace msi
 {
 
@@ -26,7 +28,7 @@ std::string compose(const FilePlace& place, const std::string& what, const std::
   {
     text += "; " + remedy;
   }
-  return text;
+  return printable(text);
 }
 }
 

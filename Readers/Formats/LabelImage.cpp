@@ -18,6 +18,7 @@ LabelImageFile::LabelImageFile(const std::string& path, int strideX, int strideY
 {
   SpectralImageOptions options;
   options.integers = IntegerScaling::Raw;
+  options.labels = true;
   File = openSpectralImage(path, options);
   const SpectralImageInfo& info = File->info();
   if (info.bands() != 1)

@@ -7,6 +7,7 @@
 #include "Formats/Tables/CgatsTable.h"
 #include "Formats/Tables/CurveColumns.h"
 #include "Formats/Tables/CxfTable.h"
+#include "Formats/Tables/EnviLibrary.h"
 #include "Formats/Tables/NumberMatrices.h"
 #include "Formats/Tables/ReflectanceScale.h"
 #include "Formats/Tables/SampleColumns.h"
@@ -55,6 +56,10 @@ SampleTable readSampleTable(const std::string& path, const SampleTableOptions& o
   if (const auto arrays = openArrayFile(path))
   {
     return samplesFromArrays(*arrays, options);
+  }
+  if (auto library = readEnviLibrary(path, options.unit))
+  {
+    return std::move(*library);
   }
   const std::string text = readTextFile(path, Expected);
   if (looksLikeCgats(text))

@@ -105,7 +105,7 @@ void writeSampleTableCsv(const std::string& path, const SampleTable& table)
   {
     for (const MetadataColumn& column : table.metadata)
     {
-      cell(column.text[static_cast<std::size_t>(sample)]);
+      cell(withoutFormula(column.text[static_cast<std::size_t>(sample)]));
     }
     for (const Eigen::MatrixXd* matrix : { &table.reflectance, &table.responses })
     {

@@ -60,6 +60,8 @@ struct SpectralImageOptions
   IntegerScaling integers = IntegerScaling::UnitRange;
   // The variable of a MAT file or the dataset of an HDF5 file. Not given: the only cube in it.
   std::string variable;
+  // Numbers of classes or patches are wanted: an ENVI classification is one, too.
+  bool labels = false;
 };
 
 // An open spectral image. Nothing but the header is held in memory.

@@ -224,6 +224,38 @@ TEST_F(CameraDescriptions, DescriptionErrors)
   EXPECT_NE(cameraError("{\"camera\": \"none.csv\"}").find("none.csv"), std::string::npos);
 }
 
+TEST_F(CameraDescriptions, JsonThatWouldBeMisreadIsRefused)
+{
+  EXPECT_EQ(cameraError("{\"dark\": 0.1,\n \"dark\": 0.2}"),
+    "camera.json:2:2: the key 'dark' stands twice in one object; expected every key once; remove "
+    "one of them");
+  EXPECT_EQ(cameraError("{\"noise\": {\"read\": 1e-3, \"shot\": 0,\n \"read\": 2e-3}}"),
+    "camera.json:2:2: the key 'read' stands twice in one object; expected every key once; remove "
+    "one of them");
+  EXPECT_EQ(cameraError("{\"white_level\":\n 1e999}"),
+    "camera.json:2:2: the number 1e999 is too large; expected a number below 1.8e308; correct the "
+    "number");
+  // The same key in two objects is no fault.
+  EXPECT_EQ(cameraError(R"({"effects": [{"effect": "lag"}, {"effect": "lag"}]})"), "");
+}
+
+TEST_F(CameraDescriptions, CurvesAreThoseBesideOrBelowTheDescription)
+{
+  write("secret.txt", "root:x:0:0\n");
+  std::filesystem::create_directories(path("below"));
+  write("below/camera.csv", read("camera.csv"));
+  EXPECT_EQ(cameraError(R"({"camera": "below/camera.csv"})"), "");
+  const std::string refused =
+    "camera.json:1:2: 'camera' has a value that cannot be used; expected the name of a file "
+    "beside this one, or in a folder below; correct the value";
+  for (const std::string& name :
+    { std::string("../secret.txt"), std::string("below/../../camera.csv"),
+      std::string("/etc/passwd"), std::string(), std::string("camera.csv\\u0000.png") })
+  {
+    EXPECT_EQ(cameraError("{\"camera\": \"" + name + "\"}"), refused) << name;
+  }
+}
+
 TEST_F(CameraDescriptions, NothingIsWrittenForEffectsThatDoNotFit)
 {
   const msi::CameraDescription bad{ msi::readCameraDescription(path("camera.csv")).camera, 1.0,

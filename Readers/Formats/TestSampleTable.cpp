@@ -209,4 +209,21 @@ TEST_F(SampleTables, ReadsThePublishedTables)
     24);
 }
 
+TEST_F(SampleTables, CellsThatLookLikeFormulasAreMarkedAsTextAndComeBack)
+{
+  msi::SampleTable table;
+  const std::vector<std::string> names = { "=HYPERLINK(\"x\")", "+a", "-b", "@c", "'=d", "''=e",
+    "'plain", "-0.5", "plain" };
+  table.metadata.push_back({ "sample", names });
+  table.wavelengths = msi::WavelengthGrid({ 400 });
+  table.reflectance = Eigen::MatrixXd::Constant(1, static_cast<Eigen::Index>(names.size()), 0.5);
+  msi::writeSampleTableCsv(path("formulas.csv"), table);
+  const std::string text = read("formulas.csv");
+  for (const char* mark : { "\n=", "\n+", "\n-b", "\n@", "\n\"=" })
+  {
+    EXPECT_EQ(text.find(mark), std::string::npos) << mark;
+  }
+  EXPECT_EQ(readSampleTable(path("formulas.csv")).metadata[0].text, names);
+}
+
 } // namespace

@@ -120,6 +120,18 @@ const Case Cases[] = {
     "t.csv:2:1: this row has 1 cell; expected 2, as line 1 has; complete the row or remove it" },
   { "TextInMatrix", "0.1,0.2\n0.3,x\n",
     "t.csv:2:5: 'x' is no number; expected a number; fill in the value or remove the row" },
+  { "MissingMark", "sample,R400,R410\na,0.1,0.2\nb,-9999,0.2\n",
+    "t.csv:3:1: sample 'b' has a reflectance factor at 400 nm of -9999; expected -1 to 100, where "
+    "1 is the perfect "
+    "white; remove the sample if this marks a missing value" },
+  { "MissingMarkInPercent", "sample,R400,R410\na,10,20\nb,-1e9,20\n",
+    "t.csv:3:1: sample 'b' has a reflectance factor at 400 nm of -1e+07; expected -1 to 100, "
+    "where 1 is the perfect "
+    "white; remove the sample if this marks a missing value" },
+  { "MissingMarkInResponses", "sample,R400,C1,C2\na,0.1,0.2,0.3\nb,0.1,0.2,-9999\n",
+    "t.csv:3:1: sample 'b' has a response in channel C2 of -9999; expected -10 to 1000, as the "
+    "other responses are; "
+    "remove the sample if this marks a missing value" },
   { "CurveTwice", "wavelength,a\n400,1\n410,1\n400,1\n",
     "t.csv:4:1: wavelength 400 stands here a second time; expected each wavelength once; remove "
     "one "
@@ -132,6 +144,21 @@ INSTANTIATE_TEST_SUITE_P(Csv, SampleTableErrors, ::testing::ValuesIn(Cases),
 class SampleTableFileErrors : public msi::testing::TemporaryFolder
 {
 };
+
+TEST_F(SampleTableFileErrors, MoreColumnsThanAnySpectrumHas)
+{
+  std::string header = "sample";
+  std::string row = "a";
+  for (int i = 0; i < 70000; ++i)
+  {
+    header += ",C" + std::to_string(i + 1);
+    row += ",0.5";
+  }
+  const std::string message =
+    errorOf([&] { readSampleTable(write("t.csv", header + "\n" + row + "\n")); });
+  EXPECT_NE(message.find("the table has 70001 columns; expected at most 65536"), std::string::npos)
+    << message;
+}
 
 TEST_F(SampleTableFileErrors, MissingFile)
 {

@@ -1,6 +1,7 @@
 #include "Formats/Arrays/ArrayFile.h"
 
 #include "Formats/FormatError.h"
+#include "Formats/Storage/FileStamp.h"
 #include "Formats/Storage/WholeFile.h"
 
 #include <algorithm>
@@ -162,6 +163,7 @@ public:
       throw FormatError(path, "cannot be opened as an HDF5 file", "a complete HDF5 or MAT 7.3 file",
         "the file seems to be cut off or damaged");
     }
+    Stamp.emplace(descriptor());
     std::vector<std::string> names;
     H5Ovisit(File, H5_INDEX_NAME, H5_ITER_INC, &Hdf5File::onObject, &names);
     for (const std::string& name : names)
@@ -216,9 +218,20 @@ public:
       throw FormatError(Path, "dataset '" + array.name + "' cannot be read",
         "a complete HDF5 or MAT 7.3 file", "the file seems to be cut off or damaged");
     }
+    // What lies behind the end of a file the library reads as zeros.
+    Stamp->requireUnchanged(descriptor(), Path);
   }
 
 private:
+  // Of the one file that the default driver has open.
+  int descriptor() const
+  {
+    void* handle = nullptr;
+    return H5Fget_vfd_handle(File, H5P_DEFAULT, &handle) >= 0 && handle != nullptr
+      ? *static_cast<const int*>(handle)
+      : -1;
+  }
+
   // Compression comes as plugins, which this library may lack.
   void requireFilters(hid_t dataset, const std::string& name) const
   {
@@ -318,6 +331,7 @@ private:
   }
 
   Handle File;
+  std::optional<FileStamp> Stamp;
 };
 }
 

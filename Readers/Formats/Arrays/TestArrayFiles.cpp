@@ -238,6 +238,17 @@ TEST_P(ArrayFiles, ThreadsReadTheSameAsOne)
   EXPECT_EQ(first, expected);
 }
 
+TEST_P(ArrayFiles, CutOffAfterOpening)
+{
+  // Not compressed: HDF5 itself gives zeros for samples behind the end of the file.
+  constexpr std::size_t Side = 128;
+  MatWriter(path("a.mat"), GetParam(), MAT_COMPRESSION_NONE)
+    .add("cube", { Side, Side, 4 }, std::vector<unsigned short>(Side * Side * 4, 7));
+  const auto file = openSpectralImage(path("a.mat"));
+  std::filesystem::resize_file(path("a.mat"), std::filesystem::file_size(path("a.mat")) / 2);
+  EXPECT_NE(errorOf([&] { allOf(*file); }).find("the file "), std::string::npos);
+}
+
 INSTANTIATE_TEST_SUITE_P(Mat, ArrayFiles, ::testing::Values(MAT_FT_MAT5, MAT_FT_MAT73),
   [](const auto& tested) { return tested.param == MAT_FT_MAT5 ? "Level5" : "Hdf5"; });
 

@@ -15,8 +15,10 @@ namespace msi::testing
 class MatWriter
 {
 public:
-  MatWriter(const std::string& path, mat_ft version)
+  MatWriter(
+    const std::string& path, mat_ft version, matio_compression compression = MAT_COMPRESSION_ZLIB)
     : File(Mat_CreateVer(path.c_str(), nullptr, version), Mat_Close)
+    , Compression(compression)
   {
     if (!File)
     {
@@ -76,7 +78,7 @@ public:
         shape.data(), cube.data(), 0));
     Mat_VarSetStructFieldByName(structure.get(), fields[1], 0,
       Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, row.data(), vector.data(), 0));
-    if (Mat_VarWrite(File.get(), structure.get(), MAT_COMPRESSION_ZLIB) != 0)
+    if (Mat_VarWrite(File.get(), structure.get(), Compression) != 0)
     {
       throw std::runtime_error("cannot write structure " + name);
     }
@@ -91,13 +93,14 @@ private:
       Mat_VarCreate(
         name.c_str(), kind, type, static_cast<int>(shape.size()), shape.data(), data, flags),
       Mat_VarFree);
-    if (!variable || Mat_VarWrite(File.get(), variable.get(), MAT_COMPRESSION_ZLIB) != 0)
+    if (!variable || Mat_VarWrite(File.get(), variable.get(), Compression) != 0)
     {
       throw std::runtime_error("cannot write variable " + name);
     }
   }
 
   std::unique_ptr<mat_t, int (*)(mat_t*)> File;
+  matio_compression Compression;
 };
 
 } // namespace msi::testing

@@ -21,8 +21,8 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t BeginningSize = 16; // of UTF-16 too
-constexpr std::array<const char*, 8> DataExtensions = { ".img", ".dat", ".raw", ".bil", ".bsq",
-  ".bip", ".bin", ".cube" };
+constexpr std::array<const char*, 9> DataExtensions = { ".img", ".dat", ".raw", ".bil", ".bsq",
+  ".bip", ".bin", ".cube", ".sli" };
 
 bool isFile(const std::string& path)
 {
@@ -74,13 +74,13 @@ std::vector<std::string> filesNamed(const std::string& stem)
   return found;
 }
 
-// NAME.img for NAME.hdr or NAME.img.hdr; the first of the known names that exists, else the only file of that name.
-std::string dataFileOf(const std::string& header)
+// NAME.img for NAME.hdr or NAME.img.hdr; the first of the known names that exists, else all files of that name.
+std::vector<std::string> dataFilesOf(const std::string& header)
 {
-  std::string stem = withoutExtension(header);
+  const std::string stem = withoutExtension(header);
   if (isFile(stem))
   {
-    return stem;
+    return { stem };
   }
   for (const char* extension : DataExtensions)
   {
@@ -93,21 +93,38 @@ std::string dataFileOf(const std::string& header)
     {
       if (isFile(candidate))
       {
-        return candidate;
+        return { candidate };
       }
     }
   }
-  const auto others = filesNamed(stem);
-  if (others.size() == 1)
+  return filesNamed(stem);
+}
+
+std::string dataFileOf(const std::string& header)
+{
+  const auto found = dataFilesOf(header);
+  if (found.size() == 1)
   {
-    return others.front();
+    return found.front();
   }
-  const std::string name = fs::path(stem).filename().string();
+  const std::string name = fs::path(header).stem().string();
   throw FormatError(header,
-    others.empty() ? "has no data file beside it"
-                   : "has several files beside it that may be its data",
+    found.empty() ? "has no data file beside it"
+                  : "has several files beside it that may be its data",
     name + " or " + name + " with .img, .dat, .raw, .bil, .bsq, .bip, .bin or .cube",
-    others.empty() ? "put the data file beside the header" : "open the data file instead");
+    found.empty() ? "put the data file beside the header" : "open the data file instead");
+}
+
+// A picture, text or table that shares its name with an image must not be read as its samples: 'path' is data if the
+// header is named after the whole of it, or it is named as data are, or the header itself would find it.
+bool mayBeDataOf(const std::string& header, const std::string& path)
+{
+  if (withoutExtension(header) == path || hasDataExtension(path) || !fs::path(path).has_extension())
+  {
+    return true;
+  }
+  const auto found = dataFilesOf(header);
+  return std::find(found.begin(), found.end(), path) != found.end();
 }
 }
 
@@ -127,7 +144,8 @@ std::optional<EnviFiles> findEnviFiles(const std::string& path)
     for (const char* extension : { ".hdr", ".HDR", ".Hdr" })
     {
       const std::string candidate = stem + extension;
-      if (candidate != path && isFile(candidate) && isHeader(candidate))
+      if (candidate != path && isFile(candidate) && isHeader(candidate) &&
+        mayBeDataOf(candidate, path))
       {
         return EnviFiles{ candidate, path };
       }

@@ -46,9 +46,10 @@ constexpr std::array<std::pair<Interleave, const char*>, 3> Interleaves = { {
 class EnviHeaderReader
 {
 public:
-  EnviHeaderReader(const std::string& file, const std::string& text, bool ownWavelengths)
+  EnviHeaderReader(
+    const std::string& file, const std::string& text, const EnviHeaderOptions& options)
     : Text(file, text)
-    , OwnWavelengths(ownWavelengths)
+    , Options(options)
   {
   }
 
@@ -57,7 +58,7 @@ public:
     refuseOtherFiles();
     readLayout();
     readBandNames();
-    if (OwnWavelengths)
+    if (Options.ownWavelengths)
     {
       readEnviWavelengths(Text, Header.info);
     }
@@ -83,11 +84,21 @@ private:
     if (const auto kind = Text.find("file type"))
     {
       const std::string lower = lowerCase(*kind);
-      if (lower.find("spectral library") != std::string::npos ||
-        lower.find("classification") != std::string::npos)
+      const bool library = lower.find("spectral library") != std::string::npos;
+      const bool classification = lower.find("classification") != std::string::npos;
+      if (Options.library && !library)
+      {
+        Text.refuse("file type", "is '" + *kind + "'", "'ENVI Spectral Library'", "name a library");
+      }
+      if (library && !Options.library)
       {
         Text.refuse("file type", "is '" + *kind + "'", "'ENVI Standard', an image of samples",
-          "name an image");
+          "read it as a sample table, or name an image");
+      }
+      if (classification && !Options.classification)
+      {
+        Text.refuse("file type", "is '" + *kind + "'", "'ENVI Standard', an image of samples",
+          "read it as a label image, or name an image");
       }
       Header.info.metadata.emplace("file type", *kind);
     }
@@ -133,6 +144,10 @@ private:
       Text.refuse("interleave", "is '" + interleave + "'", "bsq, bil or bip");
     }
     Header.interleave = known->first;
+    if (Options.library)
+    {
+      takeSpectraAsColumns();
+    }
 
     const auto order = Text.findInteger("byte order", 0);
     if (order && *order > 1)
@@ -145,6 +160,20 @@ private:
     }
     Header.byteOrder = order.value_or(0) == 1 ? ByteOrder::Big : ByteOrder::Little;
     requireAddressable();
+  }
+
+  // One spectrum a line: the samples of a line are its bands.
+  void takeSpectraAsColumns()
+  {
+    if (Header.info.bands() != 1)
+    {
+      Text.refuse("bands", "is " + std::to_string(Header.info.bands()),
+        "1: a library has one spectrum in each line");
+    }
+    Header.info.bandNames.assign(static_cast<std::size_t>(Header.info.width), {});
+    Header.info.width = Header.info.height;
+    Header.info.height = 1;
+    Header.interleave = Interleave::BIP;
   }
 
   int size(const char* key, std::int64_t most)
@@ -240,7 +269,7 @@ private:
   }
 
   EnviHeaderText Text;
-  bool OwnWavelengths;
+  EnviHeaderOptions Options;
   EnviHeader Header;
 };
 }
@@ -265,9 +294,10 @@ bool looksLikeEnviHeader(std::string_view beginning) noexcept
       std::string_view(" \t\r\n").find(beginning[4]) != std::string_view::npos);
 }
 
-EnviHeader parseEnviHeader(const std::string& file, const std::string& text, bool ownWavelengths)
+EnviHeader parseEnviHeader(
+  const std::string& file, const std::string& text, const EnviHeaderOptions& options)
 {
-  return EnviHeaderReader(file, text, ownWavelengths).read();
+  return EnviHeaderReader(file, text, options).read();
 }
 
 } // namespace msi

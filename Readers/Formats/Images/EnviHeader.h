@@ -35,14 +35,24 @@ inline constexpr std::size_t EnviChunkBytes = 1 << 20;
 // True for a text that begins with the word ENVI or envi.
 bool looksLikeEnviHeader(std::string_view beginning) noexcept;
 
+struct EnviHeaderOptions
+{
+  // False: the wavelengths and bandwidths of the header are left unread, as others are given.
+  bool ownWavelengths = true;
+  // True: a classification is read, whose samples are numbers of classes.
+  bool classification = false;
+  // True: a spectral library is read, as an image of one row with a column per spectrum.
+  bool library = false;
+};
+
 // Keys in upper or lower case with any spacing; values in braces over several lines; comments with ;
 // Wavelengths in nm, um, mm, cm, m, Angstrom, as wavenumber or frequency become nm. Without units they are nm from
 // 100 up, and um below 100 unless all are whole numbers. Without the key 'wavelength' they may stand in the names of
-// all bands. ownWavelengths false: they and the bandwidths are left unread, as others are given.
-// Errors: FormatError naming line and key: a missing key, a value that is none, complex or unknown data
+// all bands.
+// Errors: FormatError naming line and key: a file of another type, a missing key, a value that is none, complex or unknown data
 //         types, lists whose length is not the number of bands, compressed files, frame offsets.
 EnviHeader parseEnviHeader(
-  const std::string& file, const std::string& text, bool ownWavelengths = true);
+  const std::string& file, const std::string& text, const EnviHeaderOptions& options = {});
 
 // The text for a header. Errors: std::invalid_argument for Int8, which ENVI does not have.
 std::string enviHeaderText(const EnviHeader& header);

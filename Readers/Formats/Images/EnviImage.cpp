@@ -220,11 +220,26 @@ void checkSize(EnviHeader& header, const EnviFiles& files)
 std::unique_ptr<SpectralImageFile> openEnviImage(
   const EnviFiles& files, const SpectralImageOptions& options)
 {
-  EnviHeader header = parseEnviHeader(
-    files.header, readTextFile(files.header, "an ENVI header"), options.wavelengths.empty());
+  EnviHeaderOptions headerOptions;
+  headerOptions.ownWavelengths = options.wavelengths.empty();
+  headerOptions.classification = options.labels;
+  EnviHeader header =
+    parseEnviHeader(files.header, readTextFile(files.header, "an ENVI header"), headerOptions);
   checkSize(header, files);
   header.info.format = "ENVI";
   takeGivenWavelengths(header.info, options.wavelengths, files.header);
+  std::vector<int> order = sortByWavelength(header.info);
+  return std::make_unique<EnviImage>(std::move(header), files.data, std::move(order));
+}
+
+std::unique_ptr<SpectralImageFile> openEnviLibrary(const EnviFiles& files)
+{
+  EnviHeaderOptions headerOptions;
+  headerOptions.library = true;
+  EnviHeader header =
+    parseEnviHeader(files.header, readTextFile(files.header, "an ENVI header"), headerOptions);
+  checkSize(header, files);
+  header.info.format = "ENVI Spectral Library";
   std::vector<int> order = sortByWavelength(header.info);
   return std::make_unique<EnviImage>(std::move(header), files.data, std::move(order));
 }

@@ -17,7 +17,7 @@ struct EnviFiles
 };
 
 // Opened by its header or its data file. The other one has the same name with .hdr, or with or without
-// .img .dat .raw .bil .bsq .bip .bin .cube (upper or lower case), or .hdr behind the whole name; else the data file
+// .img .dat .raw .bil .bsq .bip .bin .cube .sli (upper or lower case), or .hdr behind the whole name; else the data file
 // is the only other file of that name.
 // Nothing where 'path' is neither a header nor has one beside it.
 std::optional<EnviFiles> findEnviFiles(const std::string& path);
@@ -33,5 +33,9 @@ EnviFiles enviFilesToWrite(const std::string& path);
 // sizes. A larger data file is noted with both sizes.
 std::unique_ptr<SpectralImageFile> openEnviImage(
   const EnviFiles& files, const SpectralImageOptions& options);
+
+// A spectral library as an image of one row: a column per spectrum, a band per wavelength. The names of the spectra are
+// the metadata "spectra names". Errors as of openEnviImage.
+std::unique_ptr<SpectralImageFile> openEnviLibrary(const EnviFiles& files);
 
 } // namespace msi

@@ -80,6 +80,14 @@ public:
       takeBandNames();
       return;
     }
+    const auto odd = std::find_if_not(stored->begin(), stored->end(),
+      [](double value) { return value > 0.0 && value < std::numeric_limits<double>::infinity(); });
+    if (odd != stored->end())
+    {
+      note("the wavelengths were forgotten: that of band " +
+        std::to_string(odd - stored->begin() + 1) + " is " + numberText(*odd));
+      return;
+    }
     const auto found = unitOf(unit, *stored);
     if (!found)
     {
@@ -88,7 +96,6 @@ public:
     for (std::size_t b = 0; b < stored->size(); ++b)
     {
       const double value = (*stored)[b];
-      requirePositive(b, value);
       const double nm = found->reciprocal ? found->factor / value : value * found->factor;
       Info.wavelengths.push_back(
         !found->reciprocal && found->factor == 1.0 ? nm : withoutConversionNoise(nm));
@@ -106,15 +113,6 @@ public:
 
 private:
   void note(std::string text) { Info.notes.push_back(std::move(text)); }
-
-  void requirePositive(std::size_t band, double value) const
-  {
-    if (!(value > 0.0 && value < std::numeric_limits<double>::infinity()))
-    {
-      Header.refuse("wavelength",
-        "is " + numberText(value) + " for band " + std::to_string(band + 1), "a positive number");
-    }
-  }
 
   void takeBandNames()
   {

@@ -1,11 +1,14 @@
 #include "Formats/Images/OpenedImage.h"
 
 #include "Formats/FormatError.h"
+#include "Formats/Storage/AvailableMemory.h"
 #include "Formats/Storage/WholeFile.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace msi
@@ -47,6 +50,11 @@ std::optional<SampleType> sampleTypeOf(const OIIO::TypeDesc& type)
   }
 }
 
+std::string pixelsText(const OIIO::ImageSpec& spec)
+{
+  return std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels";
+}
+
 // OpenImageIO's texts run over several lines.
 std::string oneLine(std::string text)
 {
@@ -65,6 +73,15 @@ bool mustReadRowByRow(const char* format, const OIIO::ImageSpec& spec)
     spec.get_string_attribute("planarconfig", "contig") == "contig" &&
     (spec.format.basetype == OIIO::TypeDesc::UINT8 ||
       spec.format.basetype == OIIO::TypeDesc::UINT16);
+}
+
+// Bytes that the library holds to give any one row: a strip of TIFF, a row of tiles, all of an interlaced PNG.
+double decodedAtOnce(const OIIO::ImageSpec& spec)
+{
+  const int strip = spec.get_int_attribute("tiff:RowsPerStrip", 1);
+  const bool interlaced = spec.get_int_attribute("png:interlace", 0) != 0;
+  const int rows = interlaced ? spec.height : std::max({ 1, spec.tile_height, strip });
+  return static_cast<double>(spec.scanline_bytes(true)) * std::min(rows, spec.height);
 }
 
 // The same for tiles, which it inflates itself only where it may use its threads.
@@ -123,8 +140,26 @@ void OpenedImage::addPage(OIIO::ImageSpec spec)
     throw FormatError(Path, page + " has samples of type " + spec.format.c_str(),
       "integers or floating point numbers", "convert the file");
   }
+  requirePossibleSize(spec, page);
   Pages.push_back(std::move(spec));
   Types.push_back(*type);
+}
+
+// A header may ask for any size: samples that are not compressed have to be in the file.
+void OpenedImage::requirePossibleSize(const OIIO::ImageSpec& spec, const std::string& page) const
+{
+  std::error_code unknown;
+  const auto held = std::filesystem::file_size(Path, unknown);
+  const bool plain = std::string(formatName()) == "tiff" &&
+    spec.get_string_attribute("compression", "none") == "none";
+  const double asked = static_cast<double>(spec.image_bytes(true));
+  if (!unknown && plain && static_cast<double>(held) < asked)
+  {
+    throw FormatError(Path,
+      page + " is " + pixelsText(spec) + " of " + memoryText(asked) + ", the file holds " +
+        memoryText(static_cast<double>(held)),
+      "a complete image", "the file seems to be cut off or damaged; copy it again");
+  }
 }
 
 void OpenedImage::read(
@@ -143,6 +178,8 @@ void OpenedImage::read(
     last = std::min((y1 + spec.tile_height - 1) / spec.tile_height * spec.tile_height, spec.height);
   }
   bytes.resize(static_cast<std::size_t>(last - first) * rowBytes);
+  requireMemory(decodedAtOnce(spec), Path + ": what of it has to be decoded at once",
+    "write it with smaller strips or tiles");
   const int step = mustReadRowByRow(formatName(), spec) ? 1 : last - first;
   bool done = true;
   for (int y = first; done && y < last; y += step)

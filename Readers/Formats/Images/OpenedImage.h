@@ -34,6 +34,7 @@ public:
 
 private:
   void addPage(OIIO::ImageSpec spec);
+  void requirePossibleSize(const OIIO::ImageSpec& spec, const std::string& page) const;
 
   std::string Path;
   std::unique_ptr<OIIO::ImageInput> Input;

@@ -96,8 +96,10 @@ TEST(EnviHeader, NamesOfBandsTellWavelengths)
 
 TEST(EnviHeader, WavelengthsGivenElsewhereStandInForTheHeaders)
 {
+  msi::EnviHeaderOptions options;
+  options.ownWavelengths = false;
   const auto header =
-    parseEnviHeader("a.hdr", Minimal + "wavelength = {0, 0, 0}\nfwhm = {1}\n", false);
+    parseEnviHeader("a.hdr", Minimal + "wavelength = {0, 0, 0}\nfwhm = {1}\n", options);
   EXPECT_TRUE(header.info.wavelengths.empty());
   EXPECT_TRUE(header.info.fwhm.empty());
 }
@@ -287,10 +289,6 @@ const Malformed Cases[] = {
     "a.hdr:8:1: 'wavelength' holds '400 500'; expected numbers with commas between them; correct "
     "the "
     "header" },
-  { "NegativeWavelength", Minimal + "wavelength units = nm\nwavelength = {-400, 500}\n",
-    "a.hdr:9:1: 'wavelength' is -400 for band 1; expected a positive number; correct the header" },
-  { "ZeroWavenumber", Minimal + "wavelength units = Wavenumber\nwavelength = {400, 0}\n",
-    "a.hdr:9:1: 'wavelength' is 0 for band 2; expected a positive number; correct the header" },
   { "ManyWidths", Minimal + "fwhm = {1, 2, 3}\n",
     "a.hdr:8:1: 'fwhm' has 3 values; expected 2, one for each band; complete the list or remove "
     "the "
@@ -320,7 +318,11 @@ const Malformed Cases[] = {
   { "Library", Minimal + "file type = ENVI Spectral Library\n",
     "a.hdr:8:1: 'file type' is 'ENVI Spectral Library'; expected 'ENVI Standard', an image of "
     "samples; "
-    "name an image" },
+    "read it as a sample table, or name an image" },
+  { "Classification", Minimal + "file type = ENVI Classification\n",
+    "a.hdr:8:1: 'file type' is 'ENVI Classification'; expected 'ENVI Standard', an image of "
+    "samples; read it as a "
+    "label image, or name an image" },
 };
 
 INSTANTIATE_TEST_SUITE_P(Envi, MalformedEnviHeader, ::testing::ValuesIn(Cases),

@@ -154,6 +154,10 @@ TEST_F(EnviImages, WavelengthsThatAreNoGridAreForgottenAndSaid)
     notesWith("400, 500, 500, 600"), (Names{ "the wavelengths are unknown: two are 500 nm" }));
   EXPECT_EQ(
     notesWith("0.4, 500, 600, 700"), (Names{ "the wavelengths are unknown: one is 0.4 nm" }));
+  EXPECT_EQ(notesWith("400, 0.0, 600, 700"),
+    (Names{ "the wavelengths were forgotten: that of band 2 is 0" }));
+  EXPECT_EQ(notesWith("400, 500, 600, -1"),
+    (Names{ "the wavelengths were forgotten: that of band 4 is -1" }));
   msi::SpectralImageOptions options;
   options.wavelengths = { 400, 500, 400, 600 };
   EXPECT_EQ(errorOf([&] { openSpectralImage(image(), options); }),
@@ -227,6 +231,25 @@ TEST_F(EnviImages, TheDataFileMayHaveAnExtensionOfItsMaker)
     "a.hdr: has several files beside it that may be its data; expected a or a with .img, .dat, "
     ".raw, .bil, .bsq, .bip, .bin or .cube; open the data file instead");
   EXPECT_EQ(errorIn(path("a.hyspex")), "");
+}
+
+TEST_F(EnviImages, AFileOfAnotherKindIsNotReadAsItsData)
+{
+  image();
+  for (const char* extension :
+    { ".jpg", ".JPG", ".bmp", ".txt", ".csv", ".log", ".xml", ".json", ".pdf", ".hyspex" })
+  {
+    // As long as the data, so that only its name tells.
+    const std::string other = write(std::string("a") + extension, samples("bil"));
+    EXPECT_NE(errorIn(other), "") << extension;
+  }
+  EXPECT_EQ(errorIn(path("a.hdr")), "");
+  EXPECT_EQ(errorIn(path("a.img")), "");
+  // A header that bears the whole name means this very file.
+  write("b.txt", samples("bil"));
+  write("b.txt.hdr", header("bil"));
+  EXPECT_EQ(errorIn(path("b.txt")), "");
+  EXPECT_EQ(errorIn(path("b.txt.hdr")), "");
 }
 
 TEST_F(EnviImages, AHeaderMayBeUtf16)

@@ -369,6 +369,16 @@ TEST_F(ImageStacks, LabelsAreNotScaled)
     "without a palette");
 }
 
+TEST_F(ImageStacks, AClassificationIsALabelImage)
+{
+  write("classes.img", std::string("\0\1\2\3\0\7", 6));
+  const std::string header = write("classes.hdr",
+    "ENVI\nsamples = 3\nlines = 2\nbands = 1\nfile type = ENVI Classification\ndata type = 1\n"
+    "interleave = bsq\nclasses = 8\nclass names = {Unclassified, a, b, c, d, e, f, g}\n");
+  EXPECT_EQ(msi::readLabelImage(header).labels, (std::vector<std::int32_t>{ 0, 1, 2, 3, 0, 7 }));
+  EXPECT_NE(errorOf([&] { msi::openSpectralImage(header); }), "");
+}
+
 TEST_F(ImageStacks, ReadsThePublishedFilterWheelImages)
 {
   MSI_MEASURED_DATA(folder, "filterwheel-cc24/");

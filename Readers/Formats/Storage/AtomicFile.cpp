@@ -1,6 +1,7 @@
 #include "Formats/Storage/AtomicFile.h"
 
 #include "Formats/FormatError.h"
+#include "Formats/Storage/StaleParts.h"
 
 #include <atomic>
 #include <cerrno>
@@ -43,10 +44,8 @@ void syncFolderOf(const std::string& path)
 std::string temporaryNameBeside(const std::string& path)
 {
   static std::atomic<unsigned> counter{ 0 };
-  const std::filesystem::path target(path);
-  const std::string name = "." + target.stem().string() + "." + std::to_string(::getpid()) + "-" +
-    std::to_string(counter++) + ".part" + target.extension().string();
-  return (target.parent_path() / name).string();
+  removeStaleParts(path);
+  return partName(path, counter++);
 }
 
 void commitFile(const std::string& temporary, const std::string& path)

@@ -9,7 +9,7 @@ namespace msi
 {
 
 // Writes to a hidden file beside 'path'; commit() brings the bytes to the disk (fsync) and renames. A file that is not
-// committed is removed. Errors: FormatError naming 'path' and the system's reason.
+// committed is removed, also by the next one that is written beside it when this process was killed. Errors: FormatError naming 'path' and the system's reason.
 class AtomicFile
 {
 public:
@@ -39,7 +39,7 @@ private:
 };
 
 // For writers of other libraries: a hidden name beside 'path', and the step that gives the finished
-// file its name.
+// file its name. What killed processes left of 'path' is removed.
 std::string temporaryNameBeside(const std::string& path);
 void commitFile(const std::string& temporary, const std::string& path);
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace msi
@@ -19,18 +18,12 @@ RandomAccessFile::RandomAccessFile(std::string path)
 {
   requireReadableFile(Path);
   Descriptor = ::open(Path.c_str(), O_RDONLY | O_CLOEXEC);
-  struct stat status = {};
-  if (Descriptor < 0 || ::fstat(Descriptor, &status) != 0)
+  if (Descriptor < 0)
   {
-    const int reason = errno;
-    if (Descriptor >= 0)
-    {
-      ::close(Descriptor);
-    }
-    throw FormatError(Path, std::string("cannot be read (") + std::strerror(reason) + ")",
+    throw FormatError(Path, std::string("cannot be read (") + std::strerror(errno) + ")",
       "a readable file", "check the name and the access rights");
   }
-  Size = status.st_size;
+  Stamp.emplace(Descriptor);
 }
 
 RandomAccessFile::~RandomAccessFile()
@@ -61,6 +54,7 @@ void RandomAccessFile::read(std::int64_t offset, void* bytes, std::size_t count)
     offset += got;
     count -= static_cast<std::size_t>(got);
   }
+  Stamp->requireUnchanged(Descriptor, Path);
 }
 
 } // namespace msi

@@ -1,8 +1,11 @@
 // Reads at any place of a large file.
 #pragma once
 
+#include "Formats/Storage/FileStamp.h"
+
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace msi
@@ -20,15 +23,16 @@ public:
   RandomAccessFile& operator=(const RandomAccessFile&) = delete;
 
   const std::string& path() const noexcept { return Path; }
-  std::int64_t size() const noexcept { return Size; }
+  std::int64_t size() const noexcept { return Stamp->size(); }
 
-  // Exactly 'count' bytes from 'offset' on, or FormatError naming file and offset.
+  // Exactly 'count' bytes from 'offset' on, or FormatError naming file and offset; also where the file was written to
+  // since it was opened.
   void read(std::int64_t offset, void* bytes, std::size_t count) const;
 
 private:
   std::string Path;
   int Descriptor = -1;
-  std::int64_t Size = 0;
+  std::optional<FileStamp> Stamp;
 };
 
 } // namespace msi

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -22,11 +23,12 @@ constexpr double LongestInMicrometres = 20.0;
 std::vector<std::string> namesOf(const TextTable& table, bool headerless)
 {
   std::vector<std::string> names;
+  std::set<std::string> known;
   for (std::size_t i = 1; i < table.rows[0].size(); ++i)
   {
     std::string name =
       headerless ? "curve" + std::to_string(i) : std::string(table.rows[0][i].text);
-    if (name.empty() || std::find(names.begin(), names.end(), name) != names.end())
+    if (name.empty() || !known.insert(name).second)
     {
       throw FormatError(table.place(table.rows[0][i]),
         name.empty() ? "column " + std::to_string(i + 1) + " has no name"

@@ -93,10 +93,6 @@ SampleTable samplesFromMatrices(
     table.notes.emplace_back("the wavelengths are assumed: 400..700 nm in steps of 10");
   }
   table.wavelengths = grid;
-  bringToFactor(table, options.unit,
-    [&reflectance](Eigen::Index) {
-      return FilePlace{ reflectance.file, 0, 0 };
-    });
   if (responses.values.size() > 0)
   {
     table.responses = withChannelsAsRows(responses, reflectance, table.reflectance.cols(),
@@ -106,6 +102,10 @@ SampleTable samplesFromMatrices(
       table.channelNames.push_back("C" + std::to_string(channel));
     }
   }
+  bringToFactor(table, options.unit,
+    [&reflectance](Eigen::Index) {
+      return FilePlace{ reflectance.file, 0, 0 };
+    });
   return table;
 }
 

@@ -1,6 +1,7 @@
 #include "Formats/Tables/SampleColumns.h"
 
 #include "Formats/Tables/ReflectanceScale.h"
+#include "Formats/Text/CsvText.h"
 #include "Formats/Text/NumberText.h"
 #include "Formats/Text/SpectralNames.h"
 
@@ -16,6 +17,8 @@ namespace msi
 
 namespace
 {
+constexpr std::size_t MostColumns = 65536;
+
 struct NumberedColumn
 {
   double number;
@@ -69,6 +72,14 @@ Columns classify(const TextTable& table)
   Columns columns;
   std::map<std::string, std::size_t> names;
   const TextRow& header = table.rows[0];
+  if (header.size() > MostColumns)
+  {
+    throw FormatError(table.place(header[MostColumns]),
+      "the table has " + std::to_string(header.size()) + " columns",
+      "at most " + std::to_string(MostColumns) +
+        ", one for each wavelength, channel and other datum",
+      "one row a sample: the table may have to be transposed");
+  }
   for (std::size_t i = 0; i < header.size(); ++i)
   {
     const std::string_view name = header[i].text;
@@ -227,7 +238,7 @@ SampleTable samplesFromText(const TextTable& table, ReflectanceUnit unit)
     MetadataColumn column{ std::string(table.rows[0][at].text), {} };
     column.text.reserve(table.rows.size() - 1);
     std::transform(table.rows.begin() + 1, table.rows.end(), std::back_inserter(column.text),
-      [at](const TextRow& row) { return std::string(row[at].text); });
+      [at](const TextRow& row) { return std::string(withFormula(row[at].text)); });
     samples.metadata.push_back(std::move(column));
   }
   samples.reflectance = numbersOf(table, columns.reflectance, "reflectance");
@@ -245,6 +256,9 @@ SampleTable samplesFromText(const TextTable& table, ReflectanceUnit unit)
   if (!columns.reflectance.empty())
   {
     samples.wavelengths = gridOf(columns.reflectance);
+  }
+  if (!isTransform(table)) // whose coefficients are no responses
+  {
     bringToFactor(samples, unit,
       [&table](Eigen::Index sample)
       { return table.place(table.rows[static_cast<std::size_t>(sample) + 1][0]); });

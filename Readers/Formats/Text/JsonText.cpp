@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace msi
@@ -17,9 +19,34 @@ JsonText::JsonText(std::string file, std::string text)
 
 JsonText::Json JsonText::parse() const
 {
+  // The keys of every object that is open; a key that stands twice would be lost without a word.
+  std::vector<std::set<std::string>> open;
+  std::map<std::string, std::size_t> seen; // how often each key came so far
+  const auto onEvent = [&](int, Json::parse_event_t event, Json& parsed)
+  {
+    if (event == Json::parse_event_t::object_start)
+    {
+      open.emplace_back();
+    }
+    else if (event == Json::parse_event_t::object_end)
+    {
+      open.pop_back();
+    }
+    else if (event == Json::parse_event_t::key)
+    {
+      const auto key = parsed.get<std::string>();
+      const std::size_t nth = seen[key]++;
+      if (!open.back().insert(key).second)
+      {
+        throw FormatError(placeOfKey(key, nth), "the key '" + key + "' stands twice in one object",
+          "every key once", "remove one of them");
+      }
+    }
+    return true;
+  };
   try
   {
-    return Json::parse(Text);
+    return Json::parse(Text, onEvent);
   }
   catch (const Json::parse_error& error)
   {
@@ -27,6 +54,19 @@ JsonText::Json JsonText::parse() const
     throw FormatError(placeOfOffset(File, Text, error.byte > 0 ? error.byte - 1 : 0),
       atEnd ? "the JSON text ends too early" : "this is no JSON", "a JSON object",
       atEnd ? "the file seems to be cut off" : "correct this line");
+  }
+  catch (const Json::out_of_range& error)
+  {
+    // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+    const std::string what = error.what();
+    const std::size_t quote = what.find('\'');
+    const std::size_t end = what.rfind('\'');
+    const std::string number =
+      quote < end ? what.substr(quote + 1, end - quote - 1) : std::string();
+    const std::size_t at = number.empty() ? std::string::npos : Text.find(number);
+    throw FormatError(
+      at == std::string::npos ? FilePlace{ File, 0, 0 } : placeOfOffset(File, Text, at),
+      "the number " + number + " is too large", "a number below 1.8e308", "correct the number");
   }
 }
 

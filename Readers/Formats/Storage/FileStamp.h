@@ -1,0 +1,29 @@
+// Whether a file that stays open is still the one that was opened.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace msi
+{
+
+// Size and time of change of an open file. Readers that keep a file open ask after every read: samples of a file that
+// was cut off or written over meanwhile belong to no image, and some libraries give zeros for them.
+class FileStamp
+{
+public:
+  explicit FileStamp(int descriptor) noexcept;
+
+  // Errors: FormatError naming 'path' where the file is not what it was. A file that was replaced by another one of
+  // its name (renamed) is none of them: the open one stays whole.
+  void requireUnchanged(int descriptor, const std::string& path) const;
+
+  std::int64_t size() const noexcept { return Size; }
+
+private:
+  std::int64_t Size = 0;
+  std::int64_t Seconds = 0;
+  std::int64_t Nanoseconds = 0;
+};
+
+} // namespace msi

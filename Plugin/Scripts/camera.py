@@ -78,11 +78,18 @@ def look_at_scene(options, effects, folder):
     command.say(f"responses.img, ideal.img, pictures and report.html: {folder}")
 
 
+# All that it writes into the output folder.
+WRITES = (
+    "camera.json", "camera.csv", "uncertainty.csv", "fit.csv", "channels.csv", "simulated.csv", "difference.csv",
+    "difference-*.csv", "difference-channels.png", "responsivities.png", "designed.png", "samples.png", "channel-?.png",
+    "channel-??.png", "ideal.img", "ideal.hdr", "responses.img", "responses.hdr", "report.html")
+
+
 def main():
     options = OPTIONS
     command.require_files(*(options.image or []), options.samples, options.scene, options.labels, options.patches,
                           options.camera, options.effects)
-    folder = command.make_folder(options.output)
+    folder = command.make_folder(options.output, WRITES)
     pipeline.load_plugin()
     effects = {"Effects": "Effect File", "EffectFile": options.effects} if options.effects else {}
     if options.scene:

@@ -73,8 +73,12 @@ def diagnose_capture(folder):
     return gap
 
 
+# All that it writes into the output folder.
+WRITES = ("*", "direct/*", "transfer/*", "gap/*")
+
+
 def main():
-    folder = command.make_folder(OPTIONS.output)
+    folder = command.make_folder(OPTIONS.output, WRITES)
     pipeline.load_plugin()
     chart, fabric = sample_table("demo-chart.csv"), sample_table("demo-fabric.csv")
     pipeline.update(chart, fabric)

@@ -33,7 +33,13 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import diagnosis, image_gap, pipeline, report  # noqa: E402
+from support import diagnosis, gap_pictures, image_gap, outputs, pipeline, report  # noqa: E402
+
+_INPUTS = ("capture.json", "camera.csv", "camera.json", "samples.csv", "responses.csv")
+_RESULTS = tuple(f"{name}.csv" for name in diagnosis.TABLES) + gap_pictures.NAMES + (
+    "report.json", "camera-corrected.json", "camera-corrected.csv", "effects.json")
+# All that it writes into the output folder.
+WRITES = _RESULTS + tuple(f"images/{name}" for name in _RESULTS) + ("report.html",)
 
 
 def main():
@@ -41,6 +47,9 @@ def main():
     pipeline.load_plugin()
     place = diagnosis.folder_of(options.capture)
     images = image_gap.pair(place)
+    outputs.reads(*(os.path.join(place, name) for name in _INPUTS),
+                  *(path for paths in (images or {}).values() for path in paths))
+    outputs.require_apart(options.output, WRITES)
     choices = {"Without": options.without, "MaximumCauses": options.causes, "Seed": options.seed}
     outcomes = []
     if images is None or os.path.exists(os.path.join(place, "samples.csv")):
@@ -49,7 +58,7 @@ def main():
     if images is not None:
         outcomes.append((image_gap, image_gap.diagnose(images, **choices)))
 
-    folder = command.make_folder(options.output)
+    folder = command.make_folder(options.output, WRITES)
     sections = []
     for number, (kind, gap) in enumerate(outcomes):
         # The images beside tables have a folder of their own.

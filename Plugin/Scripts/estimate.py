@@ -63,10 +63,17 @@ def responses(options, stride=1):
     return estimation.flat_field(read(options.image), read(options.white), read(options.dark))
 
 
+# All that it writes into the output folder.
+WRITES = (
+    "reflectance-transform.csv", "metamerism-transform.csv", "reflectance.exr", "rgb.png", "error-rms.png",
+    "error-dE00-*.png", "error-maps.img", "error-maps.hdr", "errors-of-pixels.csv", "errors-of-patches.csv",
+    "patches.csv", "state.pvsm", "report.html")
+
+
 def main():
     options = OPTIONS
     require_inputs(options)
-    folder = command.make_folder(options.output)
+    folder = command.make_folder(options.output, WRITES)
     pipeline.load_plugin()
 
     image = responses(options)
@@ -91,6 +98,7 @@ def main():
                 tuning = pipeline.port(split, 0)
 
     transforms, summary = estimation.correction(calibration, tuning, methods.NAMES[options.method])
+    estimation.require_plausible(responses(options, estimation.stride_of_judgement(image)), transforms)
     reflectance = estimation.estimate(image, transforms, folder)
     estimation.save_reflectance(reflectance, folder)
     view = reflectance, labels

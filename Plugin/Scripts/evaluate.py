@@ -35,10 +35,16 @@ OPTIONS = arguments()  # before ParaView is loaded
 from support import comparison, pipeline  # noqa: E402
 
 
+# All that it writes into the output folder.
+WRITES = (
+    "results.csv", "draws.csv", "rms-against-tuning.csv", "spectra.png", "rms-against-tuning.png",
+    "ab-distribution.png")
+
+
 def main():
     options = OPTIONS
     command.require_files(options.calibration, options.target)
-    folder = command.make_folder(options.output)
+    folder = command.make_folder(options.output, WRITES)
     pipeline.load_plugin()
     tables = [pipeline.create("SampleTableReader", FileName=path)
               for path in (options.calibration, options.target)]

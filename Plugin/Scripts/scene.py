@@ -50,9 +50,14 @@ OPTIONS = arguments()  # before ParaView is loaded
 from support import estimation, pictures, pipeline, report  # noqa: E402
 
 
+# All that it writes into the output folder.
+WRITES = ("reflectance.img", "reflectance.hdr", "labels.img", "labels.hdr", "patches.csv", "scene.png",
+          "report.html")
+
+
 def main():
     options = OPTIONS
-    folder = command.make_folder(options.output)
+    folder = command.make_folder(options.output, WRITES)
     pipeline.load_plugin()
     scene = pipeline.create("SyntheticScene", Subject=SUBJECTS[options.subject], Size=options.size,
                             Wavelengths=options.wavelengths, Seed=options.seed, Texture=options.texture,

@@ -73,7 +73,7 @@ def refused(folder):
     shutil.copy(IMAGE / "channel_400nm.tif", pair / "images" / "real")
     yield pair, "images: there is no simulated image; expected sim*"
     yield edited(folder, "one-sample", samples=lambda lines: lines[:2],
-                 responses=lambda lines: lines[:3]), "2 samples or more"
+                 responses=lambda lines: lines[:3]), "5 samples or more"
 
 
 def undecided(folder):

@@ -2,8 +2,11 @@
 
 import argparse
 import os
+import re
 import resource
+import signal
 import sys
+import time
 
 
 class Failure(Exception):
@@ -39,12 +42,19 @@ def whole_number(least):
 
 
 def require_files(*paths):
+    """Each is there; from now on none of them is written over."""
+    from . import outputs
     for path in paths:
         if path is not None and not os.path.isfile(path):
             raise Failure(f"{path}: no such file")
+    outputs.reads(*paths)
 
 
-def make_folder(path):
+def make_folder(path, writes=None):
+    """A folder for results; writes: patterns of all that the command writes into it, for its output folder."""
+    from . import outputs
+    if writes is not None:
+        return outputs.claim(path, writes)
     try:
         os.makedirs(path, exist_ok=True)
     except OSError as error:
@@ -61,37 +71,78 @@ def rank():
     return servermanager.vtkProcessModule.GetProcessModule().GetPartitionId()
 
 
+def ranks():
+    from paraview import servermanager
+    return servermanager.vtkProcessModule.GetProcessModule().GetNumberOfLocalPartitions()
+
+
+_CONTROL = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\udc80-\udcff]")
+
+
+def printable(text):
+    """Control characters spelled out: names from files may hold sequences that steer a terminal."""
+    return _CONTROL.sub(lambda found: f"\\x{ord(found[0]) & 0xff:02X}", text)
+
+
 def say(text):
     if rank() == 0:
-        print(text, flush=True)
+        print(printable(text), flush=True)
+
+
+_GRACE = 3.0  # seconds that the first rank has to say what went wrong
 
 
 def leave(message, status):
-    """Ends every rank at once: an exception on one must not leave the others waiting."""
-    if message and (status == 2 or rank() == 0):
-        print(f"multispectral: {message}", file=sys.stderr)
+    """Ends every rank at once: an exception on one must not leave the others waiting.
+
+    MPI ends all ranks as soon as one has failed, so the others let the first one speak; where it has nothing to say they
+    speak themselves."""
+    spoken = printable(" ".join(message.split())) if message else ""
+    place = _place()
+    if place > 0 and status != 0:
+        time.sleep(_GRACE)
+    if spoken:
+        print(f"multispectral: {spoken}", file=sys.stderr)
     sys.stdout.flush()
     sys.stderr.flush()
+    if spoken and _is_parallel():
+        time.sleep(0.3)  # MPI forwards what was printed
     os._exit(status)
+
+
+def _place():
+    """The rank, also before ParaView is loaded."""
+    for name in ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"):
+        if os.environ.get(name, "").isdigit():
+            return int(os.environ[name])
+    return rank() if "paraview" in sys.modules else 0
+
+
+def _is_parallel():
+    return any(name in os.environ for name in ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"))
 
 
 def run(main):
     """Runs main() and turns what can go wrong into one line and an exit status."""
+    # Ctrl-C ends the process at once, also within a filter, and without the traces that MPI and ParaView print. What was
+    # being written is under no final name; the next run removes it.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
     try:
         main()
     except Failure as failure:
         leave(str(failure), 1)
     except BrokenPipeError:  # nobody reads on, as behind `| head`
         os._exit(1)
+    except UnicodeEncodeError as error:
+        leave(f"{error.object}: the name is not UTF-8; rename it", 1)
     except OSError as error:
-        leave(f"{error.filename}: {error.strerror}", 1)
+        leave(": ".join(part for part in (error.filename, error.strerror) if part) or str(error), 1)
     except Exception as error:  # a fault of ours: one line all the same
         if os.environ.get("MULTISPECTRAL_TRACEBACK"):
             raise
         leave(f"internal error, please report it: {type(error).__name__}: {error} "
               "(MULTISPECTRAL_TRACEBACK=1 shows where)", 1)
-    except KeyboardInterrupt:
-        leave("stopped", 1)
     except SystemExit as end:
         leave("", end.code if isinstance(end.code, int) else 0)
     _finish()
@@ -107,7 +158,6 @@ def _write_peak():
 
 def _finish():
     """A normal end, which lets MPI close down; a single process leaves at once."""
-    from paraview import servermanager
     _write_peak()
-    if servermanager.vtkProcessModule.GetProcessModule().GetNumberOfLocalPartitions() == 1:
+    if ranks() == 1:
         leave("", 0)

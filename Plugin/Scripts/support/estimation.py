@@ -5,7 +5,7 @@ import os
 
 from paraview import simple
 
-from . import command, pictures, pipeline, report
+from . import command, outputs, pictures, pipeline, report
 
 ERROR_ARRAYS = ("rms", "dE00 D65", "dE00 F2")
 
@@ -47,6 +47,11 @@ def stride_of_pictures(image):
     return 1 if width * height <= MOST_PIXELS_SHOWN else -(-max(width, height) // PIXELS_OF_THINNED_SIDE)
 
 
+def stride_of_judgement(image):
+    """Every how many pixels tell what an image is like."""
+    return -(-max(pictures.size(image)) // PIXELS_OF_THINNED_SIDE)
+
+
 def correction(calibration, tuning, method):
     """The transforms W and D (or the transfer model) as inputs of Reflectance Estimation.
 
@@ -69,6 +74,12 @@ def estimate(image, transforms, folder):
         words = "".join("-" + c.lower() if c.isupper() else c for c in name).lstrip("-")
         pipeline.save_table(source, os.path.join(folder, f"{words}.csv"))
     return pipeline.create("ReflectanceEstimation", Input=image, Preview=0, **transforms)
+
+
+def require_plausible(image, transforms):
+    """The filter's judgement of responses, which it gives of whole images only: before a large one is worked through in
+    pieces. image: every n-th pixel of it."""
+    pipeline.whole(pipeline.create("ReflectanceEstimation", Input=image, **transforms))
 
 
 def save_view(reflectance, folder):
@@ -167,4 +178,5 @@ def save_state(path, reflectance, judged=None):
                                          (0.0, top_errors(judged.summary)[1])))
     pictures.side_by_side(views)
     if command.rank() == 0:
-        simple.SaveState(path)
+        with outputs.written(path, b"</ParaView>\n") as part:
+            simple.SaveState(part)

@@ -10,11 +10,13 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
+from . import outputs  # noqa: E402
+
 # Okabe and Ito's palette: told apart with any color vision.
 _BEFORE, _AFTER, _FLOOR, _PLAIN = "#D55E00", "#0072B2", "#009E73", "#B0B0B0"
 _STYLE = {"font.size": 11, "axes.spines.top": False, "axes.spines.right": False,
           "axes.axisbelow": True, "figure.dpi": 110, "savefig.bbox": "tight"}
-_NAMES = ("gap-map.png", "axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
+NAMES = ("gap-map.png", "axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
 _MOST_LABELS = 40
 _MOST_SCENES = 4
 _MOST_CHANNELS = 18
@@ -43,15 +45,15 @@ def draw_map(image, folder):
 
 def _save(figure, path):
     if figure is not None:
-        figure.savefig(path + ".part", format="png", metadata={"Software": None})
+        with outputs.written(path, outputs.END_OF_PNG) as part:
+            figure.savefig(part, format="png", metadata={"Software": None})
         pyplot.close(figure)
-        os.replace(path + ".part", path)
-    elif os.path.exists(path):
-        os.remove(path)
+    else:
+        outputs.remove(path)
 
 
 def drawn(folder):
-    return [name for name in _NAMES if os.path.exists(os.path.join(folder, name))]
+    return [name for name in NAMES if os.path.exists(os.path.join(folder, name))]
 
 
 def _axes(where):

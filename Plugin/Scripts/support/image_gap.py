@@ -5,7 +5,7 @@ import re
 
 from paraview import servermanager
 
-from . import command, diagnosis, estimation, gap_pictures, pipeline, report
+from . import command, diagnosis, estimation, gap_pictures, outputs, pipeline, report
 from .command import Failure
 
 # The outputs of Image Sim To Real Gap.
@@ -123,11 +123,9 @@ def write_effects(summary, path):
     effects = summary.GetFieldData().GetAbstractArray("Effects") if summary else None
     text = effects.GetValue(0) if effects and effects.GetNumberOfValues() else ""
     if text.strip(" \n[]"):
-        with open(path + ".part", "w", encoding="utf-8") as file:
-            file.write(text.rstrip() + "\n")
-        os.replace(path + ".part", path)
-    elif os.path.exists(path):
-        os.remove(path)
+        outputs.write_text(path, text.rstrip() + "\n")
+    else:
+        outputs.remove(path)
 
 
 def sections(gap, folder):

@@ -6,6 +6,8 @@ from paraview import simple
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
+from . import outputs
+
 # Okabe and Ito's palette: told apart with any color vision.
 COLORS = {
     "measured": (0.0, 0.0, 0.0),
@@ -164,7 +166,7 @@ def channel_row(panels, component, path):
         whole = [whole[0] + view.ViewSize[0], max(whole[1], view.ViewSize[1])]
         views.append(view)
     layout.SetSize(whole)
-    simple.SaveScreenshot(path, layout, ImageResolution=whole, TransparentBackground=0)
+    _save_screenshot(path, layout, whole)
     for view in views:
         simple.Delete(view)
     simple.Delete(layout)
@@ -247,5 +249,11 @@ def side_by_side(views):
 
 def _save(view, path):
     simple.Render(view)
-    simple.SaveScreenshot(path, view, ImageResolution=list(view.ViewSize), TransparentBackground=0)
+    _save_screenshot(path, view, list(view.ViewSize))
     simple.Delete(view)
+
+
+def _save_screenshot(path, view, size):
+    """ParaView says nothing when a picture cannot be written."""
+    with outputs.written(path, outputs.END_OF_PNG) as part:
+        simple.SaveScreenshot(part, view, ImageResolution=size, TransparentBackground=0)

@@ -7,7 +7,8 @@ import sys
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 
-from .command import Failure, rank
+from . import outputs
+from .command import Failure, printable, rank
 
 # What VTK has to say: "ERROR: In file, line n\nvtkClass (0xaddress): text\n\n", likewise "Warning: ".
 _messages = vtkStringOutputWindow()
@@ -18,8 +19,8 @@ _noted = set()
 def load_plugin():
     """Also takes over VTK's messages: an error ends the work as one line, a warning becomes a note."""
     # ParaView sends Python's output through VTK's window too; ours goes straight to the terminal.
-    sys.stdout = open(1, "w", closefd=False)
-    sys.stderr = open(2, "w", closefd=False)
+    sys.stdout = open(1, "w", closefd=False, errors="backslashreplace")
+    sys.stderr = open(2, "w", closefd=False, errors="backslashreplace")
     vtkOutputWindow.SetInstance(_messages)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     simple.LoadPlugin(os.environ["MULTISPECTRAL_PLUGIN"], remote=False, ns=simple.__dict__)
@@ -34,7 +35,7 @@ def fail_on_error():
         if kind == "ERROR":
             raise Failure(line)
         if line not in _noted and rank() == 0:
-            print(f"multispectral: note: {line}", file=sys.stderr, flush=True)
+            print(f"multispectral: note: {printable(line)}", file=sys.stderr, flush=True)
         _noted.add(line)
 
 
@@ -130,7 +131,7 @@ def tell_notes(reader):
     reader.UpdatePropertyInformation()
     for note in filter(None, str(reader.GetProperty("Notes").GetData() or "").split("\n")):
         if note not in _noted and rank() == 0:
-            print(f"multispectral: note: {note}", file=sys.stderr, flush=True)
+            print(f"multispectral: note: {printable(note)}", file=sys.stderr, flush=True)
         _noted.add(note)
 
 
@@ -169,7 +170,7 @@ def save_camera(source, path):
 
 def save(name, source, path, **properties):
     """Writes through the named writer of the plugin."""
-    writer = getattr(servermanager.writers, name)(Input=source, FileName=path, **properties)
+    writer = getattr(servermanager.writers, name)(Input=source, FileName=outputs.check(path), **properties)
     watch(writer)
     writer.UpdatePipeline()
     fail_on_error()

@@ -6,7 +6,7 @@ import math
 import os
 import struct
 
-from . import command
+from . import command, outputs
 
 _WIDE = 2.5  # times the height: needs the whole width of the page
 _STYLE = """
@@ -61,7 +61,7 @@ def pictures(title, folder, captions):
 
 
 def write(folder, title, sections):
-    """report.html in the folder: written aside, then renamed."""
+    """report.html in the folder: complete or absent."""
     if command.rank() != 0:
         return
     page = (f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'>"
@@ -70,11 +70,7 @@ def write(folder, title, sections):
             f"<h1>{html.escape(title)}</h1>{''.join(sections)}"
             f"<footer>Written by Multispectral; the tables stand beside this page as CSV.</footer>"
             f"</body></html>")
-    path = os.path.join(folder, "report.html")
-    aside = path + ".part"
-    with open(aside, "w", encoding="utf-8") as file:
-        file.write(page)
-    os.replace(aside, path)
+    outputs.write_text(os.path.join(folder, "report.html"), page)
 
 
 def _section(title, content):

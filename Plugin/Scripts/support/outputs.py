@@ -1,0 +1,182 @@
+"""The files that a command writes: none is one of its inputs, and each is complete or absent."""
+
+import contextlib
+import fcntl
+import fnmatch
+import itertools
+import os
+import re
+import socket
+
+from . import command
+from .command import Failure
+
+END_OF_PNG = b"IEND\xaeB`\x82"
+# An input in two files: who names one reads both.
+_PARTNERS = ({".hdr", ".img", ".dat", ".raw", ".bil", ".bsq", ".bip", ".bin", ".cube", ".sli"}, {".json", ".csv"})
+_inputs = {}  # (device, inode): the name that the user gave
+_declared = None  # the folder, and the patterns of what is written into it
+_old_report = None  # until the first result of this run
+_numbers = itertools.count()
+_locks = []  # folders that this run holds, until it ends
+
+
+def reads(*paths):
+    """Notes the input files."""
+    for path in filter(None, paths):
+        if any("\udc80" <= c <= "\udcff" for c in path):
+            raise Failure(f"{command.printable(path)}: the name is not UTF-8; rename the file or its folder")
+        for file in _files_of(path):
+            with contextlib.suppress(OSError):
+                status = os.stat(file)
+                _inputs[status.st_dev, status.st_ino] = path
+
+
+def _files_of(path):
+    stem, extension = os.path.splitext(path)
+    partners = next((group for group in _PARTNERS if extension.lower() in group), ())
+    return [path] + [stem + other for other in partners]
+
+
+def claim(folder, patterns):
+    """Makes the output folder this run's own, before anything is written.
+
+    patterns: what the command may write into it, names or FOLDER/names with * and ?. Where one of those files is an input the command is refused; where
+    another run writes into the folder, too. What killed runs left unfinished is removed."""
+    global _declared, _old_report
+    require_apart(folder, patterns)
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise Failure(f"{folder}: cannot make the output folder: {error.strerror}") from error
+    _declared = folder, tuple(patterns)
+    if command.rank() == 0:
+        _lock(folder)
+        for place in {os.path.dirname(pattern) for pattern in patterns}:
+            _remove_stale_parts(os.path.join(folder, place))
+    _old_report = os.path.join(folder, "report.html") if "report.html" in patterns else None
+    return folder
+
+
+def require_apart(folder, patterns):
+    """Refuses an output folder where one of the files that the command may write is an input."""
+    for pattern in patterns:
+        for path in _existing(folder, pattern):
+            _refuse_input(path)
+
+
+def _existing(folder, pattern):
+    place, names = os.path.join(folder, os.path.dirname(pattern)), os.path.basename(pattern)
+    with contextlib.suppress(OSError):
+        return [os.path.join(place, name) for name in os.listdir(place) if fnmatch.fnmatchcase(name, names)]
+    return []
+
+
+def _refuse_input(path):
+    with contextlib.suppress(OSError):
+        status = os.stat(path)
+        given = _inputs.get((status.st_dev, status.st_ino))
+        if given is not None:
+            raise Failure(f"{given}: is an input, and the command would write {path} over it; "
+                          "choose another folder with --output")
+
+
+def _lock(folder):
+    with contextlib.suppress(OSError):  # not every file system has locks
+        descriptor = os.open(folder, os.O_RDONLY | os.O_CLOEXEC)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise Failure(f"{folder}: another run writes into this folder; wait for it, or choose another folder "
+                          "with --output") from None
+        _locks.append(descriptor)
+
+
+def _host():
+    return re.sub(r"[/.-]", "_", socket.gethostname())[:16]
+
+
+def _remove_stale_parts(folder):
+    """.STEM.HOST-PROCESS-NUMBER.part.EXTENSION, as the plugin's writers name them, of processes that are no more."""
+    part = re.compile(r"\..+\." + re.escape(_host()) + r"-(\d+)-\d+\.part(\.[^.]*)?")
+    with contextlib.suppress(OSError):
+        for name in os.listdir(folder):
+            found = part.fullmatch(name)
+            if found and not os.path.exists(f"/proc/{found[1]}"):
+                os.remove(os.path.join(folder, name))
+
+
+def _require_declared(path):
+    """For tests: MULTISPECTRAL_CHECK_OUTPUTS makes an output that its command did not declare an error."""
+    if _declared is not None and os.environ.get("MULTISPECTRAL_CHECK_OUTPUTS"):
+        folder, patterns = _declared
+        name = os.path.relpath(path, folder)
+        if not any(os.path.dirname(pattern) == os.path.dirname(name) and fnmatch.fnmatchcase(name, pattern)
+                   for pattern in patterns):
+            raise AssertionError(f"{name} is not declared as an output of this command")
+
+
+def check(path):
+    """Before another writer writes 'path'."""
+    _require_declared(path)
+    for file in _files_of(path):
+        _refuse_input(file)
+    _remove_old_report()
+    return path
+
+
+def _remove_old_report():
+    """With the first result: the report of an earlier run must not stand beside newer results."""
+    global _old_report
+    if _old_report is not None and command.rank() == 0:
+        path, _old_report = _old_report, None
+        _remove(path)
+
+
+def remove(path):
+    """An output of an earlier run that this one does not have."""
+    check(path)
+    _remove(path)
+
+
+def _remove(path):
+    try:
+        os.remove(path)
+    except FileNotFoundError:
+        pass
+    except OSError as error:
+        raise Failure(f"{path}: cannot be removed: {error.strerror}") from error
+
+
+@contextlib.contextmanager
+def written(path, ending=b""):
+    """Gives the name to write to; the file takes the name 'path' when it is complete, which 'ending' tells."""
+    check(path)
+    stem, extension = os.path.splitext(os.path.basename(path))
+    part = os.path.join(os.path.dirname(path), f".{stem}.{_host()}-{os.getpid()}-{next(_numbers)}.part{extension}")
+    try:
+        yield part
+        if os.path.exists(part) or command.rank() == 0:
+            _complete(part, path, ending)
+    except OSError as error:
+        raise Failure(f"{path}: cannot be written: {error.strerror or error}; check the folder, its access rights and "
+                      "the free space") from error
+    finally:
+        with contextlib.suppress(OSError):
+            os.remove(part)
+
+
+def _complete(part, path, ending):
+    with open(part, "rb") as file:
+        file.seek(0, os.SEEK_END)
+        size = file.tell()
+        file.seek(max(0, size - len(ending)))
+        if size == 0 or file.read(len(ending)) != ending:
+            raise OSError(0, "it is not complete")
+        os.fsync(file.fileno())
+    os.replace(part, path)
+
+
+def write_text(path, text):
+    with written(path) as part, open(part, "w", encoding="utf-8", errors="backslashreplace") as file:
+        file.write(text)

@@ -1,0 +1,156 @@
+"""Faults of the machine and of the user, through the launcher: nothing is lost, nothing looks complete that is not.
+
+Arguments: the launcher, a folder for files."""
+
+import hashlib
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
+SAMPLES = root / "Data" / "Samples"
+IMAGE = root / "Data" / "Images" / "demo-fabric"
+CAPTURE = root / "Data" / "Captures" / "demo-warm-camera"
+faults = []
+
+
+def expect(condition, text):
+    if not condition:
+        faults.append(text)
+
+
+def start(*arguments, **options):
+    return subprocess.Popen(list(map(str, arguments)), text=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                            **options)
+
+
+def run(*arguments, **options):
+    process = start(*arguments, **options)
+    process.stderr_text = process.communicate()[1]
+    return process
+
+
+def one_line(done, part, what):
+    lines = [line for line in done.stderr_text.strip().splitlines() if ": note: " not in line]
+    expect(done.returncode == 1 and len(lines) == 1 and part in lines[0],
+           f"{what}: expected status 1 and one line with '{part}', got {done.returncode} and:\n    "
+           + "\n    ".join(lines[:12]))
+
+
+def contents(folder):
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.iterdir() if path.is_file()}
+
+
+def outputs_over_inputs(launcher, base):
+    """The output folder is where the inputs lie: refused where a file would be written over, and nothing changes."""
+    place = base / "inputs with 'quotes' & 100 %"
+    place.mkdir()
+    for path in [*IMAGE.glob("channel_*.tif"), IMAGE / "labels.png", IMAGE / "patches.csv", *CAPTURE.glob("*.*"),
+                 SAMPLES / "demo-chart.csv"]:
+        shutil.copy(path, place)
+    shutil.copy(SAMPLES / "demo-fabric.csv", place / "results.csv")
+    images = sorted(place.glob("channel_*.tif"))
+    before = contents(place)
+    for arguments, part in (
+            (["estimate", "--image", *images, "--labels", place / "labels.png", "--patches", place / "patches.csv"],
+             "patches.csv"),
+            (["camera", "--fit", "--samples", place / "demo-chart.csv", "--camera", place / "camera.csv"], "camera.csv"),
+            (["evaluate", "--calibration", place / "demo-chart.csv", "--target", place / "results.csv"], "results.csv"),
+            (["diagnose", place], "samples.csv")):
+        one_line(run(launcher, *arguments, "--output", place), f"{part}: is an input, and the command would write",
+                 f"{arguments[0]} over its input")
+        expect(contents(place) == before, f"{arguments[0]} changed its input folder")
+
+
+def a_disk_that_is_full(launcher, base):
+    """A limit of the file size stands for it. Tables fit, the pictures do not."""
+    output = base / "full"
+    output.mkdir()
+    (output / "report.html").write_text("of an earlier run", encoding="utf-8")
+
+    def limited():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    done = run(launcher, "scene", "chart24", "--size", "48x32", "--wavelengths", "400:700:100", "--output", output,
+               preexec_fn=limited)
+    one_line(done, "scene.png: cannot be written", "a full disk")
+    left = sorted(path.name for path in output.iterdir())
+    expect(not any(name.startswith(".") or name.endswith(".part") for name in left), f"a full disk left {left}")
+    expect("report.html" not in left and "scene.png" not in left, f"after a full disk stand {left}")
+
+
+def killed_and_run_again(launcher, base):
+    """Killed while it writes: nothing stands there cut off, and the next run clears what was left."""
+    output = base / "killed"
+    command = [launcher, "scene", "fabric", "--size", "1500x1000", "--output", output]
+    process = start(*command, start_new_session=True)
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline and process.poll() is None and not list(output.glob(".*.part*")):
+        time.sleep(0.02)
+    parts = list(output.glob(".*.part*"))
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate()
+    expect(parts, "nothing was being written when it was killed")
+    expect(not (output / "reflectance.hdr").exists(), "a killed run left a header")
+    done = run(launcher, "scene", "chart24", "--size", "48x32", "--output", output)
+    expect(done.returncode == 0, f"after a kill: {done.stderr_text}")
+    left = [path.name for path in output.iterdir() if path.name.startswith(".")]
+    expect(not left, f"the next run left {left}")
+
+
+def stopped_by_the_user(launcher, base):
+    """Ctrl-C in a terminal goes to all processes: they end, without traces on the screen."""
+    output = base / "stopped"
+    process = start(launcher, "scene", "fabric", "--size", "3000x2000", "--output", output, start_new_session=True)
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline and process.poll() is None and not list(output.glob(".*.part*")):
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGINT)
+    try:
+        text = process.communicate(timeout=30)[1]
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        faults.append("Ctrl-C: it went on for 30 s")
+        return
+    expect(process.returncode != 0, "Ctrl-C: exit status 0")
+    expect(not re.search(r"Traceback|SIGINT|Stack|0x[0-9a-f]{6}", text) and len(text.splitlines()) <= 1,
+           f"Ctrl-C: it printed\n{text}")
+    expect(not (output / "reflectance.hdr").exists(), "Ctrl-C left a header")
+
+
+def names_with_meanings(launcher, base):
+    """Names of files and samples are text, whatever is in them."""
+    place = base / "-a b'c\"d%20;$(echo x)\n&<i>"
+    place.mkdir()
+    chart = (SAMPLES / "demo-chart.csv").read_text(encoding="utf-8").splitlines()
+    fabric = (SAMPLES / "demo-fabric.csv").read_text(encoding="utf-8").splitlines()
+    for lines, name in ((chart, "chart.csv"), (fabric, "fabric.csv")):
+        cells = lines[1].split(",")
+        cells[0] = '"<script>alert(1)</script>\x1b[2J"'
+        lines[1] = ",".join(cells)
+        (place / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    done = run(launcher, "camera", "--fit", "--draws", "0", "--samples", place / "chart.csv", "--output", place / "out")
+    expect(done.returncode == 0, f"names with meanings: {done.stderr_text}")
+    page = place / "out" / "report.html"
+    expect(page.exists() and "<script>" not in page.read_text(encoding="utf-8"), "markup in a name is markup in the report")
+    expect("\x1b" not in done.stderr_text, "a control character reached the terminal")
+
+
+def main():
+    launcher, base = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    shutil.rmtree(base, ignore_errors=True)
+    base.mkdir(parents=True)
+    for test in (outputs_over_inputs, a_disk_that_is_full, killed_and_run_again, stopped_by_the_user,
+                 names_with_meanings):
+        test(launcher, base)
+    print("\n".join(faults) or "nothing lost, nothing that looks complete and is not")
+    sys.exit(1 if faults else 0)
+
+
+main()

@@ -165,6 +165,25 @@ TEST(TransferEstimation, SurvivesDegenerateSamples)
   EXPECT_TRUE(msi::fitTransfer(chart, tuning).estimator(tuning.response).allFinite());
 }
 
+// Nothing but the mean to learn: no product in it may have an empty side.
+TEST(TransferEstimation, OneFlatSpectrumForAll)
+{
+  for (const double level : { 0.0, 0.4 })
+  {
+    for (const double response : { 0.0, 0.3 })
+    {
+      const msi::SampleSet chart{ Eigen::MatrixXd::Constant(31, 24, level),
+        Eigen::MatrixXd::Constant(8, 24, response) };
+      const msi::SampleSet tuning{ Eigen::MatrixXd::Constant(31, 6, level),
+        Eigen::MatrixXd::Constant(8, 6, response) };
+      const msi::TransferFit fit = msi::fitTransfer(chart, tuning);
+      const Eigen::MatrixXd estimate = fit.estimator(tuning.response);
+      EXPECT_LT((estimate.array() - level).abs().maxCoeff(), 1e-6) << level << ", " << response;
+      EXPECT_TRUE(fit.estimator.standardDeviation(tuning.response).allFinite());
+    }
+  }
+}
+
 TEST(TransferEstimation, RefusesBadInputAndSaysWhy)
 {
   const auto chart = smoothSamples(20, 29, 1.0, 0.0, 0.0);

@@ -75,7 +75,7 @@ PivotedFactor pivotedCholesky(
   {
     Eigen::Index pivot = 0;
     const double largest = result.unexplained.maxCoeff(&pivot);
-    if (largest <= tolerance)
+    if (largest <= tolerance && rank > 0) // one point at least: no product has an empty side
     {
       break;
     }

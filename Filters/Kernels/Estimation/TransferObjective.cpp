@@ -78,6 +78,11 @@ TransferObjective::TransferObjective(const TransferFeatures& start,
   {
     energy += std::pow(svd.singular[kept++], 2);
   }
+  if (kept == 0) // every sample has the same reflectance: there is nothing to learn but that
+  {
+    Y = Eigen::MatrixXd::Zero(Chart + Tuning, 1);
+    return;
+  }
   Y = svd.left.leftCols(kept) *
     (svd.singular.head(kept) * std::sqrt(static_cast<double>(Chart + Tuning) / total)).asDiagonal();
 }

@@ -12,6 +12,7 @@
 
 #include "Formats/FileKind.h"
 #include "Formats/LabelImage.h"
+#include "Formats/Storage/AvailableMemory.h"
 
 #include <stdexcept>
 
@@ -91,6 +92,8 @@ int vtkLabelImageReader::RequestData(
       output->SetOrigin(0.0, this->Bottom(), 0.0);
       vtkNew<vtkIntArray> labels;
       labels->SetName(msi::LabelArray);
+      msi::requireMemory(static_cast<double>(output->GetNumberOfPoints()) * sizeof(int),
+        this->FileName + ": the label image", "read less of it: set Stride of the reader");
       labels->SetNumberOfTuples(output->GetNumberOfPoints());
       // VTK counts rows from the bottom, files from the top.
       const int height = this->File->height();

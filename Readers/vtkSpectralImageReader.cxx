@@ -19,6 +19,7 @@
 #include "Formats/FileKind.h"
 #include "Formats/ImageSelection.h"
 #include "Formats/SpectralImageFile.h"
+#include "Formats/Storage/AvailableMemory.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -224,6 +225,13 @@ int vtkSpectralImageReader::RequestData(
       vtkNew<vtkFloatArray> array;
       array->SetName(reflectance ? msi::ReflectanceArray : msi::ResponsesArray);
       array->SetNumberOfComponents(info.bands());
+      const double pixels = static_cast<double>(output->GetNumberOfPoints());
+      msi::requireMemory(
+        pixels * (info.bands() * static_cast<double>(sizeof(float)) + (this->Preview ? 3 : 0)),
+        this->FileNames.front() + ": an image of " + std::to_string(extent[1] - extent[0] + 1) +
+          " x " + std::to_string(extent[3] - extent[2] + 1) + " pixels and " +
+          std::to_string(info.bands()) + " bands",
+        "read less of it: set Region, Stride or Bands of the reader");
       array->SetNumberOfTuples(output->GetNumberOfPoints());
       const std::ptrdiff_t rowSize =
         static_cast<std::ptrdiff_t>(info.bands()) * (extent[1] - extent[0] + 1);

@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "FitSummaryTable.h"
+#include "ResponseRange.h"
 #include "SampleColumns.h"
 #include "TransformTable.h"
 
@@ -97,6 +98,15 @@ int vtkMetamerismCorrection::RequestData(
       msi::requireSameChannels(
         chart.channels, "the calibration table", medium.channels, "the tuning table");
       msi::requireSameBands(chart.bands, "the calibration table", medium.bands, "the tuning table");
+      msi::requireSameUnit(chart, "the calibration table", medium, "the tuning table");
+      const auto dead =
+        msi::deadChannels(chart.samples.response, chart.channels, "the calibration table");
+      if (!dead.empty())
+      {
+        vtkWarningMacro(<< dead);
+      }
+      msi::writeResponseRange(
+        vtkTable::GetData(outputs, 0), { chart.samples.response, medium.samples.response });
       msi::EstimationOptions options;
       options.metamerism.structure = static_cast<msi::BandStructure>(this->Structure);
       options.metamerism.channelWavelengths = chart.channels.wavelengths;

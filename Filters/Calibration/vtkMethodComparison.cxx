@@ -3,6 +3,7 @@
 #include "AlgorithmSupport.h"
 #include "HeldOutFigures.h"
 #include "NameList.h"
+#include "ResponseRange.h"
 #include "SampleColumns.h"
 
 #include "vtkDoubleArray.h"
@@ -183,6 +184,13 @@ int vtkMethodComparison::RequestData(
       msi::requireSameChannels(
         chart.channels, "the calibration table", medium.channels, "the target table");
       msi::requireSameBands(chart.bands, "the calibration table", medium.bands, "the target table");
+      msi::requireSameUnit(chart, "the calibration table", medium, "the target table");
+      const auto dead =
+        msi::deadChannels(chart.samples.response, chart.channels, "the calibration table");
+      if (!dead.empty())
+      {
+        vtkWarningMacro(<< dead);
+      }
       msi::ComparisonOptions options;
       options.methods = msi::namesIn(this->Methods);
       if (options.methods == std::vector<std::string>{ "all" })

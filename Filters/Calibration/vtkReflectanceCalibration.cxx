@@ -2,6 +2,7 @@
 
 #include "AlgorithmSupport.h"
 #include "FitSummaryTable.h"
+#include "ResponseRange.h"
 #include "SampleColumns.h"
 #include "TransformTable.h"
 
@@ -54,6 +55,13 @@ int vtkReflectanceCalibration::RequestData(
       {
         vtkWarningMacro(<< fit.summary.status);
       }
+      const auto dead =
+        msi::deadChannels(measured.samples.response, measured.channels, "the calibration table");
+      if (!dead.empty())
+      {
+        vtkWarningMacro(<< dead);
+      }
+      msi::writeResponseRange(vtkTable::GetData(outputs, 0), { measured.samples.response });
       msi::write(msi::ReflectanceTransform{ measured.bands, measured.channels, fit.transform },
         vtkTable::GetData(outputs, 0));
       msi::write(

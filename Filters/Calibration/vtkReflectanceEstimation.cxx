@@ -1,8 +1,9 @@
 #include "vtkReflectanceEstimation.h"
 
 #include "AlgorithmSupport.h"
-#include "SampleColumns.h"
 #include "ImagePicture.h"
+#include "ResponseRange.h"
+#include "SampleColumns.h"
 #include "SpectralImage.h"
 #include "TransformTable.h"
 
@@ -14,6 +15,8 @@
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
+
+#include "Kernels/Spectra/PossibleValues.h"
 
 #include <memory>
 #include <stdexcept>
@@ -163,6 +166,7 @@ int vtkReflectanceEstimation::RequestData(
           msi::requireSpectra(table, msi::SampleQuantity::Response, "the sample table");
         msi::requireSameChannels(
           responses.axis, "the sample table", estimator.channels, "the reflectance transform");
+        msi::requirePossibleResponse(responses.values, "the sample table");
         Eigen::MatrixXd reflectance(estimator.bands.size(), responses.values.cols());
         Eigen::MatrixXd deviation(uncertainty ? reflectance.rows() : 0, reflectance.cols());
         estimator.kernel->apply(responses.values.data(), reflectance.data(),
@@ -185,6 +189,20 @@ int vtkReflectanceEstimation::RequestData(
       auto* responses = msi::requireSpectralArray(image, "the image", this->ResponseArray.c_str());
       msi::requireSameChannels(msi::axisOf(image, responses), "the image", estimator.channels,
         "the reflectance transform");
+      if (msi::isWhole(inputs[0]->GetInformationObject(0), image))
+      {
+        const auto judgement = msi::judgeResponses(responses, estimator.channels,
+          msi::readResponseRange(
+            vtkTable::GetData(inputs[1]), static_cast<Eigen::Index>(estimator.channels.size())));
+        if (!judgement.error.empty())
+        {
+          throw std::runtime_error(judgement.error);
+        }
+        if (!judgement.warning.empty())
+        {
+          vtkWarningMacro(<< judgement.warning);
+        }
+      }
       auto* output = vtkImageData::GetData(outputs, 0);
       output->ShallowCopy(image);
       if (responses->GetDataType() == VTK_DOUBLE)

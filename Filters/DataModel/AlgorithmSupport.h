@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -25,12 +26,7 @@ namespace msi
 template <typename Work>
 int runAlgorithm(vtkAlgorithm* algorithm, vtkInformationVector* outputs, Work&& work)
 {
-  try
-  {
-    work();
-    return 1;
-  }
-  catch (const std::exception& error)
+  const auto fail = [&](const char* what)
   {
     for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
     {
@@ -39,8 +35,22 @@ int runAlgorithm(vtkAlgorithm* algorithm, vtkInformationVector* outputs, Work&& 
         output->Initialize();
       }
     }
-    vtkErrorWithObjectMacro(algorithm, << error.what());
+    vtkErrorWithObjectMacro(algorithm, << what);
     return 0;
+  };
+  try
+  {
+    work();
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return fail("there is not enough memory; give it less: set Region, Stride or Bands of the "
+                "image's reader");
+  }
+  catch (const std::exception& error)
+  {
+    return fail(error.what());
   }
 }
 

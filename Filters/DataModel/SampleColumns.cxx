@@ -4,10 +4,15 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
+#include "vtkSmartPointer.h"
 #include "vtkTable.h"
+
+#include "Kernels/Spectra/PossibleValues.h"
 
 #include <algorithm>
 #include <charconv>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace msi
@@ -163,11 +168,34 @@ void setNumbers(
 void setSpectra(vtkTable* table, SampleQuantity quantity, const SpectralAxis& axis,
   const Eigen::Ref<const Eigen::MatrixXd>& values)
 {
+  // VTK looks through all columns whenever a named one is added: named afterwards, thousands of them cost no more than
+  // their number.
+  std::set<std::string> present;
+  for (vtkIdType i = 0; i < table->GetNumberOfColumns(); ++i)
+  {
+    const char* name = table->GetColumnName(i);
+    present.insert(name ? name : "");
+  }
+  std::vector<vtkSmartPointer<vtkDoubleArray>> added;
   for (std::size_t i = 0; i < axis.size(); ++i)
   {
-    setNumbers(table,
-      axis.wavelengths ? static_cast<char>(quantity) + axis.names[i] : axis.names[i],
-      values.row(static_cast<Eigen::Index>(i)).transpose());
+    const std::string name =
+      axis.wavelengths ? static_cast<char>(quantity) + axis.names[i] : axis.names[i];
+    if (present.count(name) > 0)
+    {
+      table->RemoveColumnByName(name.c_str());
+    }
+    auto column = vtkSmartPointer<vtkDoubleArray>::New();
+    column->SetNumberOfValues(values.cols());
+    const auto row = values.row(static_cast<Eigen::Index>(i));
+    std::copy(row.begin(), row.end(), column->GetPointer(0));
+    table->AddColumn(column);
+    added.push_back(column);
+  }
+  for (std::size_t i = 0; i < axis.size(); ++i)
+  {
+    added[i]->SetName(
+      (axis.wavelengths ? static_cast<char>(quantity) + axis.names[i] : axis.names[i]).c_str());
   }
 }
 
@@ -178,7 +206,26 @@ MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameO
   MeasuredSamples measured{ std::move(reflectance.axis), std::move(response.axis),
     { std::move(reflectance.values), std::move(response.values) } };
   requireValid(measured.samples, nameOfTable);
+  requirePossibleReflectance(measured.samples.reflectance, nameOfTable);
+  requirePossibleResponse(measured.samples.response, nameOfTable);
   return measured;
+}
+
+void requireSameUnit(const MeasuredSamples& a, const std::string& nameOfA, const MeasuredSamples& b,
+  const std::string& nameOfB)
+{
+  const double ofA = typicalLevel(a.samples.response);
+  const double ofB = typicalLevel(b.samples.response);
+  if ((ofA > LargestRelativeLevel) != (ofB > LargestRelativeLevel))
+  {
+    std::ostringstream message;
+    message << "the responses of " << nameOfA << " reach " << ofA << ", those of " << nameOfB << " "
+            << ofB
+            << " (median of the channels); expected both relative to white, or both in counts; "
+               "divide the counts "
+            << "by those of the perfect white";
+    throw std::invalid_argument(message.str());
+  }
 }
 
 void copyRows(vtkTable* from, const std::vector<Eigen::Index>& rows, vtkTable* to)

@@ -67,7 +67,12 @@ struct MeasuredSamples
   SpectralAxis channels;
   SampleSet samples;
 };
+// Throws std::invalid_argument also for values that no instrument gives (Kernels/Spectra/PossibleValues.h).
 MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameOfTable);
+
+// Throws std::invalid_argument where the responses of one table are counts and those of the other relative to white.
+void requireSameUnit(const MeasuredSamples& a, const std::string& nameOfA, const MeasuredSamples& b,
+  const std::string& nameOfB);
 
 // Copies the chosen rows, all columns, in the given order.
 void copyRows(vtkTable* from, const std::vector<Eigen::Index>& rows, vtkTable* to);

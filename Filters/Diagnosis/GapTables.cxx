@@ -8,10 +8,15 @@
 #include "vtkTable.h"
 #include "vtkVariant.h"
 
+#include "Kernels/Spectra/PossibleValues.h"
+
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace msi
@@ -22,6 +27,12 @@ namespace
 constexpr const char* CameraName = "the camera table";
 constexpr const char* SamplesName = "the samples table";
 constexpr const char* ResponsesName = "the responses table";
+
+// With fewer samples nothing can be held out that judges what the others taught.
+constexpr std::size_t FewestSamples = 5;
+// Of a channel's response to the perfect white: where more comes from wavelengths without measured reflectance, the
+// simulation is a guess.
+constexpr double MostUnmeasured = 0.5;
 
 // The column of that name, upper and lower case alike, or null.
 vtkAbstractArray* findColumn(vtkTable* table, const std::string& name)
@@ -144,6 +155,79 @@ void requireNoEffects(const CameraTable& camera)
       "give the camera as designed");
   }
 }
+
+std::string rounded(double value)
+{
+  std::ostringstream text;
+  text << std::round(value);
+  return text.str();
+}
+
+// A camera that answers to nothing, or only where no sample was measured, explains everything and nothing.
+void requireUsefulCamera(const CameraModel& camera, const WavelengthGrid& measured)
+{
+  if (camera.wavelengths().size() < 2)
+  {
+    throw std::invalid_argument(std::string(CameraName) +
+      " has 1 wavelength; expected the responsivity of each channel over the spectrum");
+  }
+  for (Eigen::Index k = 0; k < camera.channelCount(); ++k)
+  {
+    const Eigen::VectorXd curve = camera.responsivity().row(k).transpose().cwiseAbs();
+    const std::string channel =
+      "channel " + camera.channels()[static_cast<std::size_t>(k)] + " of " + CameraName;
+    const double all = curve.sum();
+    if (!(all > 0.0))
+    {
+      throw std::invalid_argument(
+        channel + " answers to no light: its curve is 0; expected responsivities above 0");
+    }
+    double outside = 0.0;
+    for (Eigen::Index j = 0; j < curve.size(); ++j)
+    {
+      const double nm = camera.wavelengths()[j];
+      outside += nm < measured.front() || nm > measured.back() ? curve[j] : 0.0;
+    }
+    if (outside > MostUnmeasured * all)
+    {
+      throw std::invalid_argument(channel + " gets " + rounded(100.0 * outside / all) +
+        " % of its response from wavelengths where no reflectance was measured (measured: " +
+        rounded(measured.front()) + " to " + rounded(measured.back()) +
+        " nm); expected curves over the measured wavelengths: check the wavelengths of both");
+    }
+  }
+}
+
+void requireUsefulReadings(const Eigen::MatrixXd& readings, const std::vector<int>& sampleOf,
+  const Eigen::MatrixXd& reflectance, const CameraModel& camera, const std::string& name)
+{
+  requirePossibleResponse(readings, name);
+  for (Eigen::Index k = 0; k < readings.rows(); ++k)
+  {
+    if (readings.cols() > 0 && (readings.row(k).array() == 0.0).all())
+    {
+      throw std::invalid_argument(name + ": channel " +
+        camera.channels()[static_cast<std::size_t>(k)] +
+        " is 0 in every reading; expected the answers of a camera: leave a dead channel out of "
+        "both cameras");
+    }
+  }
+  std::set<int> usable;
+  for (Eigen::Index j = 0; j < readings.cols(); ++j)
+  {
+    const int sample = sampleOf[static_cast<std::size_t>(j)];
+    if (readings.col(j).array().isFinite().any() && reflectance.col(sample).allFinite())
+    {
+      usable.insert(sample);
+    }
+  }
+  if (usable.size() < FewestSamples)
+  {
+    throw std::invalid_argument("a diagnosis needs " + std::to_string(FewestSamples) +
+      " samples or more with reading and reflectance; " + std::to_string(usable.size()) + " of " +
+      std::to_string(reflectance.cols()) + " have both");
+  }
+}
 }
 
 NamedGapCapture gapCaptureOf(vtkTable* cameraTable, vtkTable* samples, vtkTable* responses)
@@ -162,6 +246,8 @@ NamedGapCapture gapCaptureOf(vtkTable* cameraTable, vtkTable* samples, vtkTable*
       (own ? SamplesName : ResponsesName) + " has " + std::to_string(channels) +
       "; both must be of the same camera with the same channels");
   }
+  requireUsefulCamera(camera.camera, *reflectance.axis.wavelengths);
+  requirePossibleReflectance(reflectance.values, SamplesName);
   auto names = namesOf(samples);
   std::vector<int> sampleOf(names.size());
   std::iota(sampleOf.begin(), sampleOf.end(), 0);
@@ -169,6 +255,8 @@ NamedGapCapture gapCaptureOf(vtkTable* cameraTable, vtkTable* samples, vtkTable*
   {
     sampleOf = samplesOfReadings(responses, names);
   }
+  requireUsefulReadings(readings.values, sampleOf, reflectance.values, camera.camera,
+    own ? SamplesName : ResponsesName);
   SceneSamples scene{ std::move(reflectance.values), textColumn(samples, "medium"),
     textColumn(samples, "scene"), numberColumn(samples, "x"), numberColumn(samples, "y"),
     numberColumn(samples, "order") };

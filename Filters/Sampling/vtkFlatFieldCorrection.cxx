@@ -1,8 +1,9 @@
 #include "vtkFlatFieldCorrection.h"
 
 #include "AlgorithmSupport.h"
-#include "ImagePieces.h"
 #include "ImagePicture.h"
+#include "ImagePieces.h"
+#include "ResponseRange.h"
 #include "SpectralImage.h"
 
 #include "vtkFloatArray.h"
@@ -14,6 +15,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -233,6 +235,33 @@ int vtkFlatFieldCorrection::RequestUpdateExtent(
   return 1;
 }
 
+// Of a whole image: frames in each other's place give numbers all the same.
+void vtkFlatFieldCorrection::WarnOfUnlikelyFrames(vtkFloatArray* responses)
+{
+  constexpr double Unlikely = 1.5; // times the white
+  const float* values = responses->GetPointer(0);
+  vtkIdType finite = 0;
+  vtkIdType below = 0;
+  vtkIdType above = 0;
+  for (vtkIdType i = 0; i < responses->GetNumberOfValues(); ++i)
+  {
+    finite += std::isfinite(values[i]) ? 1 : 0;
+    below += values[i] < 0.0F ? 1 : 0;
+    above += values[i] > static_cast<float>(Unlikely * this->WhiteReflectance) ? 1 : 0;
+  }
+  const auto percent = [finite](vtkIdType count) { return (200 * count + finite) / (2 * finite); };
+  if (2 * below > finite)
+  {
+    vtkWarningMacro(<< percent(below)
+                    << " % of the raw values are below the dark image; are the images swapped?");
+  }
+  else if (2 * above > finite)
+  {
+    vtkWarningMacro(<< percent(above) << " % of the raw values exceed the white " << Unlikely
+                    << " times; are the images swapped, or exposed differently (ExposureTimes)?");
+  }
+}
+
 int vtkFlatFieldCorrection::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -310,6 +339,26 @@ int vtkFlatFieldCorrection::RequestData(
           dead += deadHere;
           saturated += saturatedHere;
         });
+      if (msi::isWhole(inputs[0]->GetInformationObject(0), rawImage))
+      {
+        const vtkIdType values = raw->GetNumberOfTuples() * channels;
+        if (values > 0 && dead == values)
+        {
+          throw std::runtime_error(
+            std::string(white.values ? "the white image" : "the WhiteLevel") + " is above the " +
+            (dark.values ? "dark image" : "dark level 0") +
+            " in no pixel and no channel; expected the white to be brighter; " +
+            (white.values ? "are white and dark swapped?"
+                          : "set WhiteLevel, or connect a white image"));
+        }
+        this->WarnOfUnlikelyFrames(responses);
+        if (!white.values && !dark.values && this->WhiteLevel == 1.0)
+        {
+          vtkWarningMacro(<< "neither a white nor a dark image is connected and WhiteLevel is 1: "
+                             "the raw values are passed "
+                             "on as they are");
+        }
+      }
       this->DeadCount = dead;
       this->SaturatedCount = saturated;
       const auto axis = msi::axisOf(rawImage, rawArray);

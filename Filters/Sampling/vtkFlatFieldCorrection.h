@@ -8,7 +8,8 @@
  * equals the white one, times WhiteReflectance. Where exposure times are given, signals are compared per time.
  *
  * Values whose white is not above the dark, and values that are saturated, become NaN; how many is told in DeadCount
- * and SaturatedCount, and where in the array "Mask".
+ * and SaturatedCount, and where in the array "Mask". A whole image whose white is nowhere above the dark is an error;
+ * warnings tell where most values lie below the dark or far above the white, and where there is neither frame.
  */
 #ifndef vtkFlatFieldCorrection_h
 #define vtkFlatFieldCorrection_h
@@ -17,6 +18,8 @@
 #include "vtkImageAlgorithm.h"
 
 #include <vector>
+
+class vtkFloatArray;
 
 class MULTISPECTRALFILTERSSAMPLING_EXPORT vtkFlatFieldCorrection : public vtkImageAlgorithm
 {
@@ -109,6 +112,8 @@ protected:
 private:
   vtkFlatFieldCorrection(const vtkFlatFieldCorrection&) = delete;
   void operator=(const vtkFlatFieldCorrection&) = delete;
+
+  void WarnOfUnlikelyFrames(vtkFloatArray* responses);
 
   double WhiteReflectance = 1.0;
   double WhiteLevel = 1.0;

@@ -108,6 +108,74 @@ TEST_F(SimToRealGapErrors, NothingMeasured)
     }
   }
   EXPECT_EQ(
-    error(), "a diagnosis needs 2 samples or more with reading and reflectance; 1 of 40 have both");
+    error(), "a diagnosis needs 5 samples or more with reading and reflectance; 1 of 40 have both");
+}
+
+// Data that no camera and no spectrophotometer gives must not be explained.
+TEST_F(SimToRealGapErrors, OneMarkForAMissingValueAmongTheReadings)
+{
+  Tables.responses->SetValueByName(7, "C3", vtkVariant(-9999.0));
+  EXPECT_EQ(error(),
+    "the responses table sample 8, response channel 3 is -9999; expected -10 to 1000, as the other "
+    "responses are; "
+    "remove the sample if this marks a missing value");
+}
+
+TEST_F(SimToRealGapErrors, OneMarkForAMissingValueAmongTheReflectances)
+{
+  Tables.samples->SetValueByName(2, "R450", vtkVariant(-1e9));
+  EXPECT_EQ(error(),
+    "the samples table sample 3, reflectance band 6 is -1e+09; expected -1 to 100, where 1 is the "
+    "perfect white; "
+    "remove the sample if this marks a missing value");
+}
+
+TEST_F(SimToRealGapErrors, ADeadChannel)
+{
+  for (vtkIdType row = 0; row < GapTestTables::Samples; ++row)
+  {
+    Tables.responses->SetValueByName(row, "C2", vtkVariant(0.0));
+  }
+  EXPECT_EQ(error(),
+    "the responses table: channel C2 is 0 in every reading; expected the answers of a camera: "
+    "leave a dead channel out "
+    "of both cameras");
+}
+
+TEST_F(SimToRealGapErrors, ACameraWithoutCurves)
+{
+  auto camera = msi::readCamera(Tables.camera, "camera");
+  Eigen::MatrixXd curves = camera.camera.responsivity();
+  curves.row(1).setZero();
+  camera.camera = msi::CameraModel(
+    camera.camera.wavelengths(), curves, camera.camera.dark(), camera.camera.channels());
+  msi::write(camera, Tables.camera);
+  EXPECT_EQ(error(),
+    "channel C2 of the camera table answers to no light: its curve is 0; expected responsivities "
+    "above 0");
+}
+
+TEST_F(SimToRealGapErrors, ACameraBesideTheMeasuredWavelengths)
+{
+  auto camera = msi::readCamera(Tables.camera, "camera");
+  camera.camera = msi::CameraModel(msi::WavelengthGrid::uniform(900.0, 1200.0, 10.0),
+    camera.camera.responsivity(), camera.camera.dark(), camera.camera.channels());
+  msi::write(camera, Tables.camera);
+  EXPECT_EQ(error(),
+    "channel C1 of the camera table gets 100 % of its response from wavelengths where no "
+    "reflectance was measured "
+    "(measured: 400 to 700 nm); expected curves over the measured wavelengths: check the "
+    "wavelengths of both");
+}
+
+TEST_F(SimToRealGapErrors, ACameraOfOneWavelength)
+{
+  auto camera = msi::readCamera(Tables.camera, "camera");
+  camera.camera = msi::CameraModel(msi::WavelengthGrid({ 550.0 }),
+    camera.camera.responsivity().rowwise().sum(), camera.camera.dark(), camera.camera.channels());
+  msi::write(camera, Tables.camera);
+  EXPECT_EQ(error(),
+    "the camera table has 1 wavelength; expected the responsivity of each channel over the "
+    "spectrum");
 }
 }

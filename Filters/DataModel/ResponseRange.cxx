@@ -1,0 +1,231 @@
+#include "ResponseRange.h"
+
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace msi
+{
+
+namespace
+{
+constexpr const char* RangeArray = "ResponseRange";
+constexpr vtkIdType MostPixels = 65536;
+// Times the calibration's largest responses.
+constexpr double DimImage = 0.1;    // its brightest hundredth stays below that
+constexpr double BrightImage = 2.0; // half of it lies above that
+constexpr double CountsImage =
+  10.0; // half of it lies above that: no light makes so much of a chart's white
+constexpr double Margin = 0.1; // of a channel's range, beyond which a response is outside of it
+constexpr double MostOutside = 0.5; // of the pixels
+const char* const Remedy =
+  "are they raw counts? Divide the image by a white image first (Flat Field Correction)";
+
+std::string rounded(double value)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << value;
+  return text.str();
+}
+
+std::string percent(double share)
+{
+  std::ostringstream text;
+  text.precision(share < 0.1 ? 2 : 3);
+  text << 100.0 * share << " %";
+  return text.str();
+}
+
+std::string nameOf(const SpectralAxis& channels, std::size_t k)
+{
+  return channels.names[k] + (channels.wavelengths ? " nm" : "");
+}
+
+std::string listOf(const std::vector<std::string>& names)
+{
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  }
+  return list;
+}
+
+std::string zeroChannels(const Eigen::Array<bool, Eigen::Dynamic, 1>& isZero,
+  const SpectralAxis& channels, const std::string& where)
+{
+  std::vector<std::string> names;
+  for (Eigen::Index k = 0; k < isZero.size(); ++k)
+  {
+    if (isZero[k])
+    {
+      names.push_back(nameOf(channels, static_cast<std::size_t>(k)));
+    }
+  }
+  return names.empty() ? std::string()
+                       : (names.size() == 1 ? "channel " : "channels ") + listOf(names) +
+      (names.size() == 1 ? " is 0 in " : " are 0 in ") + where;
+}
+
+double quantile(std::vector<double>& values, double share)
+{
+  const auto at =
+    values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// Each pixel's responses as multiples of the calibration's largest ones, mean over the channels; and how many pixels lie
+// outside of its range in some channel.
+ResponseJudgement besideRange(const Eigen::ArrayXXd& pixels, const ResponseRange& range)
+{
+  const Eigen::ArrayXd most = range.col(1).max(1e-300);
+  const Eigen::ArrayXd margin = Margin * (range.col(1) - range.col(0));
+  std::vector<double> brightness;
+  Eigen::Index outside = 0;
+  for (const auto& pixel : pixels.colwise())
+  {
+    brightness.push_back((pixel / most).mean());
+    outside += (pixel < range.col(0) - margin || pixel > range.col(1) + margin).any() ? 1 : 0;
+  }
+  const double middle = quantile(brightness, 0.5);
+  const double brightest = quantile(brightness, 0.99);
+  const double share = static_cast<double>(outside) / static_cast<double>(pixels.cols());
+  if (middle > CountsImage)
+  {
+    return { "half of the image's responses exceed the largest ones of the calibration samples " +
+        rounded(middle) + " times; expected responses in the unit of the calibration; " + Remedy,
+      {} };
+  }
+  if (middle > BrightImage)
+  {
+    return { {},
+      "half of the image's responses exceed the largest ones of the calibration samples " +
+        rounded(middle) + " times; " + Remedy };
+  }
+  if (brightest < DimImage)
+  {
+    return { {},
+      "the image's responses reach " + percent(brightest) +
+        " of the largest ones of the calibration samples (99th percentile of the pixels); " +
+        Remedy };
+  }
+  if (share > MostOutside)
+  {
+    return { {},
+      percent(share) +
+        " of the pixels have responses outside of the range of the calibration samples: their "
+        "reflectance is "
+        "extrapolated" };
+  }
+  return {};
+}
+}
+
+void writeResponseRange(vtkTable* transform, const std::vector<Eigen::MatrixXd>& responses)
+{
+  const Eigen::Index channels = responses.front().rows();
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(RangeArray);
+  array->SetNumberOfComponents(2);
+  array->SetNumberOfTuples(channels);
+  for (Eigen::Index k = 0; k < channels; ++k)
+  {
+    double least = responses.front().row(k).minCoeff();
+    double most = responses.front().row(k).maxCoeff();
+    for (const Eigen::MatrixXd& set : responses)
+    {
+      least = std::min(least, set.row(k).minCoeff());
+      most = std::max(most, set.row(k).maxCoeff());
+    }
+    array->SetTuple2(k, least, most);
+  }
+  transform->GetFieldData()->AddArray(array);
+}
+
+std::optional<ResponseRange> readResponseRange(vtkTable* transform, Eigen::Index channels)
+{
+  auto* array = transform ? transform->GetFieldData()->GetArray(RangeArray) : nullptr;
+  if (!array || array->GetNumberOfComponents() != 2 || array->GetNumberOfTuples() != channels)
+  {
+    return std::nullopt;
+  }
+  ResponseRange range(channels, 2);
+  for (Eigen::Index k = 0; k < channels; ++k)
+  {
+    range(k, 0) = array->GetComponent(k, 0);
+    range(k, 1) = array->GetComponent(k, 1);
+  }
+  return range;
+}
+
+ResponseJudgement judgeResponses(
+  vtkDataArray* responses, const SpectralAxis& channels, const std::optional<ResponseRange>& range)
+{
+  const vtkIdType count = responses->GetNumberOfTuples();
+  const vtkIdType step = std::max<vtkIdType>(1, count / MostPixels);
+  const auto size = static_cast<Eigen::Index>(channels.size());
+  Eigen::ArrayXXd pixels(size, count == 0 ? 0 : (count - 1) / step + 1);
+  Eigen::Index kept = 0;
+  for (vtkIdType pixel = 0; pixel < count; pixel += step)
+  {
+    responses->GetTuple(pixel, pixels.col(kept).data());
+    kept += pixels.col(kept).isFinite().all() ? 1 : 0;
+  }
+  if (count == 0)
+  {
+    return {};
+  }
+  if (kept == 0)
+  {
+    return {
+      "no pixel of the image has finite responses in all channels; expected the responses of a "
+      "camera; where they "
+      "were divided by a white image: is it brighter than the dark image, and of the same camera?",
+      {}
+    };
+  }
+  pixels.conservativeResize(Eigen::NoChange, kept);
+  const Eigen::Array<bool, Eigen::Dynamic, 1> zero = (pixels == 0.0).rowwise().all();
+  if (zero.all())
+  {
+    return { "the image is 0 in every pixel; expected the responses of a camera; check the file "
+             "and the channels that "
+             "were read",
+      {} };
+  }
+  ResponseJudgement judgement = range ? besideRange(pixels, *range) : ResponseJudgement{};
+  const std::string dead = zeroChannels(zero, channels, "every pixel of the image");
+  if (!dead.empty())
+  {
+    judgement.warning = dead + (judgement.warning.empty() ? "" : "; " + judgement.warning);
+  }
+  return judgement;
+}
+
+bool isWhole(vtkInformation* information, vtkImageData* image)
+{
+  std::array<int, 6> whole{};
+  information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
+  return std::equal(whole.begin(), whole.end(), image->GetExtent());
+}
+
+std::string deadChannels(
+  const Eigen::MatrixXd& responses, const SpectralAxis& channels, const std::string& nameOfTable)
+{
+  return zeroChannels(
+    (responses.array() == 0.0).rowwise().all(), channels, "every sample of " + nameOfTable);
+}
+
+} // namespace msi

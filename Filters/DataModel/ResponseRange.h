@@ -1,0 +1,47 @@
+// Whether an image's responses are such as the samples had that a transform was fitted on.
+#ifndef ResponseRange_h
+#define ResponseRange_h
+
+#include "SpectralAxis.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkImageData;
+class vtkInformation;
+class vtkTable;
+
+namespace msi
+{
+
+// Per channel: the least and the largest response of the samples. It travels with the transform as field data; a
+// transform from a file has none.
+using ResponseRange = Eigen::ArrayX2d;
+void writeResponseRange(vtkTable* transform, const std::vector<Eigen::MatrixXd>& responses);
+std::optional<ResponseRange> readResponseRange(vtkTable* transform, Eigen::Index channels);
+
+// What is wrong with the responses of a whole image, with the numbers; empty texts where nothing is.
+struct ResponseJudgement
+{
+  std::string error;   // no estimate of it means anything
+  std::string warning; // the estimates are doubtful
+};
+
+// Looks at up to 65536 pixels, evenly spread.
+ResponseJudgement judgeResponses(
+  vtkDataArray* responses, const SpectralAxis& channels, const std::optional<ResponseRange>& range);
+
+// True where the image is not a piece of a larger one: what is true of all its pixels is true of the image.
+bool isWhole(vtkInformation* information, vtkImageData* image);
+
+// The same channel that is 0 in every sample, as a warning; empty where there is none.
+std::string deadChannels(
+  const Eigen::MatrixXd& responses, const SpectralAxis& channels, const std::string& nameOfTable);
+
+} // namespace msi
+
+#endif

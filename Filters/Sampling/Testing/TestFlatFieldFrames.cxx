@@ -1,0 +1,88 @@
+// Frames that are missing or in each other's place: what would give a black image, or a wrong one, is said.
+#include "vtkFlatFieldCorrection.h"
+
+#include "Support/vtk/Images.h"
+#include "Support/vtk/Runs.h"
+
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using namespace msi;
+using namespace msi::testing;
+
+class Frames : public ::testing::Test
+{
+protected:
+  static vtkSmartPointer<vtkImageData> flat(double value)
+  {
+    return newImage(
+      4, 3, "counts", Eigen::MatrixXd::Constant(2, 12, value), WavelengthGrid({ 450.0, 550.0 }));
+  }
+  std::string error() { return errorOf(this->Correction); }
+  std::string warning()
+  {
+    MessageLog log(this->Correction);
+    this->Correction->Update();
+    EXPECT_EQ(log.firstError(), "");
+    return log.firstWarning();
+  }
+  void connect(double raw, double white, double dark)
+  {
+    this->Correction->SetInputData(0, flat(raw));
+    this->Correction->SetInputData(1, flat(white));
+    this->Correction->SetInputData(2, flat(dark));
+  }
+
+  vtkNew<vtkFlatFieldCorrection> Correction;
+};
+
+TEST_F(Frames, InTheirPlacesAreNotRemarkedOn)
+{
+  this->connect(500.0, 1000.0, 100.0);
+  EXPECT_EQ(this->warning(), "");
+  this->connect(
+    90.0, 1000.0, 100.0); // a black sample, below the dark by its noise, is most of no image
+  EXPECT_NE(this->warning(), "");
+}
+
+TEST_F(Frames, WhiteAndDarkSwapped)
+{
+  this->connect(500.0, 100.0, 1000.0);
+  EXPECT_EQ(this->error(),
+    "the white image is above the dark image in no pixel and no channel; expected the white to be "
+    "brighter; are white "
+    "and dark swapped?");
+}
+
+TEST_F(Frames, RawAndDarkSwapped)
+{
+  this->connect(100.0, 1000.0, 500.0);
+  EXPECT_EQ(
+    this->warning(), "100 % of the raw values are below the dark image; are the images swapped?");
+}
+
+TEST_F(Frames, RawAndWhiteSwapped)
+{
+  this->connect(1000.0, 500.0, 100.0);
+  EXPECT_EQ(this->warning(),
+    "100 % of the raw values exceed the white 1.5 times; are the images swapped, or exposed "
+    "differently "
+    "(ExposureTimes)?");
+}
+
+TEST_F(Frames, Missing)
+{
+  this->Correction->SetInputData(0, flat(0.5));
+  EXPECT_EQ(this->warning(),
+    "neither a white nor a dark image is connected and WhiteLevel is 1: the raw values are passed "
+    "on as they are");
+  this->Correction->SetInputData(2, flat(100.0));
+  EXPECT_EQ(this->error(),
+    "the WhiteLevel is above the dark image in no pixel and no channel; expected the white to be "
+    "brighter; set "
+    "WhiteLevel, or connect a white image");
+}
+}

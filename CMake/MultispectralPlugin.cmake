@@ -3,7 +3,7 @@
 # ParaView uses, most of which a plugin never sees.
 find_package(ParaView 5.11 REQUIRED QUIET OPTIONAL_COMPONENTS RemotingServerManager)
 # What ParaView's libraries link is named in their targets, though it is theirs alone: names are enough.
-foreach(library IN ITEMS MPI::MPI_C)
+foreach(library IN ITEMS MPI::MPI_C Freetype::Freetype GLEW::GLEW X11::X11)
   if(NOT TARGET ${library})
     add_library(${library} INTERFACE IMPORTED)
   endif()

@@ -15,6 +15,7 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -207,11 +208,6 @@ void vtkCameraSimulator::SimulateTable(const Work& work, vtkTable* input, vtkTab
   }
   msi::setSpectra(output, msi::SampleQuantity::Response, msi::channelsOf(work.camera), response);
   msi::setWhiteLevel(output, work.whiteLevel);
-  msi::removePicture(output);
-  if (this->Preview)
-  {
-    msi::setPicture(this, output, output->GetPointData()->GetScalars());
-  }
 }
 
 bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* information,
@@ -258,6 +254,11 @@ bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* informa
   }
   msi::simulateImage(this, simulator, input, work.camera, output);
   msi::setWhiteLevel(output, work.whiteLevel);
+  msi::removePicture(output);
+  if (this->Preview)
+  {
+    msi::setPicture(this, output, output->GetPointData()->GetScalars());
+  }
   if (outputInformation->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0)
   {
     auto own = msi::requestedExtentWithoutGhosts(outputInformation);

@@ -178,5 +178,5 @@ def save_state(path, reflectance, judged=None):
                                          (0.0, top_errors(judged.summary)[1])))
     pictures.side_by_side(views)
     if command.rank() == 0:
-        with outputs.written(path, b"</ParaView>\n") as part:
+        with outputs.written(path, b"</GenericParaViewApplication>\n") as part:
             simple.SaveState(part)

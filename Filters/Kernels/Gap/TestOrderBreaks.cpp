@@ -10,6 +10,11 @@ namespace
 
 using namespace msi::test;
 
+const msi::EffectForm& stepForm()
+{
+  return msi::requireForm(msi::requireEffect("session_drift"), "step");
+}
+
 // The responses of every sample from number `first` on are multiplied by 1 + change.
 msi::GapCapture withJump(const std::vector<std::pair<int, double>>& jumps)
 {
@@ -36,7 +41,7 @@ TEST(OrderBreaks, OneJumpIsFoundWithItsSizeBetweenTheTwoSamples)
   EXPECT_DOUBLE_EQ(found.front().order, 59.5);
   EXPECT_NEAR(found.front().change, 0.04, 0.002);
   EXPECT_GT(found.front().deviations, 5.0);
-  const auto starts = msi::OrderBreaks(fitter, data.simulated).startsFor("step");
+  const auto starts = msi::OrderBreaks(fitter, data.simulated).startsFor(stepForm());
   ASSERT_FALSE(starts.empty());
   EXPECT_NEAR(starts.front()[0], 0.04, 0.003);
   EXPECT_NEAR(starts.front()[1], 59.5 / 95.0, 1e-9); // capture time 0..1
@@ -65,7 +70,7 @@ TEST(OrderBreaks, NoJumpNoOrderNoBreaks)
   const msi::GapData orderless = dataOf(capture);
   const msi::EffectFitter blind(orderless, orderless.usable, 1);
   EXPECT_TRUE(msi::OrderBreaks::significant(blind, orderless.simulated, 6).empty());
-  EXPECT_TRUE(msi::OrderBreaks(blind, orderless.simulated).startsFor("step").empty());
+  EXPECT_TRUE(msi::OrderBreaks(blind, orderless.simulated).startsFor(stepForm()).empty());
 }
 
 } // namespace

@@ -1,7 +1,5 @@
 #include "Engines.h"
 
-#include "Experiments/EvidenceEngine.h"
-
 #include "Kernels/Gap/Field/FieldGap.h"
 
 namespace withheld
@@ -19,7 +17,6 @@ const std::map<std::string, Engine>& engines()
                                : msi::diagnoseField(input.pair(), options)->report,
           {} };
       } },
-    { "evidence", diagnoseByEvidence },
   };
   return known;
 }

@@ -1,0 +1,97 @@
+"""What a view shows at first is what the data are: pictures of the right spectra, error maps with one fixed legend."""
+
+import os
+import pathlib
+import sys
+
+import numpy as np
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+sys.path.insert(0, os.path.join(os.environ["MULTISPECTRAL_ROOT"], "Plugin", "Scripts"))
+from support import pipeline  # noqa: E402
+
+root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
+images = root / "Data" / "Images" / "demo-fabric"
+faults = []
+
+
+def check(what, holds):
+    if not holds:
+        faults.append(what)
+
+
+def stack(*folder):
+    files = sorted(str(path) for path in images.joinpath(*folder).glob("channel_*.tif"))
+    return pipeline.create("SpectralImageReader", FileNames=files)
+
+
+def picture(source):
+    return vtk_to_numpy(pipeline.whole(source).GetPointData().GetArray("sRGB")).astype(int)
+
+
+def show(source):
+    view = simple.CreateView("RenderView")
+    display = simple.Show(source, view)
+    simple.Render(view)
+    pipeline.fail_on_error()
+    return display, view
+
+
+def check_colors(display, array, mapped):
+    name = list(display.ColorArrayName)
+    check(f"colored by {name} with MapScalars {display.MapScalars}, expected {array} with {mapped}",
+          name == ["POINTS", array] and display.MapScalars == mapped)
+
+
+def main():
+    pipeline.load_plugin()
+    raw = stack()
+    flat = pipeline.create("FlatFieldCorrection", Input=raw, White=stack("white"), Dark=stack("dark"))
+    chart = pipeline.create("SampleTableReader", FileName=str(root / "Data" / "Samples" / "demo-chart.csv"))
+    fit = pipeline.create("ReflectanceCalibration", Input=chart)
+    estimate = pipeline.create("ReflectanceEstimation", Input=flat, ReflectanceTransform=fit[0])
+    color = pipeline.create("SpectralToColor", Input=estimate)
+    pipeline.update(raw, flat, estimate, color)
+
+    # The picture of an estimate is that of its reflectance, not that of the responses before it.
+    off = np.abs(picture(estimate) - picture(color)).max()
+    check(f"the estimate's picture is {off} of 255 off Spectral To Color", off <= 1)
+    check("the flat field keeps the raw picture", (picture(flat) != picture(raw)).any())
+
+    for source in (raw, flat, estimate, color):
+        display, view = show(source)
+        check_colors(display, "sRGB", 0)
+        spectral = "Responses" if source in (raw, flat) else "Reflectance"
+        simple.ColorBy(display, ("POINTS", spectral))
+        simple.Render(view)
+        pipeline.fail_on_error()
+        check_colors(display, spectral, 1)
+        colors = simple.GetColorTransferFunction(spectral)
+        check(f"{spectral} is colored by its {colors.VectorMode}", colors.VectorMode == "Component")
+        simple.ColorBy(display, ("POINTS", "sRGB"))
+        simple.Render(view)
+        pipeline.fail_on_error()
+        check_colors(display, "sRGB", 0)
+
+    labels = pipeline.create("LabelImageReader", FileName=str(images / "labels.png"))
+    patches = pipeline.create("SampleTableReader", FileName=str(images / "patches.csv"))
+    reference = pipeline.create("PatchReferenceImage", Input=labels, PatchTable=patches)
+    errors = pipeline.create("CIEDE2000Evaluator", Input=estimate, Reference=reference)
+    pipeline.update(errors)
+    check("the errors carry a picture", pipeline.whole(errors).GetPointData().GetArray("sRGB") is None)
+    display, view = show(errors)
+    check_colors(display, "dE00 D65", 1)
+    colors = simple.GetColorTransferFunction("dE00 D65")
+    steps = list(colors.RGBPoints)[::4]
+    check(f"the steps of the error map are {steps}", steps == [0.0, 1.0, 2.0, 3.0, 5.0])
+    check(f"NaN is {list(colors.NanColor)}", len(set(colors.NanColor)) == 1)
+    display.SetScalarBarVisibility(view, True)
+    check("the legend has no title", "E00 D65" in simple.GetScalarBar(colors, view).Title)
+
+    print("\n".join(faults) or "every first view is right")
+    sys.stdout.flush()
+    os._exit(1 if faults else 0)
+
+
+main()

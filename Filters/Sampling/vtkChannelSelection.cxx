@@ -1,8 +1,8 @@
 #include "vtkChannelSelection.h"
 
 #include "AlgorithmSupport.h"
-#include "SampleColumns.h"
 #include "ImagePicture.h"
+#include "SampleColumns.h"
 #include "SpectralImage.h"
 
 #include "vtkDataArray.h"

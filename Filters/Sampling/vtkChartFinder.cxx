@@ -74,8 +74,8 @@ std::vector<int> labelsOf(vtkTable* reference, int columns, int rows)
 }
 
 // Reflectance at the channels' wavelengths, else its mean over the bands; NaN for patches that are not listed.
-Eigen::MatrixXd expectedResponses(
-  vtkTable* reference, const std::vector<int>& labels, const msi::SpectralAxis& channels, int patches)
+Eigen::MatrixXd expectedResponses(vtkTable* reference, const std::vector<int>& labels,
+  const msi::SpectralAxis& channels, int patches)
 {
   const auto measured =
     msi::requireSpectra(reference, msi::SampleQuantity::Reflectance, "the reference");
@@ -261,7 +261,8 @@ void writePlacement(const msi::ChartPlacement& placement, vtkTable* output)
 // All zero: the whole image, first patch at the top left.
 msi::PatchGrid::Corners givenCorners(vtkChartFinder* self, vtkImageData* image)
 {
-  const double* corners[] = { self->GetCorner1(), self->GetCorner2(), self->GetCorner3(), self->GetCorner4() };
+  const double* corners[] = { self->GetCorner1(), self->GetCorner2(), self->GetCorner3(),
+    self->GetCorner4() };
   msi::PatchGrid::Corners points;
   bool given = false;
   for (std::size_t i = 0; i < 4; ++i)
@@ -381,8 +382,8 @@ int vtkChartFinder::RequestData(
       msi::ChartPlacement placement;
       if (this->Placement == AUTOMATIC)
       {
-        placement =
-          msi::findChart(msi::makeChartImage(fromTheTop(spectra, width, height), width, height), options);
+        placement = msi::findChart(
+          msi::makeChartImage(fromTheTop(spectra, width, height), width, height), options);
         for (auto& corner : placement.corners)
         {
           corner = { origin[0] + spacing[0] * (whole[0] + corner.x()),

@@ -1,8 +1,8 @@
 #include "vtkPatchReferenceImage.h"
 
 #include "AlgorithmSupport.h"
-#include "SampleColumns.h"
 #include "ImagePicture.h"
+#include "SampleColumns.h"
 #include "SpectralImage.h"
 
 #include "vtkFloatArray.h"

@@ -2,11 +2,11 @@
 
 #include "AlgorithmSupport.h"
 #include "CameraTable.h"
+#include "ImagePicture.h"
 #include "ImageSimulation.h"
 #include "NameList.h"
 #include "SampleColumns.h"
 #include "SceneTable.h"
-#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkImageData.h"

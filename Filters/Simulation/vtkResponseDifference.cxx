@@ -1,9 +1,9 @@
 #include "vtkResponseDifference.h"
 
 #include "AlgorithmSupport.h"
+#include "ImagePicture.h"
 #include "ImagePieces.h"
 #include "SampleColumns.h"
-#include "ImagePicture.h"
 #include "SpectralImage.h"
 
 #include "vtkFloatArray.h"

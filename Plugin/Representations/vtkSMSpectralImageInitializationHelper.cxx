@@ -52,8 +52,8 @@ void vtkSMSpectralImageInitializationHelper::PostInitializeProxy(
   {
     return;
   }
-  const auto name = arrayToShow(
-    source->GetDataInformation(input.GetOutputPort())->GetAttributeInformation(vtkDataObject::POINT));
+  const auto name = arrayToShow(source->GetDataInformation(input.GetOutputPort())
+                                  ->GetAttributeInformation(vtkDataObject::POINT));
   if (!name.empty())
   {
     vtkSMPropertyHelper(color).SetInputArrayToProcess(vtkDataObject::POINT, name.c_str());

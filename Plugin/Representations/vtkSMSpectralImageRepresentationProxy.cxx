@@ -59,7 +59,8 @@ vtkPVArrayInformation* vtkSMSpectralImageRepresentationProxy::ColorArray()
   }
   auto* input = vtkSMSourceProxy::SafeDownCast(inputHelper.GetAsProxy());
   vtkSMPropertyHelper color(property);
-  const char* name = color.GetNumberOfElements() == 5 ? color.GetInputArrayNameToProcess() : nullptr;
+  const char* name =
+    color.GetNumberOfElements() == 5 ? color.GetInputArrayNameToProcess() : nullptr;
   if (!input || !name || !*name)
   {
     return nullptr;

@@ -76,7 +76,8 @@ bool looksLikeLabels(const SpectralImageFile& file)
       pairs += x > 0 ? 1 : 0;
     }
   }
-  return largest > smallest && static_cast<double>(equal) >= LeastEqual * static_cast<double>(pairs);
+  return largest > smallest &&
+    static_cast<double>(equal) >= LeastEqual * static_cast<double>(pairs);
 }
 
 FileKind kindOfImage(const std::string& path)

@@ -35,7 +35,8 @@ TEST_F(FileKinds, TablesOfSamples)
   EXPECT_EQ(fileKind(write("a.csv", "sample,R400,R410,R420\na,.1,.2,.3\n")), FileKind::SampleTable);
   EXPECT_EQ(fileKind(write("b.csv", "sample;400nm;410nm\na;0,1;0,2\n")), FileKind::SampleTable);
   EXPECT_EQ(fileKind(write("c.csv", "sample,C1,C2\na,.1,.2\n")), FileKind::SampleTable);
-  EXPECT_EQ(fileKind(write("d.csv", "wavelength,red patch,blue patch\n400,.6,.5\n500,.7,.9\n600,.8,.8\n")),
+  EXPECT_EQ(
+    fileKind(write("d.csv", "wavelength,red patch,blue patch\n400,.6,.5\n500,.7,.9\n600,.8,.8\n")),
     FileKind::SampleTable);
   EXPECT_EQ(fileKind(write("e.csv", "wavelength,C400,C500,constant\n400,1,-.5,.1\n500,-.2,1,0\n")),
     FileKind::SampleTable);
@@ -44,8 +45,8 @@ TEST_F(FileKinds, TablesOfSamples)
 TEST_F(FileKinds, OtherTablesAreUnknown)
 {
   EXPECT_EQ(fileKind(write("a.csv", "time,temperature\n1,20\n2,21\n")), FileKind::Unknown);
-  EXPECT_EQ(fileKind(write("b.txt", "Dear all,\nplease find the results attached.\n")),
-    FileKind::Unknown);
+  EXPECT_EQ(
+    fileKind(write("b.txt", "Dear all,\nplease find the results attached.\n")), FileKind::Unknown);
   EXPECT_EQ(fileKind(write("c.csv", "")), FileKind::Unknown);
   EXPECT_EQ(fileKind(path("missing.csv")), FileKind::Unknown);
 }
@@ -80,8 +81,8 @@ TEST_F(FileKinds, LabelsAreEvenAreas)
   }
   EXPECT_EQ(fileKind(picture("labels.png", 40, labels)), FileKind::LabelImage);
   EXPECT_EQ(fileKind(picture("frame.png", 40, photograph)), FileKind::SpectralImage);
-  EXPECT_EQ(fileKind(picture("dark.png", 40, std::vector<std::uint8_t>(1600, 3))),
-    FileKind::SpectralImage);
+  EXPECT_EQ(
+    fileKind(picture("dark.png", 40, std::vector<std::uint8_t>(1600, 3))), FileKind::SpectralImage);
   // A wavelength in the name: a channel, however even it is.
   EXPECT_EQ(fileKind(picture("channel_450nm.png", 40, labels)), FileKind::SpectralImage);
 }
@@ -94,12 +95,13 @@ TEST_F(FileKinds, RealFiles)
     GTEST_SKIP() << "MULTISPECTRAL_DATA is not set";
   }
   const std::string folder(data);
-  for (const char* name : { "files/D65.exr", "files/Macbeth.exr", "filterwheel-cc24/channel_550nm.tif" })
+  for (const char* name :
+    { "files/D65.exr", "files/Macbeth.exr", "filterwheel-cc24/channel_550nm.tif" })
   {
     EXPECT_EQ(fileKind(folder + "/" + name), FileKind::SpectralImage) << name;
   }
-  for (const char* name : { "files/cc24_ref.cie", "filterwheel-cc24/patches.csv", "hkpolyu/cotton.csv",
-         "reflectances/ces99.csv", "reflectances/clothes.csv" })
+  for (const char* name : { "files/cc24_ref.cie", "filterwheel-cc24/patches.csv",
+         "hkpolyu/cotton.csv", "reflectances/ces99.csv", "reflectances/clothes.csv" })
   {
     EXPECT_EQ(fileKind(folder + "/" + name), FileKind::SampleTable) << name;
   }

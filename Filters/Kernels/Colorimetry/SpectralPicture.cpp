@@ -95,8 +95,8 @@ void requireWhite(double white)
 {
   if (!(std::isfinite(white) && white > 0.0))
   {
-    throw std::invalid_argument("the white of a picture is " + std::to_string(white) +
-      "; expected a finite value above 0");
+    throw std::invalid_argument(
+      "the white of a picture is " + std::to_string(white) + "; expected a finite value above 0");
   }
 }
 }

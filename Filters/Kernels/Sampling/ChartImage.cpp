@@ -12,8 +12,8 @@ namespace msi
 namespace
 {
 // The mean of each block; a NaN makes its block NaN.
-Eigen::MatrixXf reduced(const Eigen::Ref<const Eigen::MatrixXf>& pixels, int width, int reduction,
-  int columns, int rows)
+Eigen::MatrixXf reduced(
+  const Eigen::Ref<const Eigen::MatrixXf>& pixels, int width, int reduction, int columns, int rows)
 {
   Eigen::MatrixXf result(pixels.rows(), static_cast<Eigen::Index>(columns) * rows);
   const float share = 1.0F / static_cast<float>(reduction * reduction);
@@ -47,7 +47,8 @@ Eigen::MatrixXf smoothed(const Eigen::MatrixXf& values, int width, int height)
       int rows = 0;
       for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j, ++rows)
       {
-        sum += values.middleCols(static_cast<Eigen::Index>(j) * width + left, count).rowwise().sum();
+        sum +=
+          values.middleCols(static_cast<Eigen::Index>(j) * width + left, count).rowwise().sum();
       }
       result.col(static_cast<Eigen::Index>(y) * width + x) = sum / static_cast<float>(count * rows);
     }
@@ -83,15 +84,15 @@ ChartImage makeChartImage(
     pixels.cols() != static_cast<Eigen::Index>(width) * height || pixels.rows() < 1)
   {
     throw std::invalid_argument("an image of " + std::to_string(width) + " x " +
-      std::to_string(height) + " pixels was given " + std::to_string(pixels.cols()) + " pixels of " +
-      std::to_string(pixels.rows()) + " channels");
+      std::to_string(height) + " pixels was given " + std::to_string(pixels.cols()) +
+      " pixels of " + std::to_string(pixels.rows()) + " channels");
   }
   ChartImage image;
   image.reduction = (std::max(width, height) + longest - 1) / longest;
   image.width = std::max(1, width / image.reduction);
   image.height = std::max(1, height / image.reduction);
-  image.values = smoothed(reduced(pixels, width, image.reduction, image.width, image.height),
-    image.width, image.height);
+  image.values = smoothed(
+    reduced(pixels, width, image.reduction, image.width, image.height), image.width, image.height);
   bool any = false;
   for (Eigen::Index k = 0; k < image.values.rows(); ++k)
   {

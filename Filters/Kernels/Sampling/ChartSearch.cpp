@@ -32,9 +32,8 @@ void require(const ChartImage& image, const ChartSearchOptions& options)
   if (options.expected.size() > 0 &&
     (options.expected.cols() != patches || options.expected.rows() != image.values.rows()))
   {
-    throw std::invalid_argument("expected responses of " +
-      std::to_string(options.expected.cols()) + " patches in " +
-      std::to_string(options.expected.rows()) + " channels; the chart has " +
+    throw std::invalid_argument("expected responses of " + std::to_string(options.expected.cols()) +
+      " patches in " + std::to_string(options.expected.rows()) + " channels; the chart has " +
       std::to_string(patches) + " patches and the image " + std::to_string(image.values.rows()) +
       " channels");
   }
@@ -273,8 +272,8 @@ ChartPlacement findChart(const ChartImage& image, const ChartSearchOptions& opti
       std::to_string(regions.size()) +
       " even areas were seen); give its four corners, or an image in which it is larger");
   }
-  const auto best = std::max_element(all.begin(), all.end(),
-    [](const Judged& a, const Judged& b) { return a.score < b.score; });
+  const auto best = std::max_element(
+    all.begin(), all.end(), [](const Judged& a, const Judged& b) { return a.score < b.score; });
   ChartPlacement placement = best->placement;
   placement.secondAgreement = -1.0;
   for (auto other = all.begin(); other != all.end(); ++other)

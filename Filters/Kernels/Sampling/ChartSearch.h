@@ -26,10 +26,12 @@ struct ChartPlacement
   // Pixels of the original, row 0 at the top: of the first patch's cell, the end of the first row, the last patch, the
   // start of the last row. Cells reach to the middle between neighbouring patches.
   PatchGrid::Corners corners;
-  int seen = 0;           // patches that were seen as such
-  double residual = 0.0;  // rms distance of their middles from the grid, in cells
-  double agreement = 0.0; // mean correlation of log response and log expected response; NaN without expected ones
-  double secondAgreement = 0.0; // of the best other placement or orientation; -1 where there is none
+  int seen = 0;          // patches that were seen as such
+  double residual = 0.0; // rms distance of their middles from the grid, in cells
+  double agreement =
+    0.0; // mean correlation of log response and log expected response; NaN without expected ones
+  double secondAgreement =
+    0.0; // of the best other placement or orientation; -1 where there is none
 };
 
 // Even regions, their lattice, and the window of rows x columns in it, turned so that responses agree best with what is

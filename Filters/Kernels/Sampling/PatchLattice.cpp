@@ -40,8 +40,7 @@ std::vector<std::size_t> neighboursOf(const std::vector<EvenRegion>& regions, st
   for (std::size_t i = 0; i < regions.size(); ++i)
   {
     if (i != seed && areAlike(regions[i], regions[seed]) &&
-      (regions[i].center - regions[seed].center).norm() <
-        Farthest * std::sqrt(regions[seed].area))
+      (regions[i].center - regions[seed].center).norm() < Farthest * std::sqrt(regions[seed].area))
     {
       near.push_back(i);
     }
@@ -98,8 +97,8 @@ std::optional<std::size_t> regionAt(const std::vector<EvenRegion>& regions,
   return best;
 }
 
-Members grow(const std::vector<EvenRegion>& regions, std::size_t seed, std::size_t first,
-  std::size_t second)
+Members grow(
+  const std::vector<EvenRegion>& regions, std::size_t seed, std::size_t first, std::size_t second)
 {
   const Eigen::Vector2d u = regions[first].center - regions[seed].center;
   const Eigen::Vector2d v = regions[second].center - regions[seed].center;
@@ -175,8 +174,8 @@ std::optional<PatchLattice> fitted(
       shares.push_back(
         regions[region].area / cellArea(lattice.toImage, { cell.first, cell.second }));
     }
-    std::nth_element(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2),
-      shares.end());
+    std::nth_element(shares.begin(),
+      shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2), shares.end());
     const double typical = shares[shares.size() / 2];
     Members next;
     std::map<Cell, double> distances;
@@ -196,8 +195,7 @@ std::optional<PatchLattice> fitted(
       const Eigen::Vector2d whole = at.array().round();
       const Cell cell(static_cast<int>(whole.x()), static_cast<int>(whole.y()));
       const double distance = (at - whole).norm();
-      if (distance <= LargestResidual &&
-        (distances.count(cell) == 0 || distance < distances[cell]))
+      if (distance <= LargestResidual && (distances.count(cell) == 0 || distance < distances[cell]))
       {
         distances[cell] = distance;
         next[cell] = i;

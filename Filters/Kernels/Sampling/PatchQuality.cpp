@@ -29,9 +29,8 @@ double difference(const std::vector<double>& values, const std::vector<double>& 
     sums[half] += values[i];
     counts[half] += 1.0;
   }
-  return counts[0] > 0.0 && counts[1] > 0.0
-    ? std::abs(sums[0] / counts[0] - sums[1] / counts[1])
-    : 0.0;
+  return counts[0] > 0.0 && counts[1] > 0.0 ? std::abs(sums[0] / counts[0] - sums[1] / counts[1])
+                                            : 0.0;
 }
 }
 

@@ -8,9 +8,11 @@ namespace msi
 
 struct PatchQuality
 {
-  double clipped = 0.0;  // 0..1: pixels that reach the clipping level in any channel
-  double outliers = 0.0; // 0..1: pixels far from the patch's median, such as dust, scratches and highlights
-  double slope = 0.0;    // largest difference between the halves of the patch, relative to its mean: shadows
+  double clipped = 0.0; // 0..1: pixels that reach the clipping level in any channel
+  double outliers =
+    0.0; // 0..1: pixels far from the patch's median, such as dust, scratches and highlights
+  double slope =
+    0.0; // largest difference between the halves of the patch, relative to its mean: shadows
 };
 
 // pixels: channels x pixels of one patch; places: 2 x pixels. clipping: per channel, infinity where unknown.

@@ -21,12 +21,12 @@ struct Scene
   int rows = 4;
   int width = 480;
   int height = 360;
-  Corners corners;          // of the cells: gaps are half inside
-  double gap = 0.15;        // of a cell
-  double noise = 0.01;      // relative to white
+  Corners corners;     // of the cells: gaps are half inside
+  double gap = 0.15;   // of a cell
+  double noise = 0.01; // relative to white
   unsigned seed = 1;
-  Eigen::MatrixXd patches;  // channels x patches
-  Eigen::MatrixXf pixels;   // channels x pixels
+  Eigen::MatrixXd patches; // channels x patches
+  Eigen::MatrixXf pixels;  // channels x pixels
   Eigen::Matrix3d toImage;
 };
 
@@ -53,8 +53,8 @@ void draw(Scene& scene)
   scene.patches = randomPatches(Channels, scene.columns * scene.rows, scene.seed);
   const double c = scene.columns;
   const double r = scene.rows;
-  scene.toImage = msi::fitHomography({ { 0, 0 }, { c, 0 }, { c, r }, { 0, r } },
-    { scene.corners.begin(), scene.corners.end() });
+  scene.toImage = msi::fitHomography(
+    { { 0, 0 }, { c, 0 }, { c, r }, { 0, r } }, { scene.corners.begin(), scene.corners.end() });
   const Eigen::Matrix3d toChart = scene.toImage.inverse();
   scene.pixels.resize(Channels, static_cast<Eigen::Index>(scene.width) * scene.height);
   std::mt19937 random(scene.seed + 100);
@@ -103,7 +103,8 @@ Corners turned(double degrees, double width, double height, const Eigen::Vector2
     { width / 2, height / 2 }, { -width / 2, height / 2 } } };
   for (auto& corner : corners)
   {
-    const double depth = 1.0 + perspective * corner.x() / width + 0.5 * perspective * corner.y() / height;
+    const double depth =
+      1.0 + perspective * corner.x() / width + 0.5 * perspective * corner.y() / height;
     corner = center + rotation * (corner / depth);
   }
   return corners;
@@ -175,7 +176,8 @@ TEST(ChartSearch, FindsOtherGrids)
     int columns;
     int rows;
   };
-  for (const auto& grid : { Grid{ 14, 10 }, Grid{ 5, 7 }, Grid{ 4, 4 }, Grid{ 10, 10 }, Grid{ 12, 8 } })
+  for (const auto& grid :
+    { Grid{ 14, 10 }, Grid{ 5, 7 }, Grid{ 4, 4 }, Grid{ 10, 10 }, Grid{ 12, 8 } })
   {
     Scene scene;
     scene.columns = grid.columns;
@@ -260,7 +262,8 @@ TEST(ChartSearch, SaysWhatItDidNotFind)
   msi::ChartSearchOptions options;
   options.columns = 14;
   options.rows = 10;
-  EXPECT_NE(errorOf(scene, options).find("no chart of 14 x 10 patches was found"), std::string::npos);
+  EXPECT_NE(
+    errorOf(scene, options).find("no chart of 14 x 10 patches was found"), std::string::npos);
 
   options.columns = 6;
   options.rows = 4;
@@ -302,14 +305,16 @@ TEST(Homography, ReturnsTheMapThatMadeThePoints)
 {
   Eigen::Matrix3d map;
   map << 1.2, 0.1, 30.0, -0.2, 0.9, 12.0, 1e-3, -2e-3, 1.0;
-  const std::vector<Eigen::Vector2d> from{ { 0, 0 }, { 100, 3 }, { 95, 80 }, { -4, 70 }, { 40, 30 } };
+  const std::vector<Eigen::Vector2d> from{ { 0, 0 }, { 100, 3 }, { 95, 80 }, { -4, 70 },
+    { 40, 30 } };
   std::vector<Eigen::Vector2d> to;
   for (const auto& point : from)
   {
     to.push_back(msi::mapPoint(map, point));
   }
   EXPECT_LT((msi::fitHomography(from, to) - map).norm(), 1e-6);
-  EXPECT_THROW(msi::fitHomography({ from.begin(), from.begin() + 3 }, { to.begin(), to.begin() + 3 }),
+  EXPECT_THROW(
+    msi::fitHomography({ from.begin(), from.begin() + 3 }, { to.begin(), to.begin() + 3 }),
     std::invalid_argument);
   EXPECT_THROW(msi::fitHomography({ { 0, 0 }, { 1, 1 }, { 2, 2 }, { 3, 3 } },
                  { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 3, 3 } }),

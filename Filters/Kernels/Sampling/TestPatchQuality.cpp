@@ -15,8 +15,8 @@ constexpr int Side = 40;
 
 struct Patch
 {
-  Eigen::MatrixXf pixels = Eigen::MatrixXf(2, Side * Side);
-  Eigen::Matrix2Xd places = Eigen::Matrix2Xd(2, Side * Side);
+  Eigen::MatrixXf pixels = Eigen::MatrixXf(2, Side* Side);
+  Eigen::Matrix2Xd places = Eigen::Matrix2Xd(2, Side* Side);
   Eigen::VectorXf clipping = Eigen::VectorXf::Constant(2, 1.0F);
 
   Patch()
@@ -69,10 +69,10 @@ TEST(PatchQuality, SeesAShadow)
 TEST(ChartLayout, ReadsLettersAndNumbers)
 {
   using Numbers = std::vector<int>;
-  EXPECT_EQ(msi::patchNumbers({ "A1", "A2", "B1", "B2", "C1", "C2" }, 3, 2),
-    (Numbers{ 1, 4, 2, 5, 3, 6 }));
-  EXPECT_EQ(msi::patchNumbers({ "A1", "A2", "A3", "B1", "B2", "B3" }, 3, 2),
-    (Numbers{ 1, 2, 3, 4, 5, 6 }));
+  EXPECT_EQ(
+    msi::patchNumbers({ "A1", "A2", "B1", "B2", "C1", "C2" }, 3, 2), (Numbers{ 1, 4, 2, 5, 3, 6 }));
+  EXPECT_EQ(
+    msi::patchNumbers({ "A1", "A2", "A3", "B1", "B2", "B3" }, 3, 2), (Numbers{ 1, 2, 3, 4, 5, 6 }));
   EXPECT_EQ(msi::patchNumbers({ "b02", "a02", "a01", "b01" }, 2, 2), (Numbers{ 4, 3, 1, 2 }));
   EXPECT_EQ(msi::patchNumbers({ "dark skin", "light skin", "blue sky", "foliage" }, 2, 2),
     (Numbers{ 1, 2, 3, 4 }));

@@ -86,7 +86,7 @@ TEST(GhostReflection, TheSpotAppearsOnTheOppositeSide)
         const auto at = [k](int column, int row)
         { return static_cast<std::size_t>((row * 12 + column) * 7 + k); };
         const double opposite = static_cast<double>(ideal[at(11 - x, 8 - y)]) - dark[k];
-        EXPECT_NEAR(ghost[at(x, y)], ideal[at(x, y)] + 0.05 * opposite, 1e-6)
+        EXPECT_NEAR(ghost[at(x, y)], static_cast<double>(ideal[at(x, y)]) + 0.05 * opposite, 1e-6)
           << x << " " << y << " " << k;
       }
     }

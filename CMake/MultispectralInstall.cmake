@@ -45,7 +45,8 @@ install(DIRECTORY Documentation/ DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/multi
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/multispectral" COMPONENT Runtime)
 file(RELATIVE_PATH plugin "/prefix/${home}"
   "/prefix/${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/Multispectral/Multispectral.so")
-file(WRITE "${PROJECT_BINARY_DIR}/installed" "${plugin}\n")
+file(RELATIVE_PATH python "/prefix/${home}" "/prefix/${MULTISPECTRAL_PYTHON_DESTINATION}")
+file(WRITE "${PROJECT_BINARY_DIR}/installed" "${plugin}\n${python}\n")
 install(FILES "${PROJECT_BINARY_DIR}/installed" DESTINATION "${home}" COMPONENT Runtime)
 file(RELATIVE_PATH launcher "/prefix/${CMAKE_INSTALL_BINDIR}" "/prefix/${home}/multispectral")
 install(CODE "

@@ -49,3 +49,5 @@ foreach(module IN LISTS MULTISPECTRAL_MODULES)
     set_target_properties(${library}CS PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
 endforeach()
+
+include(MultispectralPython)

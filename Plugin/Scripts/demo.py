@@ -9,7 +9,7 @@ from support import command  # noqa: E402
 
 OPTIONS = command.parser("demo", __doc__, "", "--output demo --ranks 2").parse_args()  # before ParaView is loaded
 
-from support import comparison, diagnosis, estimation, pipeline, report  # noqa: E402
+from support import comparison, diagnosis, estimation, pipeline, report, state  # noqa: E402
 from support.methods import COMPARED  # noqa: E402
 
 TUNING = 16
@@ -114,6 +114,7 @@ def main():
         "of it."))
     sections += diagnosis.sections(gap, gap_folder)
     report.write(folder, "Multispectral: demo", sections)
+    state.finish()
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 
 

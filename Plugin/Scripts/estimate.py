@@ -39,7 +39,7 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import estimation, pipeline, report  # noqa: E402
+from support import estimation, pipeline, report, state  # noqa: E402
 
 
 def require_inputs(options):
@@ -119,6 +119,7 @@ def main():
         pages += estimation.report_errors(judged, folder)
     estimation.save_state(os.path.join(folder, "state.pvsm"), view[0], judged)
     report.write(folder, "Spectral reflectance of an image", pages)
+    state.finish()
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 
 

@@ -3,6 +3,8 @@
 import colorsys
 import os
 
+import numpy
+
 from . import command, pictures, pipeline
 
 MOST_CHANNEL_PICTURES = 16
@@ -86,10 +88,6 @@ def draw_responsivities(camera, path, uncertainty=None):
         chart.add(uncertainty, "wavelength",
                   {f"{side} {name}": ("", shades[name], pictures.LineStyle.DOT, 1.2)
                    for name in names for side in ("low", "high") if f"{side} {name}" in known})
-    nanometres = pipeline.table(camera)[1]
-    if nanometres:
-        first, last = nanometres[0][0], nanometres[-1][0]
-        chart.limits(bottom=(first, last + 0.15 * (last - first)))  # room for the legend
     chart.save(path)
 
 
@@ -120,21 +118,25 @@ def draw_figures(difference, title, path):
 
 def draw_channels(simulated, real, difference, folder, titles=("simulated", "real", "difference")):
     """Per channel three images in a row: simulated, real, difference. Returns the pictures' names."""
-    array = simulated.PointData.GetArray("Responses")
-    count = min(array.GetNumberOfComponents(), MOST_CHANNEL_PICTURES)
+    names = channel_names(simulated)
+    seen, answered, apart = (pictures.values(simulated, "Responses"), pictures.values(real),
+                             pictures.values(difference, "Difference"))
     saved = {}
-    for k in range(count):
-        low, high = array.GetRange(k)
+    for k, label in enumerate(names[:MOST_CHANNEL_PICTURES]):
+        low, high = float(numpy.nanmin(seen[:, :, k])), float(numpy.nanmax(seen[:, :, k]))
         reach = 0.25 * (high - low)
         top = high + reach
-        label = array.GetComponentName(k)
         name = f"channel-{k + 1}.png"
-        pictures.channel_row(((simulated, "Responses", titles[0], (0.0, top)),
-                              (real, None, titles[1], (0.0, top)),
-                              (difference, "Difference", titles[2], (-reach, reach))),
-                             k, os.path.join(folder, name))
+        pictures.channel_row(((seen[:, :, k], titles[0], (0.0, top)), (answered[:, :, k], titles[1], (0.0, top)),
+                              (apart[:, :, k], titles[2], (-reach, reach))), os.path.join(folder, name))
         saved[name] = f"{label}: {titles[0]}, {titles[1]}, {titles[1]} - {titles[0]}"
     return saved
+
+
+def channel_names(simulated):
+    """The channels of an image of responses."""
+    array = pipeline.whole(simulated).GetPointData().GetArray("Responses")
+    return [array.GetComponentName(k) for k in range(array.GetNumberOfComponents())]
 
 
 def chart_image(labels, patches):

@@ -66,12 +66,21 @@ def root():
     return os.environ["MULTISPECTRAL_ROOT"]
 
 
+def in_paraview():
+    """Whether pvbatch or pvpython runs this program; else a plain Python does, beside the package multispectral."""
+    return "MULTISPECTRAL_PYTHON" not in os.environ
+
+
 def rank():
+    if not in_paraview():
+        return 0
     from paraview import servermanager
     return servermanager.vtkProcessModule.GetProcessModule().GetPartitionId()
 
 
 def ranks():
+    if not in_paraview():
+        return 1
     from paraview import servermanager
     return servermanager.vtkProcessModule.GetProcessModule().GetNumberOfLocalPartitions()
 

@@ -3,9 +3,7 @@
 import collections
 import os
 
-from paraview import simple
-
-from . import command, outputs, pictures, pipeline, report
+from . import command, outputs, pictures, pipeline, report, state
 
 ERROR_ARRAYS = ("rms", "dE00 D65", "dE00 F2")
 
@@ -172,11 +170,5 @@ def save_state(path, reflectance, judged=None):
     """The pipeline as a ParaView state that opens with the RGB view and the error map side by side."""
     color = pipeline.create("SpectralToColor", Input=reflectance)
     pipeline.update(color)
-    views = [pictures.image_view(color, "sRGB", rgb=True)]
-    if judged is not None:
-        views.append(pictures.image_view(judged.errors, "dE00 D65",
-                                         (0.0, top_errors(judged.summary)[1])))
-    pictures.side_by_side(views)
-    if command.rank() == 0:
-        with outputs.written(path, b"</GenericParaViewApplication>\n") as part:
-            simple.SaveState(part)
+    top = top_errors(judged.summary)[1] if judged else 1.0
+    state.save(path, color, judged and judged.errors, top)

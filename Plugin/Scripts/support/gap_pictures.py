@@ -2,15 +2,10 @@
 
 import os
 
-import matplotlib
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
-from matplotlib.colors import Normalize  # noqa: E402
-
-from . import outputs  # noqa: E402
+from . import outputs, painter
 
 # Okabe and Ito's palette: told apart with any color vision.
 _BEFORE, _AFTER, _FLOOR, _PLAIN = "#D55E00", "#0072B2", "#009E73", "#B0B0B0"
@@ -26,21 +21,36 @@ _MOST_PIXELS_OF_A_SIDE = 512
 
 def draw_all(tables, summary, folder, held):
     """Those pictures for which there are data; one that an earlier run left behind is taken away."""
-    with pyplot.rc_context(_STYLE):
-        gap = summary["verdict"] != "no gap"
-        pictures = {"axes.png": _axes(tables["where"]) if gap else None,
-                    "where.png": _heat_maps(tables["heat-map"], summary),
-                    "map.png": _field(tables["samples"]), "trend.png": _trend(tables["trend"]),
-                    "which.png": _which(tables["causes"], tables["candidates"], summary) if gap else None,
-                    "how-far.png": _far(summary, held)}
-        for name, figure in pictures.items():
-            _save(figure, os.path.join(folder, name))
+    gap = summary["verdict"] != "no gap"
+    pictures = {"axes.png": (_axes, tables["where"]) if gap else (),
+                "where.png": (_heat_maps, tables["heat-map"], summary),
+                "map.png": (_field, tables["samples"]), "trend.png": (_trend, tables["trend"]),
+                "which.png": (_which, tables["causes"], tables["candidates"], summary) if gap else (),
+                "how-far.png": (_far, summary, held)}
+    for name, order in pictures.items():
+        painter.draw(os.path.join(folder, name), _draw, *order)
 
 
 def draw_map(image, folder):
     """image: the gap map, with the arrays Gap and GapAfter."""
+    width, height, _ = image.GetDimensions()
+    arrays = [image.GetPointData().GetArray(name) for name in ("Gap", "GapAfter")]
+    step = -(-max(width, height) // _MOST_PIXELS_OF_A_SIDE)
+    before, after = (vtk_to_numpy(array).reshape(height, width, -1)[::step, ::step] for array in arrays)
+    names = [_channel_name(image, arrays[0], channel) for channel in range(before.shape[2])]
+    painter.draw(os.path.join(folder, "gap-map.png"), _draw, _gap_map, before, after, names, height / width)
+
+
+def _draw(path, function=None, *arguments):
+    """function gives the figure, or None where there is nothing to show."""
+    global matplotlib, pyplot, Normalize
+    # Only who draws loads it: it takes longer than a short diagnosis.
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    from matplotlib.colors import Normalize
     with pyplot.rc_context(_STYLE):
-        _save(_gap_map(image), os.path.join(folder, "gap-map.png"))
+        _save(function(*arguments) if function else None, path)
 
 
 def _save(figure, path):
@@ -53,6 +63,7 @@ def _save(figure, path):
 
 
 def drawn(folder):
+    painter.finish()
     return [name for name in NAMES if os.path.exists(os.path.join(folder, name))]
 
 
@@ -147,18 +158,14 @@ def _field(samples):
     return figure
 
 
-def _gap_map(image):
-    """Line by line six channels, the gap before above the gap after."""
-    width, height, _ = image.GetDimensions()
-    arrays = [image.GetPointData().GetArray(name) for name in ("Gap", "GapAfter")]
-    step = -(-max(width, height) // _MOST_PIXELS_OF_A_SIDE)
-    before, after = (vtk_to_numpy(array).reshape(height, width, -1)[::step, ::step] for array in arrays)
+def _gap_map(before, after, names, shape):
+    """Line by line six channels, the gap before above the gap after. shape: the image's height over its width."""
     channels = before.shape[2]
     shown = sorted(set(numpy.linspace(0, channels - 1, _MOST_CHANNELS).astype(int)))
     limit = float(numpy.nanpercentile(numpy.abs(before), 99)) or 1e-6
     lines = -(-len(shown) // _CHANNELS_IN_A_LINE)
     across = -(-len(shown) // lines)
-    tall = min(max(height / width, 0.4), 1.6)
+    tall = min(max(shape, 0.4), 1.6)
     figure, plots = pyplot.subplots(2 * lines, across, squeeze=False, layout="compressed", sharex=True,
                                     sharey=True, figsize=(2.2 * across + 1, 2 * lines * (2.2 * tall + 0.35)))
     for plot in plots.flat:
@@ -170,7 +177,7 @@ def _gap_map(image):
             plot.set_axis_on()
             drawn = plot.imshow(values[:, :, channel], origin="lower", cmap="PuOr",
                                 norm=Normalize(-limit, limit), interpolation="antialiased")
-            plot.set_title(f"{_channel_name(image, arrays[0], channel)}, {when}", fontsize=11)
+            plot.set_title(f"{names[channel]}, {when}", fontsize=11)
             plot.set_xticks([])
             plot.set_yticks([])
             plot.set_facecolor("#D8D8D8")  # no value

@@ -3,8 +3,6 @@
 import os
 import re
 
-from paraview import servermanager
-
 from . import command, diagnosis, estimation, gap_pictures, outputs, pipeline, report
 from .command import Failure
 
@@ -111,8 +109,8 @@ def diagnose(images, **options):
 
 def write(gap, folder):
     diagnosis.write(gap, folder)
-    image = servermanager.Fetch(gap.port("map"), idx=PORTS["map"])
-    summary = servermanager.Fetch(gap.port("summary"), idx=PORTS["summary"])
+    image = pipeline.fetch(gap.port("map"))
+    summary = pipeline.fetch(gap.port("summary"))
     if command.rank() == 0:
         gap_pictures.draw_map(image, folder)
         write_effects(summary, os.path.join(folder, "effects.json"))

@@ -1,12 +1,10 @@
-"""Pictures of pipelines: images with a color legend, and charts of tables."""
+"""Pictures of pipelines, drawn without a display: images with a color legend, and charts of tables."""
 
-import os
-
-from paraview import simple
-from vtkmodules.vtkCommonDataModel import vtkDataObject
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
-from . import outputs
+from . import outputs, painter, pipeline
 
 # Okabe and Ito's palette: told apart with any color vision.
 COLORS = {
@@ -31,9 +29,14 @@ COLORS = {
     "tuning": (0.84, 0.37, 0.0),
     "estimated": (0.84, 0.37, 0.0),
 }
-_TEXT = (0.1, 0.1, 0.1)
-_GRID = (0.88, 0.88, 0.88)
+_NO_VALUE = "#D1D1D1"
+_GRID = "#E0E0E0"
+_DPI = 100
+_LEGEND = 150  # pixels at the right of an image
 _PANEL = 300  # pixels of one of several images side by side
+_MOST_NAMES_WITHIN = 4  # a longer legend stands beside its chart
+_STYLE = {"font.size": 12, "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
+          "axes.grid": True, "grid.color": _GRID, "axes.titlesize": 15, "axes.labelsize": 13}
 
 
 class LineStyle:
@@ -44,216 +47,203 @@ class Marker:
     NONE, CROSS, PLUS, SQUARE, CIRCLE, DIAMOND = 0, 1, 2, 3, 4, 5
 
 
-def _whole_extent(source):
-    """Of the whole image: a rank's own data information would tell of its piece only."""
-    information = source.SMProxy.GetClientSideObject().GetOutputInformation(
-        getattr(source, "Port", 0))
-    return information.Get(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT())
-
-
-def _frame(source):
-    """Extent, origin and spacing of the whole image."""
-    information = source.SMProxy.GetClientSideObject().GetOutputInformation(
-        getattr(source, "Port", 0))
-    return (_whole_extent(source), information.Get(vtkDataObject.ORIGIN()),
-            information.Get(vtkDataObject.SPACING()))
+_LINES = {LineStyle.NONE: "none", LineStyle.SOLID: "-", LineStyle.DASH: "--", LineStyle.DOT: ":"}
+_MARKERS = {Marker.NONE: "none", Marker.CROSS: "x", Marker.PLUS: "+", Marker.SQUARE: "s", Marker.CIRCLE: "o",
+            Marker.DIAMOND: "D"}
 
 
 def size(source):
     """Columns and rows of an image."""
     source.UpdatePipelineInformation()
-    extent = _whole_extent(source)
+    pipeline.fail_on_error()
+    information = source.SMProxy.GetClientSideObject().GetOutputInformation(getattr(source, "Port", 0))
+    extent = information.Get(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT())
     return extent[1] - extent[0] + 1, extent[3] - extent[2] + 1
 
 
-def image(source, array, path, value_range=None, rgb=False):
-    """A picture of one array of an image, upright, each pixel enlarged by a whole number."""
-    view = image_view(source, array, value_range, rgb)
-    _save(view, path)
+def values(source, array=None):
+    """An array of an image, the first one by default: rows from the top, columns, components."""
+    data = pipeline.whole(source)
+    width, height, _ = data.GetDimensions()
+    known = data.GetPointData()
+    found = vtk_to_numpy(known.GetArray(array) if array else known.GetArray(0))
+    return found.reshape(height, width, -1)[::-1]
 
 
-def image_view(source, array, value_range=None, rgb=False, shown=1000):
-    """shown: pixels of the longer side that the picture will have before a reader; the legend is as large as that asks."""
-    extent, origin, spacing = _frame(source)
-    width, height = extent[1] - extent[0] + 1, extent[3] - extent[2] + 1
-    scale = max(1, round(shown / max(width, height)))
-    enlarged = _enlarged(max(width, height), shown)
-    legend = 0 if rgb else round(150 * enlarged)
-    view = simple.CreateView("RenderView")
-    view.ViewSize = [width * scale + legend, height * scale]
-    view.OrientationAxesVisibility = 0
-    view.CameraParallelProjection = 1
-    view.UseColorPaletteForBackground = 0
-    view.Background = [1.0, 1.0, 1.0]
-    display = simple.Show(source, view, "UniformGridRepresentation")
-    display.SetRepresentationType("Slice")
-    display.InterpolateScalarsBeforeMapping = 0
+def image(source, array, path, value_range=None, rgb=False, shown=1000):
+    """A picture of one array of an image, upright, each pixel enlarged by a whole number.
+
+    shown: pixels of the longer side that the picture has at least."""
+    pixels = values(source, array)
     if rgb:
-        simple.ColorBy(display, ("POINTS", array))
-        display.MapScalars = 0
+        painter.draw(path, _draw_colors, pixels, shown)
     else:
-        _map_errors(display, view, array, value_range, enlarged)
-    # The image fills the view but for the legend at the right.
-    units = spacing[0] / scale
-    center_x = origin[0] + 0.5 * (extent[0] + extent[1]) * spacing[0] + 0.5 * legend * units
-    center_y = origin[1] + 0.5 * (extent[2] + extent[3]) * spacing[1]
-    view.CameraFocalPoint = [center_x, center_y, 0.0]
-    view.CameraPosition = [center_x, center_y, 1000.0]
-    view.CameraParallelScale = 0.5 * view.ViewSize[1] * units
-    return view
+        painter.draw(path, _draw_image, pixels[:, :, 0], array, value_range, shown)
 
 
-def _enlarged(longer, shown):
-    """How much larger than shown a picture of whole pixels is at least."""
-    return max(1.0, longer / shown)
+def _scale(pixels, shown):
+    return max(1, round(shown / max(pixels.shape[:2])))
 
 
-def _map_errors(display, view, array, value_range, enlarged):
-    simple.ColorBy(display, ("POINTS", array))
-    colors = simple.GetColorTransferFunction(array)
-    colors.ApplyPreset("Viridis (matplotlib)", True)
-    colors.NanColor = [0.82, 0.82, 0.82]
-    if value_range:
-        colors.RescaleTransferFunction(*value_range)
-    else:
-        display.RescaleTransferFunctionToDataRange(False, True)
-    _place_bar(simple.GetScalarBar(colors, view), array, view, enlarged)
-    display.SetScalarBarVisibility(view, True)
+def _draw_colors(path, pixels, shown):
+    scale = _scale(pixels, shown)
+    _write_png(numpy.repeat(numpy.repeat(pixels, scale, 0), scale, 1), path)
 
 
-def _place_bar(bar, title, view, enlarged):
-    """Into the margin at the right of an image."""
-    bar.Title = title
-    bar.ComponentTitle = ""
-    bar.TitleColor = _TEXT
-    bar.LabelColor = _TEXT
-    bar.TitleFontSize = round(16 * enlarged)
-    bar.LabelFontSize = round(14 * enlarged)
-    bar.ScalarBarThickness = round(16 * enlarged)
-    bar.Orientation = "Vertical"
-    bar.WindowLocation = "Any Location"
-    bar.Position = [1.0 - 120.0 * enlarged / view.ViewSize[0], 0.12]
-    bar.ScalarBarLength = 0.7
-    bar.AutomaticLabelFormat = 0
-    bar.LabelFormat = "%-.3g"
-    bar.RangeLabelFormat = "%-.3g"
+def _draw_image(path, pixels, title, value_range, shown):
+    """With its color legend at the right."""
+    scale = _scale(pixels, shown)
+    height, width = (scale * count for count in pixels.shape)
+    enlarged = max(1.0, max(pixels.shape) / shown)
+    legend = round(_LEGEND * enlarged)
+    figure = _figure((width + legend, height))
+    plot = figure.add_axes((0.0, 0.0, width / (width + legend), 1.0))
+    drawn = _draw(plot, pixels, "viridis", value_range)
+    bar = figure.colorbar(drawn, cax=figure.add_axes(((width + 0.15 * legend) / (width + legend), 0.12,
+                                                      0.12 * legend / (width + legend), 0.76)))
+    bar.set_label(title, fontsize=13 * enlarged)
+    bar.ax.tick_params(labelsize=11 * enlarged)
+    bar.outline.set_visible(False)
+    _save(figure, path)
 
 
-def channel_row(panels, component, path):
-    """One channel of several images side by side; panels: (source, array, title, (low, high)). No array: the active one."""
-    layout = simple.CreateLayout(os.path.basename(path))
-    cell, views, whole = 0, [], [0, 0]
-    for i, (source, array, title, bounds) in enumerate(panels):
-        name = array or source.PointData.GetArray(0).GetName()
-        view = image_view(source, name, bounds, shown=_PANEL)
-        display = simple.GetDisplayProperties(source, view)
-        display.SetScalarBarVisibility(view, False)  # that of all channels together
-        display.UseSeparateColorMap = 1
-        simple.ColorBy(display, ("POINTS", name, source.PointData.GetArray(name).GetComponentName(component)),
-                       separate=True)
-        colors = simple.GetColorTransferFunction(name, display, separate=True)
-        colors.ApplyPreset("Cool to Warm" if bounds[0] < 0.0 else "Viridis (matplotlib)", True)
-        colors.NanColor = [0.82, 0.82, 0.82]
-        colors.RescaleTransferFunction(*bounds)
-        _place_bar(simple.GetScalarBar(colors, view), title, view, _enlarged(max(size(source)), _PANEL))
-        display.SetScalarBarVisibility(view, True)
-        if i + 1 < len(panels):
-            cell = layout.SplitHorizontal(cell, 1.0 / (len(panels) - i))
-            layout.AssignView(cell, view)
-            cell += 1
-        else:
-            layout.AssignView(cell, view)
-        whole = [whole[0] + view.ViewSize[0], max(whole[1], view.ViewSize[1])]
-        views.append(view)
-    layout.SetSize(whole)
-    _save_screenshot(path, layout, whole)
-    for view in views:
-        simple.Delete(view)
-    simple.Delete(layout)
+def _draw(plot, pixels, colors, value_range):
+    """One pixel of the image is a whole number of pixels; no value is grey."""
+    import matplotlib
+    plot.set_axis_off()
+    low, high = value_range or (None, None)
+    shades = matplotlib.colormaps[colors].with_extremes(bad=_NO_VALUE)
+    return plot.imshow(numpy.ma.masked_invalid(pixels), cmap=shades, vmin=low, vmax=high, aspect="auto",
+                       interpolation="nearest")
+
+
+def channel_row(panels, path):
+    """Images of one channel side by side; panels: (pixels, title, (low, high))."""
+    painter.draw(path, _draw_row, panels)
+
+
+def _draw_row(path, panels):
+    height, width = panels[0][0].shape
+    scale = max(1, round(_PANEL / max(width, height)))
+    enlarged = max(1.0, max(width, height) / _PANEL)
+    width, height, foot = scale * width, scale * height, round(70 * enlarged)
+    gap = round(16 * enlarged)
+    whole = (len(panels) * width + (len(panels) - 1) * gap, height + foot)
+    figure = _figure(whole)
+    for number, (pixels, title, bounds) in enumerate(panels):
+        left = number * (width + gap)
+        plot = figure.add_axes((left / whole[0], foot / whole[1], width / whole[0], height / whole[1]))
+        drawn = _draw(plot, pixels, "coolwarm" if bounds[0] < 0.0 else "viridis", bounds)
+        bar = figure.colorbar(drawn, orientation="horizontal", cax=figure.add_axes(
+            ((left + 0.1 * width) / whole[0], 0.68 * foot / whole[1], 0.8 * width / whole[0], 0.18 * foot / whole[1])))
+        bar.set_label(title, fontsize=10 * enlarged, labelpad=1)
+        bar.locator.set_params(nbins=4)
+        bar.update_ticks()
+        bar.ax.tick_params(labelsize=8 * enlarged, pad=1)
+        bar.outline.set_visible(False)
+    _save(figure, path)
 
 
 class Chart:
     """An XY chart; series come from the columns of tables."""
 
     def __init__(self, title, x_title, y_title, log_y=False, size=(1000, 640)):
-        self.view = simple.CreateView("XYChartView")
-        view = self.view
-        view.ViewSize = list(size)
-        view.ChartTitle = title
-        view.ChartTitleFontSize = 18
-        view.BottomAxisTitle = x_title
-        view.LeftAxisTitle = y_title
-        view.LeftAxisLogScale = 1 if log_y else 0
-        for axis in ("Left", "Bottom"):
-            setattr(view, f"{axis}AxisTitleFontSize", 16)
-            setattr(view, f"{axis}AxisLabelFontSize", 14)
-            setattr(view, f"{axis}AxisGridColor", list(_GRID))
-        view.LegendFontSize = 14
-        view.ShowLegend = 1
+        self._titles = title, x_title, y_title
+        self._log_y, self._size = log_y, size
+        self._series = []
+        self._limits = {}
+        self._legend = "best"
 
     def add(self, source, x, series, line=LineStyle.SOLID, marker=Marker.NONE, width=2.0,
             marker_size=6.0):
         """series: {column: (label, color)} or {column: (label, color, line style, width)}; x None: the row number."""
-        display = simple.Show(source, self.view, "XYChartRepresentation")
-        display.AttributeType = "Row Data"
-        display.UseIndexForXAxis = 1 if x is None else 0
-        if x is not None:
-            display.XArrayName = x
-        display.SeriesVisibility = list(series)
-        labels, colors, lines, widths, markers, sizes = [], [], [], [], [], []
+        data = pipeline.whole(source)
+        across = list(range(data.GetNumberOfRows())) if x is None else _column(data, x)
         for column, (label, color, *style) in series.items():
-            labels += [column, label]
-            colors += [column] + [str(part) for part in color]
-            lines += [column, str(style[0] if style else line)]
-            widths += [column, str(style[1] if len(style) > 1 else width)]
-            markers += [column, str(marker)]
-            sizes += [column, str(marker_size)]
-        display.SeriesLabel = labels
-        display.SeriesColor = colors
-        display.SeriesLineStyle = lines
-        display.SeriesLineThickness = widths
-        display.SeriesMarkerStyle = markers
-        display.SeriesMarkerSize = sizes
+            self._series.append((across, _column(data, column), dict(
+                label=label or "_", color=color, linestyle=_LINES[style[0] if style else line],
+                linewidth=style[1] if len(style) > 1 else width, marker=_MARKERS[marker],
+                markersize=marker_size)))
 
     def limits(self, left=None, bottom=None):
-        for axis, bounds in (("Left", left), ("Bottom", bottom)):
-            if bounds:
-                setattr(self.view, f"{axis}AxisUseCustomRange", 1)
-                setattr(self.view, f"{axis}AxisRangeMinimum", bounds[0])
-                setattr(self.view, f"{axis}AxisRangeMaximum", bounds[1])
+        self._limits.update({axis: bounds for axis, bounds in (("y", left), ("x", bottom)) if bounds})
 
     def legend_at(self, location):
-        self.view.LegendLocation = location
+        self._legend = {"TopLeft": "upper left", "TopRight": "upper right", "BottomLeft": "lower left",
+                        "BottomRight": "lower right"}[location]
 
     def save(self, path):
-        _save(self.view, path)
+        painter.draw(path, _draw_chart, self)
+
+    def draw(self, path):
+        import matplotlib
+        with matplotlib.rc_context(_STYLE):
+            figure = _figure(self._size, layout="constrained")
+            plot = figure.subplots()
+            for across, upwards, style in self._series:
+                plot.plot(across, upwards, **style)
+            title, x_title, y_title = self._titles
+            plot.set_title(title)
+            plot.set_xlabel(x_title)
+            plot.set_ylabel(y_title)
+            if self._log_y:
+                _scale_by_decades(plot)
+            for axis, bounds in self._limits.items():
+                (plot.set_ylim if axis == "y" else plot.set_xlim)(*bounds)
+            self._add_legend(plot)
+            _save(figure, path)
+
+    def _add_legend(self, plot):
+        names = [style["label"] for _, _, style in self._series if not style["label"].startswith("_")]
+        if len(names) > _MOST_NAMES_WITHIN:
+            plot.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=11)
+        elif names:
+            plot.legend(loc=self._legend, fontsize=11)
 
 
-def side_by_side(views):
-    """A layout that ParaView shows when it opens the saved state: room around the image for any window,
-    and surfaces, because a slice complains when a state is opened before it has data."""
-    for view in views:
-        view.CameraParallelScale *= 1.5
-        for display in view.Representations:
-            if hasattr(display, "SetRepresentationType"):
-                display.SetRepresentationType("Surface")
-                display.Ambient, display.Diffuse = 1.0, 0.0  # colors as they are
-    layout = simple.CreateLayout("Multispectral")
-    cell = 0
-    for i, view in enumerate(views):
-        if i + 1 < len(views):
-            cell = layout.SplitHorizontal(cell, 1.0 / (len(views) - i))
-        layout.AssignView(cell, view)
-        cell += 1
+def _draw_chart(path, chart):
+    chart.draw(path)
 
 
-def _save(view, path):
-    simple.Render(view)
-    _save_screenshot(path, view, list(view.ViewSize))
-    simple.Delete(view)
+def _scale_by_decades(plot):
+    """Numbers at 1, 2 and 5 of each decade, as they are."""
+    from matplotlib import ticker
+    plot.set_yscale("log")
+    plot.yaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+    plot.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+    plot.yaxis.set_minor_formatter(ticker.NullFormatter())
+    plot.grid(which="minor", color=_GRID, linewidth=0.5)
 
 
-def _save_screenshot(path, view, size):
-    """ParaView says nothing when a picture cannot be written."""
+def _column(table, name):
+    column = table.GetColumnByName(name)
+    return [column.GetValue(row) for row in range(table.GetNumberOfRows())]
+
+
+def _figure(pixels, **options):
+    # Not by pyplot, which takes a while to load and keeps every figure.
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    figure = Figure(figsize=(pixels[0] / _DPI, pixels[1] / _DPI), dpi=_DPI, **options)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _save(figure, path):
     with outputs.written(path, outputs.END_OF_PNG) as part:
-        simple.SaveScreenshot(part, view, ImageResolution=size, TransparentBackground=0)
+        figure.savefig(part, format="png", dpi=_DPI, metadata={"Software": None})
+
+
+def _write_png(pixels, path):
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+    from vtkmodules.vtkIOImage import vtkPNGWriter
+    flipped = numpy.ascontiguousarray(pixels[::-1])
+    data = vtkImageData()
+    data.SetDimensions(flipped.shape[1], flipped.shape[0], 1)
+    data.GetPointData().SetScalars(numpy_to_vtk(flipped.reshape(-1, flipped.shape[2])))
+    writer = vtkPNGWriter()
+    writer.SetInputData(data)
+    with outputs.written(path, outputs.END_OF_PNG) as part:
+        writer.SetFileName(part)
+        writer.Write()
+        pipeline.fail_on_error()

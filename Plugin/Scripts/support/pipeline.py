@@ -4,11 +4,15 @@ import os
 import re
 import sys
 
-from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 
-from . import outputs
-from .command import Failure, printable, rank
+from . import outputs, painter
+from .command import Failure, in_paraview, printable, rank
+
+if in_paraview():
+    from paraview import servermanager, simple
+else:
+    from .plain import servermanager, simple
 
 # What VTK has to say: "ERROR: In file, line n\nvtkClass (0xaddress): text\n\n", likewise "Warning: ".
 _messages = vtkStringOutputWindow()
@@ -18,13 +22,15 @@ _noted = set()
 
 def load_plugin():
     """Also takes over VTK's messages: an error ends the work as one line, a warning becomes a note."""
+    painter.start()
     # ParaView sends Python's output through VTK's window too; ours goes straight to the terminal.
     sys.stdout = open(1, "w", closefd=False, errors="backslashreplace")
     sys.stderr = open(2, "w", closefd=False, errors="backslashreplace")
     vtkOutputWindow.SetInstance(_messages)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
-    simple.LoadPlugin(os.environ["MULTISPECTRAL_PLUGIN"], remote=False, ns=simple.__dict__)
-    simple._DisableFirstRenderCameraReset()
+    if in_paraview():
+        simple.LoadPlugin(os.environ["MULTISPECTRAL_PLUGIN"], remote=False, ns=simple.__dict__)
+        simple._DisableFirstRenderCameraReset()
     fail_on_error()
 
 
@@ -80,9 +86,14 @@ def port(proxy, index):
     return proxy[index]
 
 
+def fetch(source):
+    """The data of a source on rank 0, elsewhere None or empty."""
+    return servermanager.Fetch(source, idx=getattr(source, "Port", 0))
+
+
 def table(source):
     """A table as a list of columns' names and a list of rows; on rank 0, elsewhere empty."""
-    data = servermanager.Fetch(source, idx=getattr(source, "Port", 0))
+    data = fetch(source)
     if data is None or not data.IsA("vtkTable"):
         return [], []
     names = [data.GetColumnName(i) for i in range(data.GetNumberOfColumns())]
@@ -100,7 +111,7 @@ def share(numbers, count):
     for i, number in enumerate(numbers):
         values.SetValue(i, number)
     controller = vtkMultiProcessController.GetGlobalController()
-    if controller.GetNumberOfProcesses() > 1:
+    if controller and controller.GetNumberOfProcesses() > 1:
         controller.Broadcast(values, 0)
     return [values.GetValue(i) for i in range(count)]
 

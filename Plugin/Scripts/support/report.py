@@ -6,7 +6,7 @@ import math
 import os
 import struct
 
-from . import command, outputs
+from . import command, outputs, painter
 
 _WIDE = 2.5  # times the height: needs the whole width of the page
 _STYLE = """
@@ -47,6 +47,7 @@ def pictures(title, folder, captions):
     """captions: {file name: caption}; the pictures are put into the page."""
     if command.rank() != 0:
         return ""
+    painter.finish()
     figures = ""
     for name, caption in captions.items():
         with open(os.path.join(folder, name), "rb") as file:

@@ -99,7 +99,7 @@ std::string write(CaseWriter& writer, Source source, const Request& request, std
   for (const RealFault& fault : faults)
   {
     key.kinds.push_back(fault.kind);
-    const double target = around(random, source == Source::Chart ? 0.03 : 0.02, 1.6);
+    const double target = around(random, source == Source::Chart ? 0.03 : 0.014, 1.6);
     double low = 1e-3;
     double high = 30.0;
     for (int round = 0; round < 16; ++round)

@@ -57,6 +57,10 @@ void vtkSMSpectralImageInitializationHelper::PostInitializeProxy(
   if (!name.empty())
   {
     vtkSMPropertyHelper(color).SetInputArrayToProcess(vtkDataObject::POINT, name.c_str());
+    if (name == "sRGB")
+    {
+      vtkSMPropertyHelper(proxy, "MapScalars", true).Set(0);
+    }
     proxy->UpdateVTKObjects();
   }
 }

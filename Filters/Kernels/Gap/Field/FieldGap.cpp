@@ -193,7 +193,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
       (areExact(found.set) ? 1.0 - ImageDecision::ExactDoubt * doubt : 1.0);
     const double share = creditCauses(report, fieldCauses(data, found, choices, certain, doubt));
     report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
-    report.verdict = verdictOf(shrink, share, noiseAlone);
+    // Of what a pair of images shrinks by, and not of the whole gap: its share is small where the shrink is uncertain.
+    report.verdict = verdictOf(shrink, share / shrink, noiseAlone);
     report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
   }
   else

@@ -16,7 +16,14 @@ import subprocess
 import sys
 
 ROOMS = ("Filters/", "Readers/", "Plugin/")
-TEST = re.compile(r"(^|/)(Testing/|Test[A-Z]\w*\.(cpp|cxx)$|\w+Probe\.cpp$)")
+TEST = re.compile(r"(^|/)(Testing/|Test[A-Z]\w*\.(cpp|cxx|dir)\b|\w+Probe\.cpp$)")
+GROUP = re.compile(r"/Unity/unity_\w+\.cxx$")
+WRAPPERS = "Plugin/CMakeFiles/"  # generated
+# The sources of a group are included by it: checked like a main file. GCC's own warnings are unknown to clang.
+ARGUMENTS = ("--extra-arg=-Xclang", "--extra-arg=-analyzer-opt-analyze-headers", "--extra-arg=-Xclang",
+             "--extra-arg=-analyzer-config", "--extra-arg=-Xclang", "--extra-arg=mode=shallow",
+             "--extra-arg=-Wno-unknown-warning-option",
+             "--checks=-bugprone-suspicious-include")
 
 
 def own_sources(root, build):
@@ -25,9 +32,11 @@ def own_sources(root, build):
         commands = json.load(file)
     found = {}
     for entry in commands:
-        path = os.path.relpath(entry["file"], root)
-        if path.startswith(ROOMS) and not TEST.search(path):
-            found[path] = entry
+        # Sources that are compiled together are checked together.
+        base = build if GROUP.search(entry["file"]) else root
+        path = os.path.relpath(entry["file"], base)
+        if path.startswith(ROOMS) and not path.startswith(WRAPPERS) and not TEST.search(path):
+            found[os.path.relpath(entry["file"], root)] = entry
     return found
 
 
@@ -56,7 +65,7 @@ def key_of(root, entry, headers, configuration):
 
 
 def tidy(tool, build, path):
-    run = subprocess.run([tool, "-p", build, "--quiet", path], capture_output=True, text=True)
+    run = subprocess.run([tool, "-p", build, "--quiet", *ARGUMENTS, path], capture_output=True, text=True)
     # The counts of suppressed warnings of system headers say nothing.
     noise = re.compile(r"^\d+ warnings? (generated|treated)|^Suppressed|^Use -header-filter")
     errors = "\n".join(line for line in run.stderr.splitlines() if not noise.match(line))

@@ -101,10 +101,6 @@ int vtkMetamerismCorrection::RequestData(
       msi::requireSameUnit(chart, "the calibration table", medium, "the tuning table");
       const auto dead =
         msi::deadChannels(chart.samples.response, chart.channels, "the calibration table");
-      if (!dead.empty())
-      {
-        vtkWarningMacro(<< dead);
-      }
       msi::writeResponseRange(
         vtkTable::GetData(outputs, 0), { chart.samples.response, medium.samples.response });
       msi::EstimationOptions options;
@@ -144,5 +140,9 @@ int vtkMetamerismCorrection::RequestData(
         vtkTable::GetData(outputs, 1));
       msi::write(name, fit.summary, vtkTable::GetData(outputs, 2));
       writeHistory(fit.history, vtkTable::GetData(outputs, 3));
+      if (!dead.empty())
+      {
+        vtkWarningMacro(<< dead);
+      }
     });
 }

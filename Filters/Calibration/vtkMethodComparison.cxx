@@ -187,10 +187,6 @@ int vtkMethodComparison::RequestData(
       msi::requireSameUnit(chart, "the calibration table", medium, "the target table");
       const auto dead =
         msi::deadChannels(chart.samples.response, chart.channels, "the calibration table");
-      if (!dead.empty())
-      {
-        vtkWarningMacro(<< dead);
-      }
       msi::ComparisonOptions options;
       options.methods = msi::namesIn(this->Methods);
       if (options.methods == std::vector<std::string>{ "all" })
@@ -321,5 +317,9 @@ int vtkMethodComparison::RequestData(
       }
       writeSpectra(*chart.bands.wavelengths, comparisons.front().run(0), target,
         vtkTable::GetData(outputs, 2));
+      if (!dead.empty())
+      {
+        vtkWarningMacro(<< dead);
+      }
     });
 }

@@ -1,5 +1,9 @@
 # The filters and readers as ordinary VTK modules, without ParaView.
-find_package(VTK 9.1 REQUIRED)
+# Optional components: only what the libraries in use link is asked for.
+find_package(VTK 9.1 REQUIRED QUIET OPTIONAL_COMPONENTS
+  CommonCore CommonDataModel CommonExecutionModel IOCore ParallelCore
+  ChartsCore InteractionStyle IOImage RenderingAnnotation RenderingContextOpenGL2 RenderingFreeType RenderingImage
+  RenderingOpenGL2 ViewsContext2D)
 include(MultispectralModules)
 
 vtk_module_scan(

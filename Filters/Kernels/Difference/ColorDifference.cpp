@@ -133,13 +133,12 @@ void requireFactor(const ColorDifferenceFormula& formula, double factor, const c
 
 template <typename Scalar>
 void applyFormula(const ColorDifferenceFormula& formula, const ColorDifferenceFactors& factors,
-  const Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>>& lab1,
+  const CIEDE2000& blocks, const Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>>& lab1,
   const Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>>& lab2,
   Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>& difference) noexcept
 {
   if (formula.difference == ciede2000Of)
   {
-    const CIEDE2000 blocks({ factors.lightness, factors.chroma, factors.hue });
     blocks.apply(lab1, lab2, difference);
     return;
   }
@@ -193,6 +192,7 @@ ColorDifference::ColorDifference(
   const ColorDifferenceFormula& formula, const ColorDifferenceFactors& factors)
   : Formula(&formula)
   , Factors(factors)
+  , Blocks({ factors.lightness, factors.chroma, factors.hue })
 {
   requireFactor(formula, factors.lightness, "lightness");
   requireFactor(formula, factors.chroma, "chroma");
@@ -209,14 +209,14 @@ void ColorDifference::apply(const Eigen::Ref<const Eigen::Matrix3Xd>& lab1,
   const Eigen::Ref<const Eigen::Matrix3Xd>& lab2,
   Eigen::Ref<Eigen::VectorXd> difference) const noexcept
 {
-  applyFormula<double>(*Formula, Factors, lab1, lab2, difference);
+  applyFormula<double>(*Formula, Factors, Blocks, lab1, lab2, difference);
 }
 
 void ColorDifference::apply(const Eigen::Ref<const Eigen::Matrix3Xf>& lab1,
   const Eigen::Ref<const Eigen::Matrix3Xf>& lab2,
   Eigen::Ref<Eigen::VectorXf> difference) const noexcept
 {
-  applyFormula<float>(*Formula, Factors, lab1, lab2, difference);
+  applyFormula<float>(*Formula, Factors, Blocks, lab1, lab2, difference);
 }
 
 } // namespace msi

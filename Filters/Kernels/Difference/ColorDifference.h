@@ -1,6 +1,8 @@
 // The color differences that users quote: one record each, in one registry.
 #pragma once
 
+#include "Kernels/Difference/CIEDE2000.h"
+
 #include <Eigen/Core>
 
 #include <string>
@@ -70,6 +72,7 @@ public:
 private:
   const ColorDifferenceFormula* Formula; // in the registry
   ColorDifferenceFactors Factors;
+  CIEDE2000 Blocks; // with these factors; the other formulas take pair after pair
 };
 
 } // namespace msi

@@ -1,0 +1,13 @@
+# Installs into a fresh prefix and builds the program there against it. -D BUILD=, SOURCE=, OUTPUT=
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${status}\n${text}")
+  endif()
+endfunction()
+file(REMOVE_RECURSE "${OUTPUT}")
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${OUTPUT}/prefix")
+run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${OUTPUT}/build" "-DCMAKE_PREFIX_PATH=${OUTPUT}/prefix")
+run("${CMAKE_COMMAND}" --build "${OUTPUT}/build")
+run("${OUTPUT}/build/difference")
+run("${OUTPUT}/prefix/bin/multispectral" evaluate --help)

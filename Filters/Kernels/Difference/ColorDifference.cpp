@@ -192,11 +192,11 @@ ColorDifference::ColorDifference(
   const ColorDifferenceFormula& formula, const ColorDifferenceFactors& factors)
   : Formula(&formula)
   , Factors(factors)
-  , Blocks({ factors.lightness, factors.chroma, factors.hue })
 {
   requireFactor(formula, factors.lightness, "lightness");
   requireFactor(formula, factors.chroma, "chroma");
   requireFactor(formula, factors.hue, "hue");
+  Blocks = CIEDE2000({ factors.lightness, factors.chroma, factors.hue });
 }
 
 double ColorDifference::operator()(

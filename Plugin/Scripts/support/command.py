@@ -139,6 +139,9 @@ def run(main):
         signal.signal(number, signal.SIG_DFL)
     try:
         main()
+        painter = sys.modules.get(f"{__package__}.painter")
+        if painter is not None:
+            painter.finish()  # no command ends before its pictures are there
     except Failure as failure:
         leave(str(failure), 1)
     except BrokenPipeError:  # nobody reads on, as behind `| head`

@@ -63,8 +63,10 @@ void drawChart(vtkAlgorithm* self, const PatchGrid& grid, const std::vector<Outl
     {
       for (vtkIdType i = begin; i < end; ++i)
       {
-        const double x = origin[0] + spacing[0] * static_cast<double>(extent[0] + i % width);
-        const double y = origin[1] + spacing[1] * static_cast<double>(extent[2] + i / width);
+        const vtkIdType column = extent[0] + i % width;
+        const vtkIdType row = extent[2] + i / width;
+        const double x = origin[0] + spacing[0] * static_cast<double>(column);
+        const double y = origin[1] + spacing[1] * static_cast<double>(row);
         labels->SetValue(i, static_cast<unsigned short>(grid.labelAt(x, y)));
         const auto* color = outlineAt(grid, middles, colors, x, y, lineWidth);
         for (int c = 0; c < 3; ++c)

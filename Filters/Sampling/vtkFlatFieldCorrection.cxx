@@ -249,6 +249,10 @@ void vtkFlatFieldCorrection::WarnOfUnlikelyFrames(vtkFloatArray* responses)
     below += values[i] < 0.0F ? 1 : 0;
     above += values[i] > static_cast<float>(Unlikely * this->WhiteReflectance) ? 1 : 0;
   }
+  if (finite == 0)
+  {
+    return;
+  }
   const auto percent = [finite](vtkIdType count) { return (200 * count + finite) / (2 * finite); };
   if (2 * below > finite)
   {

@@ -22,7 +22,7 @@ std::string arrayToShow(vtkPVDataSetAttributesInformation* points)
   for (int i = 0; i < points->GetNumberOfArrays(); ++i)
   {
     auto* array = points->GetArrayInformation(i);
-    const std::string name = array->GetName() ? array->GetName() : "";
+    std::string name = array->GetName() ? array->GetName() : "";
     if (name == "sRGB" && array->GetNumberOfComponents() == 3)
     {
       return name;

@@ -87,9 +87,9 @@ FileKind kindOfImage(const std::string& path)
   const auto file = openSpectralImage(path, options);
   const auto& info = file->info();
   const bool whole = info.sampleType.find("int") != std::string::npos;
-  return info.bands() == 1 && info.wavelengths.empty() && whole && looksLikeLabels(*file)
-    ? FileKind::LabelImage
-    : FileKind::SpectralImage;
+  const bool channel = !info.wavelengths.empty() || !fileNameWavelengths(path).empty();
+  return info.bands() == 1 && !channel && whole && looksLikeLabels(*file) ? FileKind::LabelImage
+                                                                          : FileKind::SpectralImage;
 }
 
 // Columns of a table with one row a wavelength.

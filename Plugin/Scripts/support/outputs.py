@@ -111,8 +111,19 @@ def _remove_stale_parts(folder):
     with contextlib.suppress(OSError):
         for name in os.listdir(folder):
             found = part.fullmatch(name)
-            if found and not os.path.exists(f"/proc/{found[1]}"):
+            if found and _is_gone(found[1]):
                 os.remove(os.path.join(folder, name))
+
+
+def _is_gone(process):
+    """Also where it ended and nobody asked for its status, as in containers whose first process asks for none."""
+    try:
+        with open(f"/proc/{process}/stat", encoding="ascii", errors="replace") as status:
+            return status.read().rpartition(")")[2].split()[0] in "ZX"
+    except FileNotFoundError:
+        return True
+    except OSError:
+        return False
 
 
 def _require_declared(path):

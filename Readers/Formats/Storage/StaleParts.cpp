@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -60,9 +62,17 @@ pid_t processIn(std::string_view text)
   return fault == std::errc() && stop == last ? process : 0;
 }
 
+// Also where it ended and nobody asked for its status, as in containers whose first process asks for none.
 bool isGone(pid_t process)
 {
-  return ::kill(process, 0) != 0 && errno == ESRCH;
+  if (::kill(process, 0) != 0)
+  {
+    return errno == ESRCH;
+  }
+  std::ifstream status("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{ std::istreambuf_iterator<char>(status), {} };
+  const std::size_t name = text.rfind(") "); // of the program, which may itself hold brackets
+  return name != std::string::npos && (text[name + 2] == 'Z' || text[name + 2] == 'X');
 }
 
 std::vector<fs::path> stalePartsOf(const fs::path& target)

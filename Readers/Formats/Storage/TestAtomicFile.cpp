@@ -90,6 +90,23 @@ TEST_F(AtomicFiles, TheNextOneRemovesWhatAKilledProcessLeft)
   EXPECT_EQ(names(), std::set<std::string>{ "a.csv" });
 }
 
+TEST_F(AtomicFiles, AProcessThatNobodyWaitedForIsGone)
+{
+  const pid_t child = ::fork();
+  if (child == 0)
+  {
+    msi::AtomicFile file(path("a.csv"));
+    file.append("half");
+    ::kill(::getpid(), SIGKILL);
+  }
+  siginfo_t state{};
+  ASSERT_EQ(::waitid(P_PID, static_cast<id_t>(child), &state, WEXITED | WNOWAIT), 0);
+  EXPECT_EQ(names().size(), 1u);
+  msi::removeStaleParts(path("a.csv"));
+  EXPECT_TRUE(names().empty());
+  ::waitpid(child, nullptr, 0);
+}
+
 TEST_F(AtomicFiles, PartsOfOthersStay)
 {
   const std::string mine =

@@ -1,6 +1,6 @@
 # What `cmake --install` puts where, and the Debian package.
 #   Runtime      the plugin, the command `multispectral`, its programs, the demo's data, the pages
-#   Development  headers and libraries of kernels and formats, for find_package(Multispectral)
+#   Development  headers and libraries of kernels, formats and VTK modules, for find_package(Multispectral)
 include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/Multispectral")
 
@@ -23,6 +23,13 @@ pkg_search_module(Hdf5Serial REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
 find_dependency(ZLIB)
 find_dependency(pugixml)
 find_dependency(nlohmann_json 3.11)")
+endif()
+set(MULTISPECTRAL_MODULES_BUILT OFF)
+if(MULTISPECTRAL_FACE STREQUAL "vtk")
+  set(MULTISPECTRAL_MODULES_BUILT ON)
+  # The modules' own description of the build tree names these.
+  export(EXPORT MultispectralTargets NAMESPACE Multispectral::
+    FILE "${PROJECT_BINARY_DIR}/${package_folder}/MultispectralTargets.cmake")
 endif()
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/MultispectralConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/MultispectralConfig.cmake" INSTALL_DESTINATION "${package_folder}")

@@ -40,14 +40,5 @@ set_target_properties(Multispectral PROPERTIES
 file(WRITE "${CMAKE_BINARY_DIR}/lib/multispectral.plugins.xml"
   "<?xml version=\"1.0\"?>\n<Plugins>\n  <Plugin name=\"Multispectral\" auto_load=\"1\"/>\n</Plugins>\n")
 
-# The generated wrappers of a module's classes for the server manager belong together too.
-foreach(module IN LISTS MULTISPECTRAL_MODULES)
-  string(REPLACE "::" "" library "${module}")
-  string(REPLACE "Multispectral::" "" target "${module}")
-  multispectral_unity(${target})
-  if(MULTISPECTRAL_UNITY AND TARGET ${library}CS)
-    set_target_properties(${library}CS PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-  endif()
-endforeach()
-
+multispectral_unity_modules()
 include(MultispectralPython)

@@ -1,4 +1,5 @@
-# Installs into a fresh prefix and builds the program there against it. -D BUILD=, SOURCE=, OUTPUT=
+# Installs into a fresh prefix and builds the program there against it. -D BUILD=, SOURCE=, OUTPUT=,
+# WITH=launcher|modules, TABLE= (a sample table of 140 samples)
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_VARIABLE text)
   if(NOT status EQUAL 0)
@@ -10,4 +11,8 @@ run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${OUTPUT}/prefix")
 run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${OUTPUT}/build" "-DCMAKE_PREFIX_PATH=${OUTPUT}/prefix")
 run("${CMAKE_COMMAND}" --build "${OUTPUT}/build")
 run("${OUTPUT}/build/difference")
-run("${OUTPUT}/prefix/bin/multispectral" evaluate --help)
+if(WITH STREQUAL "launcher")
+  run("${OUTPUT}/prefix/bin/multispectral" evaluate --help)
+elseif(WITH STREQUAL "modules")
+  run("${OUTPUT}/build/rows" "${TABLE}" 140)
+endif()

@@ -1,13 +1,11 @@
 # multispectral_add_unit_tests(NAME <room> SOURCES <file>... [LINK <target>...] [SANITIZED <filter>])
 #
-# One GoogleTest program for the tests of one room; each TEST becomes a CTest test named
-# <face>.<room>.<Suite>.<Test>, so that the same test run against several builds stays apart.
-# UNITY: compiled in groups; names in anonymous namespaces must differ within a folder.
+# One GoogleTest program for the tests of one room; each of its suites becomes a CTest test named <face>.<room>.<Suite>,
+# so that the same suite run against several builds stays apart.
 # SANITIZED: the tests (a GoogleTest filter) that run under the sanitizers, where all would take many minutes.
 if(BUILD_TESTING)
   enable_testing()
   find_package(GTest REQUIRED)
-  include(GoogleTest)
 endif()
 
 if(MULTISPECTRAL_SANITIZE)
@@ -17,7 +15,7 @@ else()
 endif()
 
 function(multispectral_add_unit_tests)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "UNITY" "NAME;SANITIZED" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;SANITIZED" "SOURCES;LINK")
   if(NOT BUILD_TESTING)
     return()
   endif()
@@ -28,17 +26,19 @@ function(multispectral_add_unit_tests)
     MULTISPECTRAL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # GCC 12 sees the memory of Eigen's vectors used after it was freed where it is not.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-use-after-free>)
-  if(arg_UNITY)
-    multispectral_unity(${target})
-  endif()
-  set(filter)
+  multispectral_unity(${target})
+  set(filter "*")
   if(MULTISPECTRAL_SANITIZE AND arg_SANITIZED)
-    set(filter TEST_FILTER "${arg_SANITIZED}")
+    set(filter "${arg_SANITIZED}")
   endif()
-  gtest_discover_tests(${target} ${filter}
-    TEST_PREFIX "${MULTISPECTRAL_TEST_PREFIX}${arg_NAME}."
-    DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${arg_NAME}" TIMEOUT 300)
+  set(suites "${CMAKE_CURRENT_BINARY_DIR}/${target}.cmake")
+  file(GENERATE OUTPUT "${suites}" CONTENT "set(program \"$<TARGET_FILE:${target}>\")
+set(prefix \"${MULTISPECTRAL_TEST_PREFIX}${arg_NAME}.\")
+set(label \"${arg_NAME}\")
+set(filter \"${filter}\")
+include(\"${PROJECT_SOURCE_DIR}/CMake/MultispectralSuites.cmake\")
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${suites}")
 endfunction()
 
 # multispectral_add_module_tests(MODULE <name> SOURCES <file>... [LINK <target>...])

@@ -15,7 +15,6 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 vtkImageData* errorsOf(vtkCIEDE2000Evaluator* evaluator)
 {

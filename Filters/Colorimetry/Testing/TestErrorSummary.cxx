@@ -17,7 +17,6 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ErrorSummary, TellsTheFiguresOfAMap)
 {

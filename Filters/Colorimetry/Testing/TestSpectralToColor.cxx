@@ -18,7 +18,6 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 vtkImageData* imageOf(vtkSpectralToColor* color)
 {
@@ -170,7 +169,7 @@ TEST(SpectralToColor, NamesAnIlluminantOrObserverThatIsNotKnown)
   EXPECT_NE(observer.find("CIE 1964 10 degree"), std::string::npos) << observer;
 }
 
-std::string errorWith(vtkDataObject* input, const char* array = "")
+std::string colorError(vtkDataObject* input, const char* array = "")
 {
   vtkNew<vtkSpectralToColor> color;
   color->SetInputData(input);
@@ -180,17 +179,17 @@ std::string errorWith(vtkDataObject* input, const char* array = "")
 
 TEST(SpectralToColor, SaysWhatIsMissing)
 {
-  EXPECT_EQ(errorWith(newImage(2, 1, ReflectanceArray, patternValues(3, 2))),
+  EXPECT_EQ(colorError(newImage(2, 1, ReflectanceArray, patternValues(3, 2))),
     "the image has no wavelengths (field data 'Wavelength'); color needs reflectance whose "
     "wavelengths "
     "are known");
-  EXPECT_EQ(errorWith(newTable({ { "C400", { 1.0 } } })),
+  EXPECT_EQ(colorError(newTable({ { "C400", { 1.0 } } })),
     "the table has no reflectance; expected columns R400, R410, .. (measured) or E400, E410, .. "
     "(estimated)");
   vtkNew<vtkImageData> bare;
   bare->SetDimensions(2, 2, 1);
-  EXPECT_EQ(errorWith(bare), "the image has no point array; expected a spectral image");
-  EXPECT_EQ(errorWith(grayImage({ 0.5 }), "cube"),
+  EXPECT_EQ(colorError(bare), "the image has no point array; expected a spectral image");
+  EXPECT_EQ(colorError(grayImage({ 0.5 }), "cube"),
     "the image has no point array 'cube'; it has 'Reflectance'");
 }
 

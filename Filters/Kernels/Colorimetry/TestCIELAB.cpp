@@ -14,7 +14,7 @@ namespace
 using Eigen::Vector3d;
 using msi::CIELAB;
 
-const Vector3d D65(95.047, 100.0, 108.883);
+const Vector3d WhiteD65(95.047, 100.0, 108.883);
 
 // L*a*b* by the definition, with the library's cube root.
 Vector3d definition(const Vector3d& xyz, const Vector3d& white)
@@ -49,23 +49,23 @@ TEST(CIELAB, MatchesColourScience)
 
 TEST(CIELAB, WhiteGrayAndBlack)
 {
-  const CIELAB lab(D65);
-  EXPECT_LT((lab.fromXYZ(D65) - Vector3d(100.0, 0.0, 0.0)).cwiseAbs().maxCoeff(), 1e-12);
+  const CIELAB lab(WhiteD65);
+  EXPECT_LT((lab.fromXYZ(WhiteD65) - Vector3d(100.0, 0.0, 0.0)).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT(lab.fromXYZ(Vector3d::Zero()).cwiseAbs().maxCoeff(), 1e-12);
   // An eighth has the cube root one half: L* = 116 / 2 - 16.
-  EXPECT_NEAR(lab.fromXYZ(D65 / 8.0)(0), 42.0, 1e-12);
+  EXPECT_NEAR(lab.fromXYZ(WhiteD65 / 8.0)(0), 42.0, 1e-12);
 }
 
 TEST(CIELAB, BlocksFollowTheDefinition)
 {
-  const CIELAB lab(D65);
+  const CIELAB lab(WhiteD65);
   const Eigen::Matrix3Xd xyz = randomColors(200'003);
   Eigen::Matrix3Xd got(3, xyz.cols());
   lab.fromXYZ(xyz, got);
   double worst = 0.0;
   for (Eigen::Index i = 0; i < xyz.cols(); ++i)
   {
-    worst = std::max(worst, (got.col(i) - definition(xyz.col(i), D65)).cwiseAbs().maxCoeff());
+    worst = std::max(worst, (got.col(i) - definition(xyz.col(i), WhiteD65)).cwiseAbs().maxCoeff());
   }
   EXPECT_LT(worst, 1e-12);
 
@@ -78,7 +78,7 @@ TEST(CIELAB, BlocksFollowTheDefinition)
 
 TEST(CIELAB, ComesBack)
 {
-  const CIELAB lab(D65);
+  const CIELAB lab(WhiteD65);
   const Eigen::Matrix3Xd xyz = randomColors(10'000);
   Eigen::Matrix3Xd there(3, xyz.cols());
   Eigen::Matrix3Xd back(3, xyz.cols());
@@ -89,7 +89,7 @@ TEST(CIELAB, ComesBack)
 
 TEST(CIELAB, TheSameBytesForEverySplitStrideAndInPlace)
 {
-  const CIELAB lab(D65);
+  const CIELAB lab(WhiteD65);
   const Eigen::Matrix3Xd xyz = randomColors(101);
   Eigen::Matrix3Xd whole(3, 101);
   lab.fromXYZ(xyz, whole);
@@ -106,7 +106,7 @@ TEST(CIELAB, TheSameBytesForEverySplitStrideAndInPlace)
 
 TEST(CIELAB, ANaNStaysInItsOwnSample)
 {
-  const CIELAB lab(D65);
+  const CIELAB lab(WhiteD65);
   Eigen::Matrix3Xd xyz = randomColors(20);
   Eigen::Matrix3Xd clean(3, 20);
   lab.fromXYZ(xyz, clean);

@@ -21,6 +21,8 @@
 namespace msi::test
 {
 
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
 // One problem with its solutions, all computed by NumPy.
 class ExpectedEstimation
 {

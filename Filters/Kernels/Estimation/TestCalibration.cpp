@@ -15,7 +15,7 @@ using msi::test::messageOf;
 using msi::test::randomMatrix;
 
 constexpr double Tolerance = 1e-9;
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+using msi::test::NaN;
 
 TEST(PseudoinverseCalibration, AgreesWithNumPy)
 {

@@ -18,7 +18,7 @@ using msi::test::largestDifference;
 using msi::test::messageOf;
 using msi::test::randomMatrix;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+using msi::test::NaN;
 
 // Responses of 4 channels to smooth spectra of 6 bands, of two media that differ by a gain.
 msi::SampleSet smoothSamples(Eigen::Index count, double gain, unsigned seed)

@@ -17,7 +17,7 @@ using msi::test::largestDifference;
 using msi::test::messageOf;
 using msi::test::randomMatrix;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+using msi::test::NaN;
 
 // Smooth reflectances with three degrees of freedom, five channels.
 msi::SampleSet smoothSamples(

@@ -14,12 +14,12 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-const WavelengthGrid Grid({ 400.0, 450.0, 500.0, 650.0 });
+const WavelengthGrid ChannelGrid({ 400.0, 450.0, 500.0, 650.0 });
 
 TEST(ChannelSelection, KeepsTheChosenComponentsInOrderOfWavelength)
 {
   const Eigen::MatrixXd values = patternValues(4, 6);
-  const auto image = newImage(3, 2, ResponsesArray, values, Grid);
+  const auto image = newImage(3, 2, ResponsesArray, values, ChannelGrid);
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputData(image);
   for (const int channel : { 4, 1, 4 })
@@ -38,12 +38,12 @@ TEST(ChannelSelection, KeepsTheChosenComponentsInOrderOfWavelength)
 
   auto* input = requireSpectralArray(image, "the input");
   EXPECT_EQ(axisOf(image, input).size(), 4u) << "the input was changed";
-  EXPECT_EQ(axisOf(image, input).wavelengths, Grid);
+  EXPECT_EQ(axisOf(image, input).wavelengths, ChannelGrid);
 }
 
 TEST(ChannelSelection, KeepsAllWhereNoneIsChosen)
 {
-  const auto image = newImage(3, 2, ResponsesArray, patternValues(4, 6), Grid);
+  const auto image = newImage(3, 2, ResponsesArray, patternValues(4, 6), ChannelGrid);
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputData(image);
   selection->AddChannel(2);
@@ -95,7 +95,7 @@ TEST(ChannelSelection, NamesAChannelThatIsNotThere)
   for (const int channel : { 0, 5, -1 })
   {
     vtkNew<vtkChannelSelection> selection;
-    selection->SetInputData(newImage(3, 2, ResponsesArray, patternValues(4, 6), Grid));
+    selection->SetInputData(newImage(3, 2, ResponsesArray, patternValues(4, 6), ChannelGrid));
     selection->AddChannel(channel);
     EXPECT_EQ(errorOf(selection),
       "channel " + std::to_string(channel) + " was chosen; the input has channels 1 to 4");
@@ -120,7 +120,7 @@ TEST(ChannelSelection, SaysWhatIsMissing)
 TEST(ChannelSelection, GivesTheSameBytesInPieces)
 {
   vtkNew<PieceSource> source;
-  source->SetImage(newImage(7, 5, ResponsesArray, patternValues(4, 35), Grid));
+  source->SetImage(newImage(7, 5, ResponsesArray, patternValues(4, 35), ChannelGrid));
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputConnection(source->GetOutputPort());
   selection->AddChannel(3);

@@ -17,8 +17,7 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-const WavelengthGrid Grid({ 450.0, 550.0 });
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+const WavelengthGrid FrameGrid({ 450.0, 550.0 });
 
 Eigen::MatrixXd row(std::initializer_list<double> first, std::initializer_list<double> second)
 {
@@ -30,7 +29,7 @@ Eigen::MatrixXd row(std::initializer_list<double> first, std::initializer_list<d
 
 vtkSmartPointer<vtkImageData> frame(const Eigen::MatrixXd& values)
 {
-  return newImage(static_cast<int>(values.cols()), 1, "counts", values, Grid);
+  return newImage(static_cast<int>(values.cols()), 1, "counts", values, FrameGrid);
 }
 
 Eigen::MatrixXd responses(vtkFlatFieldCorrection* correction)
@@ -64,7 +63,7 @@ TEST(FlatFieldCorrection, TakesTheOutputsNameAndAxis)
   EXPECT_EQ(output->GetPointData()->GetNumberOfArrays(), 1);
   auto* array = requireSpectralArray(output, "the output");
   EXPECT_STREQ(array->GetName(), ResponsesArray);
-  EXPECT_EQ(axisOf(output, array).wavelengths, Grid);
+  EXPECT_EQ(axisOf(output, array).wavelengths, FrameGrid);
   EXPECT_NE(raw->GetPointData()->GetArray("counts"), nullptr) << "the input was changed";
 }
 
@@ -123,10 +122,10 @@ TEST(FlatFieldCorrection, NamesTheSizesThatDiffer)
     for (const int width : { 2, 4 })
     {
       vtkNew<vtkFlatFieldCorrection> correction;
-      correction->SetInputData(0, newImage(3, 2, "raw", patternValues(2, 6), Grid));
+      correction->SetInputData(0, newImage(3, 2, "raw", patternValues(2, 6), FrameGrid));
       ASSERT_EQ(errorOf(correction), "");
       correction->SetInputData(
-        port, newImage(width, 2, "frame", patternValues(2, 2 * width), Grid));
+        port, newImage(width, 2, "frame", patternValues(2, 2 * width), FrameGrid));
       EXPECT_EQ(errorOf(correction),
         std::string("the ") + (port == 1 ? "white" : "dark") + " image has " +
           std::to_string(width) +
@@ -139,7 +138,7 @@ TEST(FlatFieldCorrection, NamesTheSizesThatDiffer)
 TEST(FlatFieldCorrection, NamesTheChannelsThatDiffer)
 {
   vtkNew<vtkFlatFieldCorrection> correction;
-  correction->SetInputData(0, newImage(3, 2, "raw", patternValues(2, 6), Grid));
+  correction->SetInputData(0, newImage(3, 2, "raw", patternValues(2, 6), FrameGrid));
   correction->SetInputData(1, newImage(3, 2, "white", patternValues(3, 6)));
   EXPECT_EQ(errorOf(correction),
     "the white image has 3 channels (C1, C2, C3), but the raw image has "
@@ -182,7 +181,7 @@ protected:
     {
       const Eigen::MatrixXd values =
         (patternValues(2, Width * Height).array() + (port == 1 ? 2.0 : 0.0)).matrix();
-      Sources[port]->SetImage(newImage(Width, Height, "counts", values, Grid));
+      Sources[port]->SetImage(newImage(Width, Height, "counts", values, FrameGrid));
       Correction->SetInputConnection(port, Sources[port]->GetOutputPort());
     }
   }

@@ -21,7 +21,7 @@ vtkSmartPointer<vtkImageData> counts(int width, int height, const std::vector<do
     Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
 }
 
-Eigen::MatrixXd responses(vtkFlatFieldCorrection* correction)
+Eigen::MatrixXd corrected(vtkFlatFieldCorrection* correction)
 {
   return valuesOf(correction->GetOutput(), ResponsesArray);
 }
@@ -36,7 +36,7 @@ TEST(FlatFieldOptions, ComparesSignalsPerExposureTime)
   correction->AddWhiteExposureTime(10.0);
   ASSERT_EQ(errorOf(correction), "");
   // 200 in 20 ms against 400 in 10 ms.
-  EXPECT_EQ(responses(correction), (Eigen::RowVector2d(0.25, 0.25)));
+  EXPECT_EQ(corrected(correction), (Eigen::RowVector2d(0.25, 0.25)));
   correction->ClearWhiteExposureTimes();
   EXPECT_EQ(errorOf(correction),
     "WhiteExposureTimes are missing; give the times of both, or of none where they are equal");
@@ -56,7 +56,7 @@ TEST(FlatFieldOptions, MasksDeadAndSaturatedValues)
   correction->SetComputeMask(true);
   ASSERT_EQ(errorOf(correction), "");
   EXPECT_EQ(valuesOf(correction->GetOutput(), "Mask"), (Eigen::RowVector4d(0, 2, 1, 4)));
-  const auto values = responses(correction);
+  const auto values = corrected(correction);
   EXPECT_FLOAT_EQ(static_cast<float>(values(0, 0)), 0.1F);
   EXPECT_TRUE(values.rightCols(3).array().isNaN().all());
   EXPECT_EQ(correction->GetDeadCount(), 1);
@@ -69,10 +69,10 @@ TEST(FlatFieldOptions, TakesOneRowOrOneColumnForAll)
   correction->SetInputData(0, counts(2, 2, { 1.0, 2.0, 3.0, 4.0 }));
   correction->SetInputData(1, counts(2, 1, { 2.0, 4.0 }));
   ASSERT_EQ(errorOf(correction), "");
-  EXPECT_EQ(responses(correction), (Eigen::RowVector4d(0.5, 0.5, 1.5, 1.0)));
+  EXPECT_EQ(corrected(correction), (Eigen::RowVector4d(0.5, 0.5, 1.5, 1.0)));
   correction->SetInputData(1, counts(1, 2, { 2.0, 4.0 }));
   ASSERT_EQ(errorOf(correction), "");
-  EXPECT_EQ(responses(correction), (Eigen::RowVector4d(0.5, 1.0, 0.75, 1.0)));
+  EXPECT_EQ(corrected(correction), (Eigen::RowVector4d(0.5, 1.0, 0.75, 1.0)));
   correction->SetInputData(1, counts(3, 1, { 2.0, 4.0, 8.0 }));
   EXPECT_EQ(errorOf(correction),
     "the white image has 3 x 1 pixels, but the raw image has 2 x 2; take both with the same camera "

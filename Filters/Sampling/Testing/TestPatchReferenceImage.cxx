@@ -16,7 +16,6 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string errorWith(vtkImageData* labels, vtkTable* patches)
 {

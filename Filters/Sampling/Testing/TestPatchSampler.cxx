@@ -16,8 +16,7 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-const WavelengthGrid Grid({ 400.0, 500.0 });
+const WavelengthGrid PatchGrid({ 400.0, 500.0 });
 
 Eigen::MatrixXd twoRows(const std::vector<double>& first, const std::vector<double>& second)
 {
@@ -36,7 +35,7 @@ const Eigen::MatrixXd Values =
 TEST(PatchSampler, GivesMeanDeviationCountAndPlace)
 {
   vtkNew<vtkPatchSampler> sampler;
-  sampler->SetInputData(0, newImage(4, 2, ResponsesArray, Values, Grid));
+  sampler->SetInputData(0, newImage(4, 2, ResponsesArray, Values, PatchGrid));
   sampler->SetInputData(1, newLabels(4, 2, Labels));
   ASSERT_EQ(errorOf(sampler), "");
   auto* table = sampler->GetOutput();
@@ -68,7 +67,7 @@ TEST(PatchSampler, LeavesOutPixelsThatAreNotFiniteAndCountsThem)
   values(0, 4) = NaN;
   values(1, 7) = std::numeric_limits<double>::infinity();
   vtkNew<vtkPatchSampler> sampler;
-  sampler->SetInputData(0, newImage(4, 2, ResponsesArray, values, Grid));
+  sampler->SetInputData(0, newImage(4, 2, ResponsesArray, values, PatchGrid));
   sampler->SetInputData(1, newLabels(4, 2, Labels));
   ASSERT_EQ(errorOf(sampler), "");
   auto* table = sampler->GetOutput();
@@ -83,7 +82,7 @@ TEST(PatchSampler, LeavesOutPixelsThatAreNotFiniteAndCountsThem)
 
 TEST(PatchSampler, UsesTheFrameOfTheImage)
 {
-  const auto image = newImage(4, 2, ResponsesArray, Values, Grid);
+  const auto image = newImage(4, 2, ResponsesArray, Values, PatchGrid);
   image->SetOrigin(100.0, -7.0, 0.0);
   image->SetSpacing(2.0, 0.5, 1.0);
   vtkNew<vtkPatchSampler> sampler;
@@ -99,7 +98,7 @@ TEST(PatchSampler, JoinsTheRowsOfATable)
   const auto patches = newTable({ { "label", { 4.0, 1.0 } }, { "R400", { 0.1, 0.2 } } });
   addTextColumn(patches, "sample", { "blue", "red" });
   vtkNew<vtkPatchSampler> sampler;
-  sampler->SetInputData(0, newImage(4, 2, ResponsesArray, Values, Grid));
+  sampler->SetInputData(0, newImage(4, 2, ResponsesArray, Values, PatchGrid));
   sampler->SetInputData(1, newLabels(4, 2, Labels));
   sampler->SetInputData(2, patches);
   ASSERT_EQ(errorOf(sampler), "");
@@ -116,7 +115,7 @@ TEST(PatchSampler, JoinsTheRowsOfATable)
 TEST(PatchSampler, CallsReflectanceReflectanceOrEstimate)
 {
   vtkNew<vtkPatchSampler> sampler;
-  sampler->SetInputData(0, newImage<vtkDoubleArray>(4, 2, ReflectanceArray, Values, Grid));
+  sampler->SetInputData(0, newImage<vtkDoubleArray>(4, 2, ReflectanceArray, Values, PatchGrid));
   sampler->SetInputData(1, newLabels(4, 2, Labels));
   ASSERT_EQ(errorOf(sampler), "");
   EXPECT_EQ(cell(sampler->GetOutput(), 0, "R400"), 3.0);
@@ -130,7 +129,7 @@ TEST(PatchSampler, CallsReflectanceReflectanceOrEstimate)
 
 TEST(PatchSampler, SamplesTheChosenArray)
 {
-  const auto image = newImage(4, 2, ResponsesArray, Values, Grid);
+  const auto image = newImage(4, 2, ResponsesArray, Values, PatchGrid);
   vtkNew<vtkFloatArray> other;
   other->SetName("other");
   other->SetNumberOfTuples(8);
@@ -146,7 +145,7 @@ TEST(PatchSampler, SamplesTheChosenArray)
 
 TEST(PatchSampler, TakesAnArrayWithoutName)
 {
-  const auto image = newImage(4, 2, ResponsesArray, Values, Grid);
+  const auto image = newImage(4, 2, ResponsesArray, Values, PatchGrid);
   image->GetPointData()->GetScalars()->SetName(nullptr);
   vtkNew<vtkPatchSampler> sampler;
   sampler->SetInputData(0, image);
@@ -227,7 +226,7 @@ TEST(PatchSampler, GivesTheSameBytesInThreads)
 TEST(PatchSampler, GivesTheWholeTableInTheFirstPieceAndNoRowsInOthers)
 {
   vtkNew<vtkPatchSampler> sampler;
-  sampler->SetInputData(0, newImage(4, 2, ResponsesArray, Values, Grid));
+  sampler->SetInputData(0, newImage(4, 2, ResponsesArray, Values, PatchGrid));
   sampler->SetInputData(1, newLabels(4, 2, Labels));
   sampler->UpdatePiece(0, 2, 0);
   EXPECT_EQ(sampler->GetOutput()->GetNumberOfRows(), 3);

@@ -17,10 +17,10 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-const WavelengthGrid Grid({ 400.0, 500.0 });
+const WavelengthGrid ProfileGrid({ 400.0, 500.0 });
 
 // 3 x 2 pixels: 1 .. 6 in the first band, ten times as much in the second.
-vtkSmartPointer<vtkImageData> image(const std::optional<WavelengthGrid>& grid = Grid)
+vtkSmartPointer<vtkImageData> image(const std::optional<WavelengthGrid>& grid = ProfileGrid)
 {
   Eigen::MatrixXd values(2, 6);
   values.row(0) << 1, 2, 3, 4, 5, 6;
@@ -77,7 +77,7 @@ TEST(SpectralProfile, GivesOneProfileALabel)
 
 TEST(SpectralProfile, ReadsOnlyTheRowsOfItsPoints)
 {
-  const auto whole = newImage(4, 1000, ResponsesArray, patternValues(2, 4000), Grid);
+  const auto whole = newImage(4, 1000, ResponsesArray, patternValues(2, 4000), ProfileGrid);
   vtkNew<PieceSource> source;
   source->SetImage(whole);
   vtkNew<vtkSpectralProfile> profile;

@@ -20,7 +20,7 @@ using Words = std::vector<std::uint16_t>;
 using Floats = std::vector<float>;
 using Files = std::vector<std::string>;
 
-Floats allOf(const msi::SpectralImageFile& file)
+Floats valuesOf(const msi::SpectralImageFile& file)
 {
   const auto& info = file.info();
   Floats pixels(static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height) *
@@ -40,7 +40,7 @@ protected:
   }
   std::string errorIn(const Files& files, const SpectralImageOptions& options = {}) const
   {
-    return errorOf([&] { allOf(*openSpectralImage(files, options)); });
+    return errorOf([&] { valuesOf(*openSpectralImage(files, options)); });
   }
 };
 
@@ -50,7 +50,7 @@ TEST_F(ImageStacks, WavelengthsInFileNamesDecideTheOrder)
     Files{ flat("c_700nm.tif", 5, 6), flat("c_450nm.tif", 1, 2), flat("c_1000nm.tif", 7, 8) });
   EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 450, 700, 1000 }));
   EXPECT_EQ(file->info().bandNames, (Files{ "c_450nm", "c_700nm", "c_1000nm" }));
-  EXPECT_EQ(allOf(*file), (Floats{ 1, 5, 7, 2, 6, 8 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 1, 5, 7, 2, 6, 8 }));
   EXPECT_EQ(file->info().format, "TIFF");
   EXPECT_EQ(file->info().sampleType, "float32");
   EXPECT_EQ(file->info().notes, (Files{ "wavelengths are those in the file names" }));
@@ -62,7 +62,7 @@ TEST_F(ImageStacks, NamesWithoutWavelengthsAreInNaturalOrder)
     openSpectralImage(Files{ flat("c10.exr", 5, 6), flat("c9.exr", 1, 2), flat("c1.exr", 7, 8) });
   EXPECT_TRUE(file->info().wavelengths.empty());
   EXPECT_EQ(file->info().bandNames, (Files{ "c1", "c9", "c10" }));
-  EXPECT_EQ(allOf(*file), (Floats{ 7, 1, 5, 8, 2, 6 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 7, 1, 5, 8, 2, 6 }));
 }
 
 TEST_F(ImageStacks, FrameNumbersAreNoWavelengths)
@@ -72,7 +72,7 @@ TEST_F(ImageStacks, FrameNumbersAreNoWavelengths)
   EXPECT_TRUE(file->info().wavelengths.empty());
   EXPECT_EQ(file->info().notes,
     (Files{ "the wavelengths are unknown: the numbers in the file names seem to count images" }));
-  EXPECT_EQ(allOf(*file), (Floats{ 0, 1, 2, 0, 1, 2 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 0, 1, 2, 0, 1, 2 }));
 }
 
 TEST_F(ImageStacks, GivenWavelengthsCount)
@@ -82,7 +82,7 @@ TEST_F(ImageStacks, GivenWavelengthsCount)
   const auto file =
     openSpectralImage(Files{ flat("a_400nm.tif", 1, 2), flat("b_450nm.tif", 3, 4) }, options);
   EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 500, 600 }));
-  EXPECT_EQ(allOf(*file), (Floats{ 3, 1, 4, 2 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 3, 1, 4, 2 }));
   options.wavelengths = { 600 };
   EXPECT_EQ(errorIn({ path("a_400nm.tif"), path("b_450nm.tif") }, options),
     "a_400nm.tif: 1 wavelengths were given; expected 2, one for each band; complete the list");
@@ -97,7 +97,7 @@ TEST_F(ImageStacks, MetadataTellWavelengths)
   writeImage<float>(path("b.tif"), { spec }, { { 1.0f } });
   const auto file = openSpectralImage(Files{ path("a.tif"), path("b.tif") });
   EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 450.5, 650 }));
-  EXPECT_EQ(allOf(*file), (Floats{ 1, 2 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 1, 2 }));
 }
 
 TEST_F(ImageStacks, IntegersAreScaledUnlessRaw)
@@ -105,12 +105,12 @@ TEST_F(ImageStacks, IntegersAreScaledUnlessRaw)
   writeImage(path("a.png"), 3, 1, 1, Bytes{ 0, 51, 255 });
   writeImage(path("b.png"), 3, 1, 1, Words{ 0, 13107, 65535 });
   const Files files{ path("a.png"), path("b.png") };
-  EXPECT_EQ(allOf(*openSpectralImage(files)), (Floats{ 0, 0, 0.2f, 0.2f, 1, 1 }));
+  EXPECT_EQ(valuesOf(*openSpectralImage(files)), (Floats{ 0, 0, 0.2f, 0.2f, 1, 1 }));
   EXPECT_EQ(openSpectralImage(path("b.png"))->info().notes,
     (Files{ "uint16 samples were divided by 65535" }));
   SpectralImageOptions options;
   options.integers = msi::IntegerScaling::Raw;
-  EXPECT_EQ(allOf(*openSpectralImage(files, options)), (Floats{ 0, 0, 51, 13107, 255, 65535 }));
+  EXPECT_EQ(valuesOf(*openSpectralImage(files, options)), (Floats{ 0, 0, 51, 13107, 255, 65535 }));
 }
 
 TEST_F(ImageStacks, OneFileWithManyChannels)
@@ -130,7 +130,7 @@ TEST_F(ImageStacks, OneFileWithManyChannels)
     writeImage<std::uint16_t>(path("cube.tif"), { spec }, { pixels });
     const auto file = openSpectralImage(path("cube.tif"));
     ASSERT_EQ(file->info().bands(), 5) << layout;
-    EXPECT_EQ(allOf(*file), expected) << layout;
+    EXPECT_EQ(valuesOf(*file), expected) << layout;
   }
 }
 
@@ -152,7 +152,7 @@ TEST_F(ImageStacks, OneFileWithManyPages)
   const auto file = openSpectralImage(path("pages.tif"), options);
   EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 500, 600, 700 }));
   EXPECT_EQ(file->info().bandNames, (Files{ "page 3", "page 2", "page 1" }));
-  EXPECT_EQ(allOf(*file), (Floats{ 2, 1, 0, 12, 11, 10 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 2, 1, 0, 12, 11, 10 }));
   EXPECT_EQ(file->info().notes, (Files{ "page 4 is 1 x 1 pixels, the first is 2 x 1: left out" }));
 }
 
@@ -166,7 +166,7 @@ TEST_F(ImageStacks, TheDescriptionOfTheFirstPageMayListAllWavelengths)
   options.integers = msi::IntegerScaling::Raw;
   const auto file = openSpectralImage(path("pages.tif"), options);
   EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 500.5, 600, 700 }));
-  EXPECT_EQ(allOf(*file), (Floats{ 5, 6, 7 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 5, 6, 7 }));
   specs[0].attribute("ImageDescription", "Wavelengths: 700, 500");
   writeImage<std::uint8_t>(path("pages.tif"), specs, { { 7 }, { 5 }, { 6 } });
   EXPECT_TRUE(openSpectralImage(path("pages.tif"))->info().wavelengths.empty());
@@ -187,7 +187,7 @@ TEST_F(ImageStacks, TheNumberThatTellsTheFilesApartIsTheWavelength)
   const auto file = openSpectralImage(Files{ flat("s_550_gain200.tif", 3, 3),
     flat("s_450_gain200.tif", 1, 1), flat("s_500_gain200.tif", 2, 2) });
   EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 450, 500, 550 }));
-  EXPECT_EQ(allOf(*file), (Floats{ 1, 2, 3, 1, 2, 3 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 1, 2, 3, 1, 2, 3 }));
 }
 
 TEST_F(ImageStacks, ChannelNamesTellWavelengths)
@@ -197,7 +197,7 @@ TEST_F(ImageStacks, ChannelNamesTellWavelengths)
   writeImage<float>(path("c.exr"), { spec }, { { 10, 4, 5 } });
   const auto file = openSpectralImage(path("c.exr"));
   EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 400, 500, 1000 }));
-  EXPECT_EQ(allOf(*file), (Floats{ 4, 5, 10 }));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 4, 5, 10 }));
 }
 
 TEST_F(ImageStacks, TilesAndOffsetDataWindows)
@@ -214,7 +214,7 @@ TEST_F(ImageStacks, TilesAndOffsetDataWindows)
   }
   writeImage<float>(path("t.exr"), { spec }, { pixels });
   const auto file = openSpectralImage(path("t.exr"));
-  EXPECT_EQ(allOf(*file), pixels);
+  EXPECT_EQ(valuesOf(*file), pixels);
   Floats part(3 * 20);
   file->readBlock({ 11, 14, 7, 27 }, { 1 }, part.data());
   for (std::size_t y = 0; y < 20; ++y)
@@ -243,7 +243,7 @@ TEST_F(ImageStacks, NaNStaysInItsPixel)
 {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto pixels =
-    allOf(*openSpectralImage(Files{ flat("a_400nm.tif", 1, nan), flat("b_500nm.tif", 3, 4) }));
+    valuesOf(*openSpectralImage(Files{ flat("a_400nm.tif", 1, nan), flat("b_500nm.tif", 3, 4) }));
   EXPECT_EQ(pixels[0], 1);
   EXPECT_EQ(pixels[1], 3);
   EXPECT_TRUE(std::isnan(pixels[2]));
@@ -265,7 +265,7 @@ TEST_F(ImageStacks, ThreadsReadTheSameAsOne)
     writeImage(files.back(), size, size, 1, pixels);
   }
   const auto file = openSpectralImage(files);
-  const Floats expected = allOf(*file);
+  const Floats expected = valuesOf(*file);
   Floats pixels(expected.size());
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t)
@@ -391,7 +391,7 @@ TEST_F(ImageStacks, ReadsThePublishedFilterWheelImages)
   EXPECT_EQ(file->info().width, 408);
   EXPECT_EQ(file->info().height, 342);
   EXPECT_EQ(file->info().wavelengths, (std::vector<double>{ 400, 450, 500, 550, 600, 650, 700 }));
-  const Floats pixels = allOf(*file);
+  const Floats pixels = valuesOf(*file);
   // Pillow 9.4 reads 0.076286174 in row 100, column 200 of channel_550nm.tif.
   EXPECT_EQ(pixels[(100 * 408 + 200) * 7 + 3], 0.076286174f);
   const auto labels = msi::readLabelImage(folder + "labels.png");

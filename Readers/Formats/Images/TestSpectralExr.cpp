@@ -15,7 +15,7 @@ using Floats = std::vector<float>;
 using Names = std::vector<std::string>;
 using Numbers = std::vector<double>;
 
-Floats allOf(const msi::SpectralImageFile& file)
+Floats pixelsOf(const msi::SpectralImageFile& file)
 {
   const auto& info = file.info();
   Floats pixels(static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height) *
@@ -48,7 +48,7 @@ TEST_F(SpectralExr, ChannelsComeByWavelengthAndPreviewsStayOut)
     openSpectralImage(exr("a.exr", { "R", "T.1000,000000nm", "B", "T.400,5nm", "T.0,5um" }));
   EXPECT_EQ(file->info().wavelengths, (Numbers{ 400.5, 500, 1000 }));
   EXPECT_EQ(file->info().quantity, "reflectance");
-  EXPECT_EQ(allOf(*file), (Floats{ 3, 4, 1 }));
+  EXPECT_EQ(pixelsOf(*file), (Floats{ 3, 4, 1 }));
   EXPECT_EQ(file->info().notes,
     (Names{ "2 channels without a wavelength (a color preview) were left out" }));
 }
@@ -58,7 +58,7 @@ TEST_F(SpectralExr, EmissionPolarizationAndFluorescence)
   const auto file = openSpectralImage(
     exr("a.exr", { "S0.400,0nm", "S1.400,0nm", "S0.500,0nm", "T.350,0nm.400,0nm" }));
   EXPECT_EQ(file->info().quantity, "emission");
-  EXPECT_EQ(allOf(*file), (Floats{ 0, 2 }));
+  EXPECT_EQ(pixelsOf(*file), (Floats{ 0, 2 }));
   EXPECT_EQ(file->info().notes,
     (Names{ "1 fluorescence channels were left out", "1 polarization channels were left out" }));
   EXPECT_EQ(errorOf(
@@ -77,7 +77,7 @@ TEST_F(SpectralExr, EmissionPolarizationAndFluorescence)
     "one out, or state the wavelengths");
 }
 
-msi::SpectralImageInfo description()
+msi::SpectralImageInfo exrInfo()
 {
   msi::SpectralImageInfo info;
   info.width = 3;
@@ -93,7 +93,7 @@ TEST_F(SpectralExr, WrittenFilesReadBackToTheLastBit)
   const Floats pixels{ 0.1f, 1e-30f, 3, 4, 5, -6, 7, 8, 1.0f / 3, 10, nan, 12 };
   for (const char* quantity : { "reflectance", "emission" })
   {
-    auto info = description();
+    auto info = exrInfo();
     info.quantity = quantity;
     const auto writer = msi::createSpectralImage(path("out.exr"), info);
     writer->writeRows(1, pixels.data() + 6, 6);
@@ -103,7 +103,7 @@ TEST_F(SpectralExr, WrittenFilesReadBackToTheLastBit)
     EXPECT_EQ(file->info().wavelengths, info.wavelengths);
     EXPECT_EQ(file->info().quantity, quantity);
     EXPECT_EQ(file->info().metadata.at("spectrallayoutversion"), "1.0");
-    const Floats back = allOf(*file);
+    const Floats back = pixelsOf(*file);
     Floats expected(pixels.begin() + 6, pixels.end());
     expected.insert(expected.end(), pixels.begin(), pixels.begin() + 6);
     ASSERT_EQ(back.size(), expected.size());
@@ -117,15 +117,15 @@ TEST_F(SpectralExr, WrittenFilesReadBackToTheLastBit)
 TEST_F(SpectralExr, WriterIsCompleteOrAbsent)
 {
   {
-    const auto writer = createSpectralExr(path("out.exr"), description());
+    const auto writer = createSpectralExr(path("out.exr"), exrInfo());
     writer->writeRows(1, Floats(6).data());
     EXPECT_THROW(writer->writeRows(2, Floats(12).data()), std::invalid_argument);
     EXPECT_THROW(writer->finish(), std::invalid_argument);
   }
   EXPECT_TRUE(std::filesystem::is_empty(Folder));
-  EXPECT_EQ(errorOf([&] { createSpectralExr(path("no/out.exr"), description()); }).substr(0, 30),
+  EXPECT_EQ(errorOf([&] { createSpectralExr(path("no/out.exr"), exrInfo()); }).substr(0, 30),
     "no/out.exr: cannot be written ");
-  auto info = description();
+  auto info = exrInfo();
   info.wavelengths.clear();
   EXPECT_THROW(createSpectralExr(path("out.exr"), info), std::invalid_argument);
   info.wavelengths = { 400, 400 };
@@ -145,7 +145,7 @@ TEST_F(SpectralExr, ReadsPublishedFiles)
   EXPECT_EQ(chart->info().width, 600);
   EXPECT_EQ(chart->info().height, 400);
   EXPECT_EQ(chart->info().bands(), 36);
-  const Floats pixels = allOf(*chart);
+  const Floats pixels = pixelsOf(*chart);
   // The file stores a constant color in each of its 6 x 4 patches, all between 0 and 1.
   const float* patch = pixels.data() + (50 * 600 + 50) * 36;
   const float* beside = pixels.data() + (60 * 600 + 40) * 36;

@@ -20,12 +20,15 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace msi::testing
 {
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 // Every name and every byte of the arrays, so that two strings are equal exactly where the data are.
 inline std::string bytesOf(vtkFieldData* data)

@@ -13,7 +13,7 @@ using msi::test::sevenChannels;
 using msi::test::visibleGrid;
 
 // The raster with these flat reflectances, and the camera without its dark response.
-Eigen::MatrixXd respondTo(const Eigen::RowVectorXd& reflectance, const CameraEffect& effect)
+Eigen::MatrixXd respondToFlat(const Eigen::RowVectorXd& reflectance, const CameraEffect& effect)
 {
   msi::SceneSamples samples = rasterSamples(reflectance.size());
   samples.reflectance = Eigen::VectorXd::Ones(31) * reflectance;
@@ -26,7 +26,7 @@ const Eigen::RowVectorXd White = Eigen::RowVectorXd::Ones(48);
 
 TEST(IlluminationGradient, IsAPlaneOverTheField)
 {
-  const Eigen::MatrixXd u = respondTo(White, { "illumination_gradient", "", "", { 0.10, -0.04 } });
+  const Eigen::MatrixXd u = respondToFlat(White, { "illumination_gradient", "", "", { 0.10, -0.04 } });
   EXPECT_NEAR(u(3, 0), 1.0 - 0.10 + 0.04 * 25.0 / 35.0, 1e-14);
   EXPECT_NEAR(u(3, 7), 1.0 + 0.10 + 0.04 * 25.0 / 35.0, 1e-14);
   EXPECT_NEAR(u(0, 47), 1.0 + 0.10 - 0.04 * 25.0 / 35.0, 1e-14);
@@ -37,7 +37,7 @@ TEST(IlluminationGradient, BentItIsTheInverseSquareOfADistance)
 {
   const double right = 0.08;
   const Eigen::MatrixXd u =
-    respondTo(White, { "illumination_gradient", "bent", "", { right, 0.0, 0.75 } });
+    respondToFlat(White, { "illumination_gradient", "bent", "", { right, 0.0, 0.75 } });
   for (const double side : { -1.0, 1.0 })
   {
     const double s = side * right;
@@ -48,14 +48,14 @@ TEST(IlluminationGradient, BentItIsTheInverseSquareOfADistance)
 
 TEST(Vignetting, IsTheFourthPowerOfTheCosine)
 {
-  const Eigen::MatrixXd u = respondTo(White, { "vignetting", "cos4", "", { 0.4, 0.0, 0.0 } });
+  const Eigen::MatrixXd u = respondToFlat(White, { "vignetting", "cos4", "", { 0.4, 0.0, 0.0 } });
   const double radius = std::hypot(1.0, 25.0 / 35.0);
   EXPECT_NEAR(u(2, 0), std::pow(std::cos(std::atan(0.4 * radius)), 4), 1e-14);
 }
 
 TEST(Vignetting, QuadraticFalloffIsAboutItsCenter)
 {
-  const Eigen::MatrixXd u = respondTo(White, { "vignetting", "", "", { 0.2, -1.0, -25.0 / 35.0 } });
+  const Eigen::MatrixXd u = respondToFlat(White, { "vignetting", "", "", { 0.2, -1.0, -25.0 / 35.0 } });
   EXPECT_NEAR(u(2, 0), 1.0, 1e-14);
   EXPECT_NEAR(u(2, 7), 1.0 - 0.2 * 4.0, 1e-14);
 }
@@ -63,12 +63,12 @@ TEST(Vignetting, QuadraticFalloffIsAboutItsCenter)
 TEST(Vignetting, PolynomialHasTheFourthAndTheSixthPowerAndIsNeverNegative)
 {
   const Eigen::MatrixXd u =
-    respondTo(White, { "vignetting", "polynomial", "", { 0.1, 0.05, -0.02, 0.5, 0.0 } });
+    respondToFlat(White, { "vignetting", "polynomial", "", { 0.1, 0.05, -0.02, 0.5, 0.0 } });
   const double square = 0.25 + 625.0 / 1225.0;
   EXPECT_NEAR(
     u(2, 7), 1.0 - 0.1 * square - 0.05 * square * square + 0.02 * square * square * square, 1e-14);
   const Eigen::MatrixXd dark =
-    respondTo(White, { "vignetting", "polynomial", "", { 0.45, 0.6, 0.6, 0.0, 0.0 } });
+    respondToFlat(White, { "vignetting", "polynomial", "", { 0.45, 0.6, 0.6, 0.0, 0.0 } });
   EXPECT_EQ(dark(2, 7), 0.0);
 }
 
@@ -77,7 +77,7 @@ TEST(VeilingGlare, ShowsTheSceneMeanInABlackSample)
   // Scene a is the left half: one sample of 0.6 among 24.
   Eigen::RowVectorXd reflectance = Eigen::RowVectorXd::Zero(48);
   reflectance[1] = 0.6;
-  const Eigen::MatrixXd u = respondTo(reflectance, { "veiling_glare", "", "", { 0.05 } });
+  const Eigen::MatrixXd u = respondToFlat(reflectance, { "veiling_glare", "", "", { 0.05 } });
   EXPECT_NEAR(u(4, 0), 0.05 * 0.6 / 24.0, 1e-15);
   EXPECT_NEAR(u(4, 1), 0.6 + 0.05 * 0.6 / 24.0, 1e-15);
   EXPECT_EQ(u(4, 5), 0.0);
@@ -86,16 +86,16 @@ TEST(VeilingGlare, ShowsTheSceneMeanInABlackSample)
 TEST(VeilingGlare, ConservingKeepsTheSceneMean)
 {
   const Eigen::RowVectorXd reflectance = Eigen::RowVectorXd::LinSpaced(48, 0.0, 1.0);
-  const Eigen::MatrixXd before = respondTo(reflectance, { "veiling_glare", "", "", { 0.0 } });
+  const Eigen::MatrixXd before = respondToFlat(reflectance, { "veiling_glare", "", "", { 0.0 } });
   const Eigen::MatrixXd after =
-    respondTo(reflectance, { "veiling_glare", "conserving", "", { 0.1 } });
+    respondToFlat(reflectance, { "veiling_glare", "conserving", "", { 0.1 } });
   EXPECT_NEAR(after.mean(), before.mean(), 1e-14);
   EXPECT_GT((after - before).norm(), 0.1);
 }
 
 TEST(LocalStrayLight, LeavesAnEvenFieldAlone)
 {
-  const Eigen::MatrixXd u = respondTo(0.5 * White, { "local_stray_light", "", "", { 0.2, 8.0 } });
+  const Eigen::MatrixXd u = respondToFlat(0.5 * White, { "local_stray_light", "", "", { 0.2, 8.0 } });
   EXPECT_LT((u.array() - 0.5).abs().maxCoeff(), 1e-14);
 }
 
@@ -103,7 +103,7 @@ TEST(LocalStrayLight, BrightensTheNeighboursOfABrightSample)
 {
   Eigen::RowVectorXd reflectance = Eigen::RowVectorXd::Zero(48);
   reflectance[9] = 0.8; // second row, second column: eight neighbours
-  const Eigen::MatrixXd u = respondTo(reflectance, { "local_stray_light", "", "", { 0.1, 8.0 } });
+  const Eigen::MatrixXd u = respondToFlat(reflectance, { "local_stray_light", "", "", { 0.1, 8.0 } });
   EXPECT_NEAR(u(0, 9), 0.8 * 0.9, 1e-14);
   EXPECT_NEAR(u(0, 10), 0.1 * 0.8 / 8.0, 1e-14);
   EXPECT_NEAR(u(0, 0), 0.1 * 0.8 / 3.0, 1e-14); // a corner has three neighbours
@@ -117,7 +117,7 @@ TEST(LocalStrayLight, FallsOffExponentiallyOverTheSceneInPitches)
   reflectance[9] = 0.8;
   const double reach = 0.7;
   const Eigen::MatrixXd u =
-    respondTo(reflectance, { "local_stray_light", "tail", "", { 0.1, reach, 8.0 } });
+    respondToFlat(reflectance, { "local_stray_light", "tail", "", { 0.1, reach, 8.0 } });
   for (const int sample : { 10, 11, 0, 26, 43 })
   {
     const auto weight = [&](int other)

@@ -35,7 +35,7 @@ msi::CameraModel gaussianCamera()
   return msi::CameraModel(grid, responsivity, Eigen::VectorXd::Zero(3)).whiteBalanced();
 }
 
-Eigen::VectorXd respondTo(const Eigen::VectorXd& reflectance, const CameraEffect& effect)
+Eigen::VectorXd responseTo(const Eigen::VectorXd& reflectance, const CameraEffect& effect)
 {
   msi::SceneSamples samples;
   samples.reflectance = reflectance;
@@ -58,7 +58,7 @@ TEST(FilterShift, MovesAGaussianPassbandOverAGaussianReflectance)
   {
     for (const char* form : { "common", "sampled" })
     {
-      EXPECT_NEAR(respondTo(band, { "filter_shift", form, "", { shift } })[1],
+      EXPECT_NEAR(responseTo(band, { "filter_shift", form, "", { shift } })[1],
         overlap(FilterDeviation, BandDeviation, shift), 2e-5)
         << form << " " << shift;
     }
@@ -68,16 +68,16 @@ TEST(FilterShift, MovesAGaussianPassbandOverAGaussianReflectance)
 TEST(FilterShift, GrowsWithTheWavelengthAndDiffersByChannel)
 {
   const Eigen::VectorXd ramp = (fineGrid().vector().array() - 400.0) / 300.0;
-  const Eigen::VectorXd ideal = respondTo(ramp, { "filter_shift", "", "", { 0.0 } });
+  const Eigen::VectorXd ideal = responseTo(ramp, { "filter_shift", "", "", { 0.0 } });
   const Eigen::VectorXd linear =
-    respondTo(ramp, { "filter_shift", "linear", "", { 2.0, 1.5 } }) - ideal;
+    responseTo(ramp, { "filter_shift", "linear", "", { 2.0, 1.5 } }) - ideal;
   for (int k = 0; k < 3; ++k)
   {
     const double shift = 2.0 + 1.5 * (480.0 + 70.0 * k - 550.0) / 100.0;
     EXPECT_NEAR(linear[k], shift / 300.0, 1e-6);
   }
   const Eigen::VectorXd each =
-    respondTo(ramp, { "filter_shift", "per_channel", "", { 1.0, -2.0, 0.0 } }) - ideal;
+    responseTo(ramp, { "filter_shift", "per_channel", "", { 1.0, -2.0, 0.0 } }) - ideal;
   EXPECT_NEAR(each[0], 1.0 / 300.0, 1e-6);
   EXPECT_NEAR(each[1], -2.0 / 300.0, 1e-6);
   EXPECT_EQ(each[2], 0.0);
@@ -87,7 +87,7 @@ TEST(FilterShift, KeepsTheResponseToWhite)
 {
   const Eigen::VectorXd white = Eigen::VectorXd::Ones(fineGrid().size());
   EXPECT_LT(
-    (respondTo(white, { "filter_shift", "", "", { 15.0 } }).array() - 1.0).abs().maxCoeff(), 1e-13);
+    (responseTo(white, { "filter_shift", "", "", { 15.0 } }).array() - 1.0).abs().maxCoeff(), 1e-13);
 }
 
 TEST(FilterBandwidth, WidensAGaussianPassband)
@@ -96,8 +96,8 @@ TEST(FilterBandwidth, WidensAGaussianPassband)
   for (const double factor : { 0.6, 0.9, 1.3, 1.8 })
   {
     const double expected = overlap(factor * FilterDeviation, BandDeviation, 0.0);
-    EXPECT_NEAR(respondTo(band, { "filter_bandwidth", "", "", { factor } })[1], expected, 2e-5);
-    EXPECT_NEAR(respondTo(band, { "filter_bandwidth", "fixed_peak", "", { factor } })[1],
+    EXPECT_NEAR(responseTo(band, { "filter_bandwidth", "", "", { factor } })[1], expected, 2e-5);
+    EXPECT_NEAR(responseTo(band, { "filter_bandwidth", "fixed_peak", "", { factor } })[1],
       factor * expected, 2e-5);
   }
 }
@@ -222,10 +222,10 @@ TEST(FilterLeak, LetsALongPassTileThroughABlueChannel)
   const Eigen::VectorXd longPass = (fineGrid().vector().array() > 600.0).cast<double>();
   const double above = longPass.mean();
   EXPECT_NEAR(
-    respondTo(longPass, { "filter_leak", "", "", { 0.04, 0.0 } })[0], 0.04 * above, 1e-12);
+    responseTo(longPass, { "filter_leak", "", "", { 0.04, 0.0 } })[0], 0.04 * above, 1e-12);
   // Tilted to the long waves: mean of 1 + x over 602..700 nm, where x is the position from -1 to 1.
   const double x = (651.0 - 550.0) / 150.0;
-  EXPECT_NEAR(respondTo(longPass, { "filter_leak", "", "", { 0.04, 1.0 } })[0],
+  EXPECT_NEAR(responseTo(longPass, { "filter_leak", "", "", { 0.04, 1.0 } })[0],
     0.04 * above * (1.0 + x), 1e-12);
 }
 

@@ -15,17 +15,17 @@ namespace
 using msi::PixelBuffer;
 using msi::test::messageOf;
 
-constexpr msi::ImageExtent Extent{ 161, 141 };
+constexpr msi::ImageExtent PictureExtent{ 161, 141 };
 constexpr int CenterX = 80;
 constexpr int CenterY = 70;
 
 PixelBuffer pictureOf(int channels, const std::function<double(int, int, int)>& value)
 {
   PixelBuffer buffer;
-  buffer.resize(msi::wholeImage(Extent), channels);
-  for (int y = 0; y < Extent.height; ++y)
+  buffer.resize(msi::wholeImage(PictureExtent), channels);
+  for (int y = 0; y < PictureExtent.height; ++y)
   {
-    for (int x = 0; x < Extent.width; ++x)
+    for (int x = 0; x < PictureExtent.width; ++x)
     {
       for (int k = 0; k < channels; ++k)
       {
@@ -52,9 +52,9 @@ struct Spread
 Spread spreadOf(const PixelBuffer& picture, int channel)
 {
   Spread spread;
-  for (int y = 0; y < Extent.height; ++y)
+  for (int y = 0; y < PictureExtent.height; ++y)
   {
-    for (int x = 0; x < Extent.width; ++x)
+    for (int x = 0; x < PictureExtent.width; ++x)
     {
       const double value = static_cast<double>(picture.pixel(x, y)[channel]);
       spread.sum += value;
@@ -109,8 +109,8 @@ TEST(SeparableFilter, IsTheSumOfItsDefinition)
           {
             expected +=
               static_cast<double>(kernel.weights(k, std::abs(i)) * kernel.weights(k, std::abs(j))) *
-              picture(std::clamp(x + i * stride, 0, Extent.width - 1),
-                std::clamp(y + j * stride, 0, Extent.height - 1), k);
+              picture(std::clamp(x + i * stride, 0, PictureExtent.width - 1),
+                std::clamp(y + j * stride, 0, PictureExtent.height - 1), k);
           }
         }
         ASSERT_NEAR(static_cast<double>(filtered.pixel(x, y)[k]), expected, 5e-7)
@@ -154,14 +154,14 @@ TEST(ChannelRegistration, MovesAQuadraticExactly)
   { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y; };
   const msi::ChannelRegistration move(Eigen::Array3d(0.0, 2.0, -0.37),
     Eigen::Array3d(0.0, -1.0, 1.62), Eigen::Array3d(0.0, 0.0, 0.01), Eigen::Array3d::Zero(),
-    Extent);
+    PictureExtent);
   PixelBuffer picture = pictureOf(3, [&](int x, int y, int) { return surface(x, y); });
   const PixelBuffer before = picture;
   PixelBuffer scratch;
   move(picture, scratch);
-  for (int y = 8; y < Extent.height - 8; ++y)
+  for (int y = 8; y < PictureExtent.height - 8; ++y)
   {
-    for (int x = 8; x < Extent.width - 8; ++x)
+    for (int x = 8; x < PictureExtent.width - 8; ++x)
     {
       ASSERT_EQ(picture.pixel(x, y)[0], before.pixel(x, y)[0]);
       ASSERT_EQ(picture.pixel(x, y)[1], before.pixel(x - 2, y + 1)[1]);
@@ -180,14 +180,14 @@ TEST(ChannelRegistration, TurnsAQuadraticAboutTheMiddle)
   constexpr double Degrees = 2.5;
   const double angle = Degrees * 3.141592653589793 / 180.0;
   const msi::ChannelRegistration turn(Eigen::Array2d(0.0, 0.6), Eigen::Array2d(0.0, -1.3),
-    Eigen::Array2d(0.0, -0.01), Eigen::Array2d(0.0, Degrees), Extent);
+    Eigen::Array2d(0.0, -0.01), Eigen::Array2d(0.0, Degrees), PictureExtent);
   PixelBuffer picture = pictureOf(2, [&](int x, int y, int) { return surface(x, y); });
   const PixelBuffer before = picture;
   PixelBuffer scratch;
   turn(picture, scratch);
-  for (int y = 10; y < Extent.height - 10; ++y)
+  for (int y = 10; y < PictureExtent.height - 10; ++y)
   {
-    for (int x = 10; x < Extent.width - 10; ++x)
+    for (int x = 10; x < PictureExtent.width - 10; ++x)
     {
       ASSERT_EQ(picture.pixel(x, y)[0], before.pixel(x, y)[0]);
       const double offX = (x - CenterX - 0.6) / 0.99;
@@ -206,7 +206,7 @@ TEST(ChannelRegistration, RefusesArraysOfDifferentLength)
               []
               {
                 msi::ChannelRegistration move(Eigen::ArrayXd::Zero(3), Eigen::ArrayXd::Zero(2),
-                  Eigen::ArrayXd::Zero(3), Eigen::ArrayXd::Zero(3), Extent);
+                  Eigen::ArrayXd::Zero(3), Eigen::ArrayXd::Zero(3), PictureExtent);
               }),
     "a registration has 3 displacements to the right, 2 down, 3 magnifications and 3 rotations; "
     "expected one of each for every channel");

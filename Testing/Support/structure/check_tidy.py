@@ -4,7 +4,9 @@
 A source that was clean stays clean until it, a header of ours that it includes, its compile command or
 .clang-tidy changes; BUILD/tidy remembers.
 
-usage: check_tidy.py CLANG_TIDY ROOT BUILD JOBS
+The clang analyzer's checks take longer than all others together and run with --analyze only.
+
+usage: check_tidy.py CLANG_TIDY ROOT BUILD JOBS [--analyze]
 """
 
 import concurrent.futures
@@ -20,10 +22,9 @@ TEST = re.compile(r"(^|/)(Testing/|Test[A-Z]\w*\.(cpp|cxx|dir)\b|\w+Probe\.cpp$)
 GROUP = re.compile(r"/Unity/\w+/unity_\w+\.cxx$")
 WRAPPERS = "Plugin/CMakeFiles/"  # generated
 # The sources of a group are included by it: checked like a main file. GCC's own warnings are unknown to clang.
-ARGUMENTS = ("--extra-arg=-Xclang", "--extra-arg=-analyzer-opt-analyze-headers", "--extra-arg=-Xclang",
-             "--extra-arg=-analyzer-config", "--extra-arg=-Xclang", "--extra-arg=mode=shallow",
-             "--extra-arg=-Wno-unknown-warning-option",
-             "--checks=-bugprone-suspicious-include")
+ARGUMENTS = ("--extra-arg=-Wno-unknown-warning-option", "--checks=-bugprone-suspicious-include,-clang-analyzer-*")
+ANALYZE = ("--extra-arg=-Wno-unknown-warning-option", "--extra-arg=-Xclang", "--extra-arg=-analyzer-opt-analyze-headers",
+           "--checks=-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall")
 
 
 def own_sources(root, build):
@@ -64,8 +65,8 @@ def key_of(root, entry, headers, configuration):
     return digest.hexdigest()
 
 
-def tidy(tool, build, path):
-    run = subprocess.run([tool, "-p", build, "--quiet", *ARGUMENTS, path], capture_output=True, text=True)
+def tidy(tool, build, arguments, path):
+    run = subprocess.run([tool, "-p", build, "--quiet", *arguments, path], capture_output=True, text=True)
     # The counts of suppressed warnings of system headers say nothing.
     noise = re.compile(r"^\d+ warnings? (generated|treated)|^Suppressed|^Use -header-filter")
     errors = "\n".join(line for line in run.stderr.splitlines() if not noise.match(line))
@@ -74,6 +75,7 @@ def tidy(tool, build, path):
 
 def main():
     tool, root, build, jobs = sys.argv[1:5]
+    arguments = ANALYZE if sys.argv[5:] == ["--analyze"] else ARGUMENTS
     root, build = os.path.realpath(root), os.path.realpath(build)
     sources = own_sources(root, build)
     if not sources:
@@ -81,9 +83,9 @@ def main():
         return 1
     version = subprocess.run([tool, "--version"], capture_output=True, check=True).stdout
     with open(os.path.join(root, ".clang-tidy"), "rb") as file:
-        configuration = version + file.read()
+        configuration = version + " ".join(arguments).encode() + file.read()
     headers = headers_of_objects(root, build)
-    memory = os.path.join(build, "tidy")
+    memory = os.path.join(build, "tidy" if arguments is ARGUMENTS else "analyzer")
     os.makedirs(memory, exist_ok=True)
     stamps = {path: os.path.join(memory, key_of(root, entry, headers, configuration))
               for path, entry in sources.items()}
@@ -91,7 +93,7 @@ def main():
     print(f"{len(sources)} sources, {len(sources) - len(due)} known to be clean", flush=True)
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(int(jobs)) as pool:
-        runs = {path: pool.submit(tidy, tool, build, os.path.join(root, path)) for path in due}
+        runs = {path: pool.submit(tidy, tool, build, arguments, os.path.join(root, path)) for path in due}
         for path, run in runs.items():
             status, text = run.result()
             if status == 0:

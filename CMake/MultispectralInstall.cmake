@@ -45,7 +45,7 @@ endif()
 # The programs and their data stand as in the clone, below one folder; the launcher finds that folder through its link.
 set(home "${CMAKE_INSTALL_DATADIR}/multispectral")
 install(PROGRAMS "${PROJECT_SOURCE_DIR}/multispectral" DESTINATION "${home}" COMPONENT Runtime)
-install(DIRECTORY Plugin/Scripts Plugin/Proxies DESTINATION "${home}/Plugin" COMPONENT Runtime
+install(DIRECTORY Plugin/Scripts Plugin/Proxies Plugin/Desktop DESTINATION "${home}/Plugin" COMPONENT Runtime
   USE_SOURCE_PERMISSIONS PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY Data DESTINATION "${home}" COMPONENT Runtime)
 install(DIRECTORY Documentation/ DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/multispectral" COMPONENT Runtime)

@@ -13,8 +13,10 @@ if(NOT "${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}" IN_LIST known_versi
   message(WARNING "This is ParaView ${ParaView_VERSION}; known to work: ${known_versions}. Other versions were not tried.")
 endif()
 include(MultispectralModules)
-list(APPEND MULTISPECTRAL_MODULES Multispectral::Representations)
-list(APPEND MULTISPECTRAL_MODULE_FILES "${PROJECT_SOURCE_DIR}/Plugin/Representations/vtk.module")
+list(APPEND MULTISPECTRAL_MODULES Multispectral::Representations Multispectral::Scene)
+list(APPEND MULTISPECTRAL_MODULE_FILES
+  "${PROJECT_SOURCE_DIR}/Plugin/Representations/vtk.module"
+  "${PROJECT_SOURCE_DIR}/Plugin/Scene/vtk.module")
 
 # The plugin itself is one loadable library; its modules are static inside it.
 set(BUILD_SHARED_LIBS ON)

@@ -27,7 +27,7 @@ std::string arrayToShow(vtkPVDataSetAttributesInformation* points)
     {
       return name;
     }
-    if (chosen.empty() && name.compare(0, 5, "dE00 ") == 0)
+    if (name == "dE00 D65" || (chosen.empty() && name.compare(0, 5, "dE00 ") == 0))
     {
       chosen = name;
     }

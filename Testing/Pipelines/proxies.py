@@ -28,6 +28,7 @@ for path in sorted((root / "Plugin" / "Proxies").glob("*.xml")):
 factory = servermanager.vtkSMProxyManager.GetProxyManager().GetReaderFactory()
 session = servermanager.ActiveConnection.Session
 wanted = {
+    "SceneReader": root / "Data" / "Images" / "demo-fabric",
     "CaptureReader": root / "Data" / "Captures" / "demo-warm-camera" / "capture.json",
     "CameraReader": root / "Data" / "Captures" / "demo-warm-camera" / "camera.csv",
     "SampleTableReader": root / "Data" / "Samples" / "demo-chart.csv",

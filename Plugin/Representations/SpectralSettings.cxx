@@ -1,4 +1,4 @@
-#include "SpectralColorMaps.h"
+#include "SpectralSettings.h"
 
 #include "vtkSMSettings.h"
 
@@ -14,6 +14,16 @@ namespace
 constexpr const char* Gray = "[0.8, 0.8, 0.8]";
 // ParaView's own settings have priority 0 and more.
 constexpr double BelowTheUsers = -1.0;
+
+// Names that leave no doubt: without these, ParaView asks whether its own readers shall read a channel or a chart. Three
+// texts each: patterns, description, reader.
+constexpr const char* ReadersByName =
+  R"json({"settings": {"RepresentedArrayListSettings": {"ReaderDetails": [
+"*nm.tif *nm.tiff *nm.png *nm.exr", "Spectral image (one file per channel)", "SpectralImageReader",
+"labels.png labels.tif labels.tiff", "Label image", "LabelImageReader",
+"*chart*.csv patches.csv *swatches*.csv tuning.csv calibration.csv", "Sample table", "SampleTableReader",
+"camera.csv camera.json", "Camera", "CameraReader",
+"capture.json", "Capture", "CaptureReader"]}}})json";
 
 // ParaView drops all but letters and digits from the name of an array.
 std::string keyOf(const std::string& arrayName)
@@ -54,8 +64,9 @@ public:
   }
   void map(const std::string& array, const std::string& properties)
   {
-    Maps << (Maps.tellp() > 0 ? "," : "") << '"' << keyOf(array) << "\": {\"NanColor\": " << Gray
-         << (properties.empty() ? "" : ", ") << properties << '}';
+    Maps << (Maps.tellp() > 0 ? "," : "") << '"' << keyOf(array)
+         << "\": {\"PVLookupTable\": {\"NanColor\": " << Gray << (properties.empty() ? "" : ", ")
+         << properties << "}}";
   }
   std::string text() const
   {
@@ -69,7 +80,7 @@ private:
 };
 }
 
-void registerColorMaps()
+void registerSettings()
 {
   // Viridis (S. van der Walt and N. Smith, CC0) at 0, 1/4, 1/2, 3/4 and 1.
   const std::string differences = "\"RGBPoints\": [0, 0.267004, 0.004874, 0.329415, "
@@ -96,6 +107,7 @@ void registerColorMaps()
   settings.map("Difference", oneBand + ", \"AutomaticRescaleRangeMode\": -1");
   settings.map("Label", "");
   vtkSMSettings::GetInstance()->AddCollectionFromString(settings.text(), BelowTheUsers);
+  vtkSMSettings::GetInstance()->AddCollectionFromString(ReadersByName, BelowTheUsers);
 }
 
 } // namespace msi

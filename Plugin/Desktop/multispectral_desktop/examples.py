@@ -1,0 +1,47 @@
+"""Pipelines on the embedded data, to look at and to change: ./multispectral paraview EXAMPLE."""
+
+import os
+
+from paraview import simple
+
+from . import main_job
+
+
+def _data(*parts):
+    return os.path.join(os.environ["MULTISPECTRAL_ROOT"], "Data", *parts)
+
+
+def scene():
+    """A scene folder: the image divided by its white reference, with labels and patches."""
+    _, reader = main_job.open_scene(_data("Images", "demo-fabric"))
+    view = simple.GetActiveViewOrCreate("RenderView")
+    simple.Show(reader, view)
+    view.InteractionMode = "2D"
+    simple.ResetCamera(view)
+    simple.SetActiveSource(reader)
+    simple.Render(view)
+
+
+def fabric():
+    """The main job: dyed fabric, estimated with a paper chart alone and corrected by swatches."""
+    main_job.build(_data("Images", "demo-fabric"), _data("Samples", "demo-chart.csv"), _data("Samples", "demo-fabric.csv"))
+
+
+def capture():
+    """Why a simulated and a real camera disagree."""
+    reader = simple.CaptureReader(registrationName="warm camera", FileName=_data("Captures", "demo-warm-camera",
+                                                                                "capture.json"))
+    gap = simple.SimToRealGap(registrationName="warm camera: gap", Camera=reader[0], Samples=reader[1],
+                              Responses=reader[2])
+    gap.UpdatePipeline()
+    view = simple.CreateView("SpreadSheetView")
+    simple.Show(gap, view)
+    simple.SetActiveSource(gap)
+
+
+EXAMPLES = {"scene": scene, "fabric": fabric, "capture": capture}
+
+
+def show(name):
+    if name:
+        EXAMPLES[name]()

@@ -1,0 +1,160 @@
+"""The main job as a pipeline: a scene, estimated with the chart alone and corrected by swatches, before and after side by
+side, with maps of the error where the scene has measured patches."""
+
+import math
+import os
+
+from paraview import servermanager, simple
+
+METHOD = "Transfer"
+_MOST_PIXELS_WITH_UNCERTAINTY = 1_000_000
+
+
+class Missing(Exception):
+    """A part of the main job is not there; the text says which and what to do."""
+
+
+def open_scene(folder):
+    """The folder as one source, named after it."""
+    name = os.path.basename(os.path.normpath(folder))
+    scene = simple.SceneReader(registrationName=name, FileName=folder)
+    scene.UpdatePipeline()
+    _require_data(scene, 0, f"{folder}: the scene could not be opened; the messages say why")
+    return name, scene
+
+
+def build(folder, chart=None, swatches=None, method=METHOD):
+    """chart, swatches: files; None: those of the scene. Returns the views."""
+    name, scene = open_scene(folder)
+    calibration = _table(scene, 3, chart, f"{name}: chart",
+                         "the chart's samples (reflectance and camera responses) are missing; name their file, or put "
+                         "chart.csv into the scene's folder")
+    tuning = _table(scene, 4, swatches, f"{name}: swatches", None)
+    jobs = [("chart alone", simple.ReflectanceCalibration(registrationName=f"{name}: chart alone, fit",
+                                                          Input=calibration, Method="Pseudoinverse"), None)]
+    if tuning is not None:
+        fit = simple.MetamerismCorrection(registrationName=f"{name}: corrected, fit", Calibration=calibration,
+                                          Tuning=tuning, Method=method)
+        jobs.append(("corrected by swatches", fit, 1))
+    reference = _reference(name, scene)
+    rows = [_row(name, scene, title, fit, second, reference) for title, fit, second in jobs]
+    return _show(name, rows)
+
+
+def _has_data(source, port):
+    information = source.GetDataInformation(port)
+    return information.GetNumberOfPoints() > 0 or information.GetNumberOfRows() > 0
+
+
+def _require_data(source, port, text):
+    if not _has_data(source, port):
+        raise Missing(text)
+
+
+def _table(scene, port, path, name, missing):
+    """The table of a file, or of the scene; None where there is none and that is no fault."""
+    if path:
+        table = simple.SampleTableReader(registrationName=name, FileName=path)
+        table.UpdatePipeline()
+        _require_data(table, 0, f"{path}: no samples could be read; the messages say why")
+        return table
+    if _has_data(scene, port):
+        return scene[port]
+    if missing:
+        raise Missing(missing)
+    return None
+
+
+def _reference(name, scene):
+    if not (_has_data(scene, 1) and _has_data(scene, 2)):
+        return None
+    reference = simple.PatchReferenceImage(registrationName=f"{name}: measured patches", Input=scene[1],
+                                           PatchTable=scene[2])
+    reference.UpdatePipeline()
+    return reference
+
+
+def _row(name, scene, title, fit, second, reference):
+    """One estimate and its errors: (title, estimate, errors or None)."""
+    transforms = {"ReflectanceTransform": fit[0]}
+    if second is not None:
+        transforms["MetamerismTransform"] = fit[second]
+    points = scene.GetDataInformation(0).GetNumberOfPoints()
+    estimate = simple.ReflectanceEstimation(
+        registrationName=f"{name}: {title}", Input=scene[0], **transforms,
+        Uncertainty="On" if points <= _MOST_PIXELS_WITH_UNCERTAINTY else "Automatic")
+    estimate.UpdatePipeline()
+    _require_data(estimate, 0, f"{title}: nothing was estimated; the messages say why")
+    errors = None
+    if reference is not None:
+        errors = simple.CIEDE2000Evaluator(registrationName=f"{name}: errors, {title}", Input=estimate,
+                                           Reference=reference)
+        errors.UpdatePipeline()
+    return title, estimate, errors
+
+
+def mean_difference(errors):
+    """The mean CIEDE2000 under D65 over all pixels with a reference, or None."""
+    summary = servermanager.Fetch(errors, idx=1)
+    names = [summary.GetColumnName(i) for i in range(summary.GetNumberOfColumns())]
+    metric, illuminant, mean = (summary.GetColumnByName(n) if n in names else None
+                                for n in ("metric", "illuminant", "mean"))
+    for row in range(summary.GetNumberOfRows()):
+        if metric.GetValue(row) == "dE00" and illuminant.GetValue(row) == "D65":
+            return mean.GetValue(row)
+    return None
+
+
+def _show(name, rows):
+    """A view for each estimate and, below it, for its errors; all turn and zoom together."""
+    layout = simple.CreateLayout(name=f"{name}: result")
+    columns = [0]
+    if len(rows) > 1:
+        left = layout.SplitHorizontal(0, 0.5)
+        columns = [left, left + 1]
+    views = []
+    for cell, (title, estimate, errors) in zip(columns, rows):
+        cells = [cell]
+        if errors is not None:
+            top = layout.SplitVertical(cell, 0.5)
+            cells = [top, top + 1]
+        views.append(_view(layout, cells[0], estimate, title[0].upper() + title[1:]))
+        if errors is not None:
+            mean = mean_difference(errors)
+            text = "Errors" + ("" if mean is None or math.isnan(mean) else f": mean \u0394E00 {mean:.2f} (D65)")
+            view = _view(layout, cells[1], errors, text)
+            display = simple.GetDisplayProperties(errors, view)
+            display.SetScalarBarVisibility(view, True)
+            _place_legend(errors, view)
+            views.append(view)
+    for other in views[1:]:
+        simple.AddCameraLink(views[0], other, f"{name}: camera {other.SMProxy.GetGlobalIDAsString()}")
+    simple.SetActiveView(views[0])
+    simple.SetActiveSource(rows[-1][1])
+    for view in views:
+        simple.Render(view)
+    return views
+
+
+def _place_legend(errors, view):
+    """Beside the image, as high as the view allows."""
+    array = simple.GetDisplayProperties(errors, view).ColorArrayName[1]
+    legend = simple.GetScalarBar(simple.GetColorTransferFunction(array), view)
+    legend.WindowLocation = "Any Location"
+    legend.Position = [0.84, 0.1]
+    legend.ScalarBarLength = 0.7
+
+
+def _view(layout, cell, source, title):
+    view = simple.CreateView("RenderView")
+    layout.AssignView(cell, view)
+    view.OrientationAxesVisibility = 0
+    view.InteractionMode = "2D"
+    simple.Show(source, view)
+    caption = simple.Text(registrationName=title, Text=title)
+    shown = simple.Show(caption, view)
+    shown.WindowLocation = "Upper Center"
+    shown.FontSize = 16
+    simple.ResetCamera(view)
+    view.CameraParallelScale *= 0.75
+    return view

@@ -1,0 +1,166 @@
+"""What the pipeline knows of one pixel: read from the data that ParaView holds, nothing is computed."""
+
+import collections
+import math
+
+from paraview import servermanager, simple
+
+SPECTRA = ("Reflectance", "Responses")
+
+# values: the spectrum; deviation: its standard uncertainty, or None; measured: the reference at the pixel, or None;
+# errors: {"dE00 D65": 1.2, ..}
+Pixel = collections.namedtuple("Pixel", "name column row point kind wavelengths values deviation measured errors")
+
+
+def world_point(view, x, y):
+    """The point of the plane z = 0 below a pixel of the view, or None."""
+    renderer = view.GetRenderer()
+    ends = []
+    for depth in (0.0, 1.0):
+        renderer.SetDisplayPoint(x, y, depth)
+        renderer.DisplayToWorld()
+        place = renderer.GetWorldPoint()
+        if place[3] == 0.0:
+            return None
+        ends.append([value / place[3] for value in place[:3]])
+    (near, far) = ends
+    if near[2] == far[2]:
+        return None
+    share = near[2] / (near[2] - far[2])
+    return [near[i] + share * (far[i] - near[i]) for i in range(2)]
+
+
+def visible_images(view):
+    """The images that the view shows, the last shown first: (source, port, display)."""
+    for display in reversed(list(view.Representations)):
+        shown = getattr(display, "Visibility", 0) and getattr(display, "Input", None)
+        if shown and shown.GetDataInformation(shown.Port).GetDataSetTypeAsString() == "vtkImageData":
+            yield display.Input, display.Input.Port, display
+
+
+def data_of(source, port):
+    """The image behind a port where this process holds it, else None."""
+    algorithm = source.SMProxy.GetClientSideObject()
+    data = algorithm.GetOutputDataObject(port) if algorithm is not None else None
+    return data if data is not None and data.IsA("vtkImageData") else None
+
+
+def _index(data, point):
+    """Column, row and number of the pixel at a point, or None outside."""
+    extent, origin, spacing = data.GetExtent(), data.GetOrigin(), data.GetSpacing()
+    column = math.floor((point[0] - origin[0]) / spacing[0] + 0.5)
+    row = math.floor((point[1] - origin[1]) / spacing[1] + 0.5)
+    if not (extent[0] <= column <= extent[1] and extent[2] <= row <= extent[3]):
+        return None
+    return column, row, (row - extent[2]) * (extent[1] - extent[0] + 1) + column - extent[0]
+
+
+def _spectral_array(data):
+    for name in SPECTRA:
+        array = data.GetPointData().GetArray(name)
+        if array is not None:
+            return array
+    return None
+
+
+def wavelengths_of(data, array):
+    known = data.GetFieldData().GetArray("Wavelength")
+    count = array.GetNumberOfComponents()
+    if known is not None and known.GetNumberOfTuples() == count:
+        return [known.GetValue(i) for i in range(count)]
+    return None
+
+
+def _companions(data):
+    """The references and error maps of the pipeline that have the pixels of this image."""
+    for (name, _), source in simple.GetSources().items():
+        xml = source.SMProxy.GetXMLName()
+        if xml in ("PatchReferenceImage", "CIEDE2000Evaluator"):
+            other = data_of(source, 0)
+            if other is not None and other.GetDimensions() == data.GetDimensions():
+                yield source, xml, other
+
+
+def _judges(evaluator, source):
+    """Whether an evaluator judges the output of this source, itself or by filters that keep the spectra."""
+    seen = evaluator.Input
+    while seen is not None:
+        if seen.SMProxy is source.SMProxy:
+            return True
+        seen = getattr(seen, "Input", None) if seen.SMProxy.GetXMLName() == "SpectralToColor" else None
+    return evaluator.SMProxy is source.SMProxy
+
+
+def at(view, x, y):
+    """The pixel of the first spectral image under a place of the view, or None."""
+    point = world_point(view, x, y)
+    if point is None:
+        return None
+    for source, port, _ in visible_images(view):
+        if source.SMProxy.GetXMLName() == "CIEDE2000Evaluator" and getattr(source, "Input", None) is not None:
+            source, port = source.Input, source.Input.Port  # over an error map: the spectrum that it judges
+        data = data_of(source, port)
+        found = _local(source, data, point) if data is not None else _remote(source, port, point)
+        if found is not None:
+            return found
+    return None
+
+
+def _local(source, data, point):
+    place, array = _index(data, point), _spectral_array(data)
+    if place is None or array is None:
+        return None
+    column, row, number = place
+    wavelengths = wavelengths_of(data, array)
+    values = list(array.GetTuple(number))
+    uncertainty = data.GetPointData().GetArray("Uncertainty")
+    deviation = list(uncertainty.GetTuple(number)) if uncertainty is not None and \
+        uncertainty.GetNumberOfComponents() == len(values) else None
+    measured, errors = None, {}
+    for other, xml, content in _companions(data):
+        arrays = content.GetPointData()
+        if xml == "PatchReferenceImage" and array.GetName() == "Reflectance":
+            reference = arrays.GetArray("Reflectance")
+            spectrum = list(reference.GetTuple(number)) if reference is not None else []
+            if any(math.isfinite(value) for value in spectrum):
+                measured = wavelengths_of(content, reference) or wavelengths, spectrum
+        elif xml == "CIEDE2000Evaluator" and _judges(other, source):
+            for i in range(arrays.GetNumberOfArrays()):
+                name = arrays.GetArrayName(i)
+                if name.startswith("dE00 ") and math.isfinite(arrays.GetArray(i).GetTuple1(number)):
+                    errors[name] = arrays.GetArray(i).GetTuple1(number)
+    top = data.GetExtent()[3] - row  # as images count rows: from the top
+    return Pixel(name_of(source), column, top, point, array.GetName(), wavelengths, values, deviation, measured, errors)
+
+
+_profiles = {}
+
+
+def _remote(source, port, point):
+    """The data are with a server: its filter Spectral Profile gives one row a wavelength."""
+    key = source.SMProxy.GetGlobalID(), port
+    try:
+        if key not in _profiles:
+            _profiles[key] = servermanager.filters.SpectralProfile(
+                Input=servermanager.OutputPort(source, port))
+        profile = _profiles[key]
+        profile.Points = point
+        profile.UpdatePipeline()
+        table = servermanager.Fetch(profile)
+    except RuntimeError:
+        return None
+    names = [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())] if table else []
+    if len(names) < 2 or table.GetNumberOfRows() == 0:
+        return None
+    rows = range(table.GetNumberOfRows())
+    across = [table.GetColumn(0).GetValue(row) for row in rows]
+    values = [table.GetColumn(1).GetValue(row) for row in rows]
+    return Pixel(name_of(source), round(point[0]), round(point[1]), point, "Reflectance",
+                 across if names[0].lower().startswith("wavelength") else None, values, None, None, {})
+
+
+def name_of(source):
+    for (name, _), known in simple.GetSources().items():
+        if known.SMProxy is source.SMProxy:
+            return name
+    return source.SMProxy.GetXMLLabel()

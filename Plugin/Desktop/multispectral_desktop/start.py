@@ -1,0 +1,38 @@
+"""Waits for ParaView's window, then adds the panel and the toolbar, and shows the example MULTISPECTRAL_EXAMPLE."""
+
+import os
+import sys
+import traceback
+
+# What Python would otherwise take for unused, as nothing but Qt refers to it.
+_kept = []
+
+
+def start():
+    try:
+        from PyQt5 import QtCore, QtWidgets
+    except ImportError:
+        print("multispectral: note: the panel and the toolbar need the package python3-pyqt5", file=sys.stderr)
+        return
+    application = QtWidgets.QApplication.instance()
+    timer = QtCore.QTimer()
+    _kept.append((application, timer))
+
+    def install():
+        window = next((w for w in application.topLevelWidgets()
+                       if isinstance(w, QtWidgets.QMainWindow) and w.isVisible()), None)
+        if window is None:
+            return
+        timer.stop()
+        try:
+            from . import examples, window as desktop
+            _kept.append((window, desktop.install(window)))
+            examples.show(os.environ.get("MULTISPECTRAL_EXAMPLE"))
+        except Exception:
+            traceback.print_exc()
+
+    timer.timeout.connect(install)
+    timer.start(200)
+
+
+start()

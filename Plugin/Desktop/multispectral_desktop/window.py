@@ -1,0 +1,120 @@
+"""What the plugin adds to ParaView's window: the panel Spectrum, and a toolbar with the main job."""
+
+import os
+import traceback
+
+from PyQt5 import QtCore, QtWidgets
+from paraview import simple
+
+from . import main_job
+from .panel import SpectrumPanel
+
+
+def install(window):
+    """Returns what must be kept as long as the window is there."""
+    panel = SpectrumPanel(window)
+    window.addDockWidget(QtCore.Qt.RightDockWidgetArea, panel)
+    toolbar = QtWidgets.QToolBar("Multispectral", window)
+    toolbar.setObjectName("MultispectralToolbar")
+    for name, label, tip, act in (
+            ("OpenScene", "Open scene", "Open the folder of an image with its white and dark frames", open_scene),
+            ("MainJob", "Main job", "Estimate an image with a chart, correct it by swatches, see where it is wrong",
+             run_main_job)):
+        action = toolbar.addAction(label)
+        action.setObjectName(f"Multispectral{name}")
+        action.setToolTip(tip)
+        action.triggered.connect(lambda _checked, act=act: _guarded(window, act))
+    window.addToolBar(toolbar)
+    return panel, toolbar
+
+
+def _guarded(window, act):
+    """A fault is one message, not a trace that nobody sees."""
+    try:
+        act(window)
+    except main_job.Missing as missing:
+        QtWidgets.QMessageBox.warning(window, "Multispectral", str(missing))
+    except Exception as error:
+        traceback.print_exc()
+        QtWidgets.QMessageBox.critical(window, "Multispectral",
+                                       f"Internal error, please report it: {type(error).__name__}: {error}")
+
+
+def _ask_folder(parent, start=""):
+    return QtWidgets.QFileDialog.getExistingDirectory(
+        parent, "The folder of the scene", start, QtWidgets.QFileDialog.DontUseNativeDialog)
+
+
+def open_scene(window):
+    folder = _ask_folder(window)
+    if folder:
+        _, scene = main_job.open_scene(folder)
+        view = simple.GetActiveViewOrCreate("RenderView")
+        simple.Show(scene, view)
+        view.InteractionMode = "2D"
+        simple.ResetCamera(view)
+        simple.SetActiveSource(scene)
+        simple.Render(view)
+
+
+def run_main_job(window):
+    dialog = MainJobDialog(window)
+    if dialog.exec_() == QtWidgets.QDialog.Accepted:
+        QtWidgets.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
+        try:
+            main_job.build(dialog.scene.text(), dialog.chart.text() or None, dialog.swatches.text() or None)
+        finally:
+            QtWidgets.QApplication.restoreOverrideCursor()
+
+
+class MainJobDialog(QtWidgets.QDialog):
+    def __init__(self, parent):
+        super().__init__(parent)
+        self.setObjectName("MultispectralMainJobDialog")
+        self.setWindowTitle("Main job")
+        self.setMinimumWidth(560)
+        form = QtWidgets.QFormLayout(self)
+        text = QtWidgets.QLabel("Estimates the reflectance of a scene with a chart's samples, corrects it by a few swatches "
+                                "of the scene's material, and shows both results side by side.")
+        text.setWordWrap(True)
+        form.addRow(text)
+        self.scene = self._line(form, "Scene", "folder with the image, white/ and dark/", self._browse_scene)
+        self.chart = self._line(form, "Chart", "table with reflectance and responses; empty: chart.csv of the scene",
+                                lambda: self._browse_table(self.chart))
+        self.swatches = self._line(form, "Swatches", "table of a few samples of the material; empty: swatches.csv of "
+                                   "the scene, or none", lambda: self._browse_table(self.swatches))
+        buttons = QtWidgets.QDialogButtonBox(QtWidgets.QDialogButtonBox.Cancel)
+        self.run = buttons.addButton("Run", QtWidgets.QDialogButtonBox.AcceptRole)
+        self.run.setObjectName("MultispectralRun")
+        self.run.setDefault(True)
+        self.run.setEnabled(False)
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        form.addRow(buttons)
+        self.scene.textChanged.connect(lambda folder: self.run.setEnabled(os.path.isdir(folder)))
+
+    def _line(self, form, label, hint, browse):
+        line, button = QtWidgets.QLineEdit(), QtWidgets.QPushButton("Browse\u2026")
+        line.setObjectName(f"Multispectral{label}")
+        button.setObjectName(f"Multispectral{label}Browse")
+        line.setPlaceholderText(hint)
+        button.setAutoDefault(False)
+        button.clicked.connect(lambda _checked: browse())
+        row = QtWidgets.QHBoxLayout()
+        row.addWidget(line, 1)
+        row.addWidget(button)
+        form.addRow(label, row)
+        return line
+
+    def _browse_scene(self):
+        folder = _ask_folder(self, self.scene.text())
+        if folder:
+            self.scene.setText(folder)
+
+    def _browse_table(self, line):
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(
+            self, "A table of samples", line.text() or self.scene.text(),
+            "Sample tables (*.csv *.txt *.ti3 *.cie *.cgats *.cxf *.mat);;All files (*)",
+            options=QtWidgets.QFileDialog.DontUseNativeDialog)
+        if path:
+            line.setText(path)

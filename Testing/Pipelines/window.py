@@ -1,0 +1,193 @@
+"""ParaView's window, driven by mouse and keys as a user does: the main job, the spectra of pixels, File > Open.
+
+Arguments: a folder for screenshots and logs."""
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
+SCENE = ROOT / "Data" / "Images" / "demo-fabric"
+SAMPLES = ROOT / "Data" / "Samples"
+PATIENCE = 120.0  # seconds for one step on a busy machine
+MOST_CLICKS = 10
+
+
+class Failed(Exception):
+    pass
+
+
+class Window:
+    def __init__(self, folder):
+        self.folder, self.clicks = folder, 0
+        self.state_file = folder / "state.json"
+        self.processes = []
+        self.environment = dict(
+            os.environ, HOME=str(folder / "home"), XDG_RUNTIME_DIR=str(folder / "run"), QT_QPA_PLATFORM="xcb",
+            LIBGL_ALWAYS_SOFTWARE="1", MULTISPECTRAL_WINDOW_STATE=str(self.state_file), MULTISPECTRAL_EXAMPLE="",
+            PV_PLUGIN_CONFIG_FILE=str(folder / "plugins.xml"))
+        settings = folder / "home" / ".config" / "ParaView"
+        settings.mkdir(parents=True)
+        (folder / "run").mkdir(mode=0o700)
+        (settings / "ParaView5.11.0.ini").write_text("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
+        (folder / "plugins.xml").write_text(
+            f'<?xml version="1.0"?>\n<Plugins>\n  <Plugin name="Multispectral" '
+            f'filename="{os.environ["MULTISPECTRAL_PLUGIN"]}" auto_load="1"/>\n</Plugins>\n')
+
+    def start(self):
+        told, tell = os.pipe()
+        self.run(["Xvfb", "-displayfd", str(tell), "-screen", "0", "1400x900x24"], pass_fds=[tell])
+        os.close(tell)
+        with os.fdopen(told) as display:
+            self.environment["DISPLAY"] = ":" + display.readline().strip()
+        self.run(["openbox"])
+        self.log = open(self.folder / "paraview.log", "w", encoding="utf-8")
+        self.run(["paraview", f"--script={ROOT / 'Testing' / 'Pipelines' / 'window_state.py'}"], stdout=self.log,
+                 stderr=subprocess.STDOUT)
+        self.wait("the panel and the toolbar", lambda s: "MultispectralMainJob" in s["named"])
+        self.xdotool("search", "--onlyvisible", "--name", "ParaView 5", "windowmove", "0", "0", "windowsize", "1400", "880")
+        self.wait("the larger window", lambda s: s["frames"] and s["frames"][0][2] > 500)
+        self.settle()
+
+    def run(self, command, **options):
+        options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, **options}
+        self.processes.append(subprocess.Popen(command, env=self.environment, start_new_session=True, **options))
+
+    def stop(self):
+        for process in reversed(self.processes):
+            try:
+                os.killpg(process.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            process.wait()
+
+    def xdotool(self, *arguments):
+        subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True, stdout=subprocess.DEVNULL)
+
+    def state(self):
+        try:
+            return json.loads(self.state_file.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return None
+
+    def wait(self, what, holds):
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            state = self.state()
+            if state is not None and holds(state):
+                return state
+            if self.processes[-1].poll() is not None:
+                raise Failed(f"{what}: ParaView has ended")
+            time.sleep(0.2)
+        self.picture("failed")
+        raise Failed(f"{what}: not within {PATIENCE:.0f} s; there is {json.dumps(self.state())[:1500]}")
+
+    def settle(self):
+        """Until nothing moves any more."""
+        last = None
+        while (now := self.state()["named"]) != last:
+            last = now
+            time.sleep(1.0)
+
+    def click(self, place):
+        self.xdotool("mousemove", *place)
+        time.sleep(0.3)
+        self.xdotool("click", 1)
+        self.clicks += 1
+
+    def type(self, text):
+        self.xdotool("type", "--delay", "5", text)
+
+    def key(self, *names):
+        self.xdotool("key", *names)
+
+    def picture(self, name):
+        subprocess.run(["import", "-window", "root", str(self.folder / f"{name}.png")], env=self.environment, check=False,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def errors(self):
+        text = (self.folder / "paraview.log").read_text(encoding="utf-8", errors="replace")
+        return [line for line in text.splitlines() if "ERR|" in line or "Traceback" in line or "WARN|" in line]
+
+
+def main_job(window):
+    window.click(window.state()["named"]["MultispectralMainJob"])
+    state = window.wait("the dialog", lambda s: "MultispectralScene" in s["named"])
+    window.click(state["named"]["MultispectralScene"])
+    for path in (SCENE, SAMPLES / "demo-chart.csv", SAMPLES / "demo-fabric.csv"):
+        window.type(path)
+        window.key("Tab", "Tab")
+    window.click(window.state()["named"]["MultispectralRun"])
+    state = window.wait("four views", lambda s: len(s["frames"]) == 4 and not s["dialogs"])
+    if window.clicks > MOST_CLICKS:
+        raise Failed(f"the main job took {window.clicks} clicks")
+    texts = sorted(text for view in state["views"].values() for text in view["texts"])
+    means = [float(text.split("\u0394E00 ")[1].split()[0]) for text in texts if "\u0394E00" in text]
+    if texts[:2] != ["Chart alone", "Corrected by swatches"] or len(means) != 2 or not min(means) < 0.7 * max(means):
+        raise Failed(f"the captions are {texts}")
+    arrays = sorted(array for view in state["views"].values() for array in view["arrays"])
+    if arrays != [["POINTS", "dE00 D65", 1]] * 2 + [["POINTS", "sRGB", 0]] * 2:
+        raise Failed(f"the views are colored by {arrays}")
+
+
+def spectra(window):
+    left, top, width, height = window.state()["frames"][1]  # corrected, upper right
+    for i, (across, up) in enumerate(((0.3, 0.35), (0.45, 0.5), (0.6, 0.5), (0.7, 0.65), (0.5, 0.7))):
+        window.click([left + across * width, top + up * height])
+        window.wait(f"spectrum {i + 1}", lambda s, i=i: len(s["pins"]) == i + 1)
+    window.xdotool("mousemove", left + 0.4 * width, top + 0.4 * height)
+    pins = window.wait("the spectrum at the cursor", lambda s: s["live"])["pins"]
+    for pin in pins:
+        if not pin["name"].endswith("corrected by swatches") or len(pin["values"]) != 31 or not pin["deviation"]:
+            raise Failed(f"a kept spectrum is of {pin['name']} with {len(pin['values'])} bands")
+    if len({(pin["column"], pin["row"]) for pin in pins}) != 5 or not any(pin["measured"] and pin["errors"] for pin in pins):
+        raise Failed("five clicks did not keep five pixels, one of them with its measured spectrum and error")
+
+
+def open_files(window):
+    """No question comes, and the right reader is taken."""
+    for path, name, reader in ((SCENE / "channel_400nm.tif", "channel_400nm.tif", "SpectralImageReader"),
+                               (SCENE / "labels.png", "labels.png", "LabelImageReader"),
+                               (SAMPLES / "demo-chart.csv", "demo-chart.csv", "SampleTableReader")):
+        window.key("ctrl+o")
+        window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
+        window.type(path)
+        window.key("Return")
+        state = window.wait(f"the reader of {name}", lambda s, name=name: any(key.startswith(name) for key in s["sources"])
+                            or any("Open Data" in title for title in s["dialogs"]))
+        found = next((kind for key, kind in state["sources"].items() if key.startswith(name)), state["dialogs"])
+        if found != reader:
+            window.picture("failed")
+            raise Failed(f"File > Open took {found} for {name}")
+
+
+def main():
+    for tool in ("xdotool", "openbox", "Xvfb"):
+        if shutil.which(tool) is None:
+            print(f"skipped: there is no {tool}")
+            sys.exit(77)
+    folder = pathlib.Path(sys.argv[1]).resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    window, fault = Window(folder), None
+    try:
+        window.start()
+        for step in (main_job, spectra, open_files):
+            step(window)
+            window.picture(step.__name__)
+        if window.errors():
+            fault = "ParaView said: " + "\n".join(window.errors()[:10])
+    except Failed as failed:
+        fault = "\n".join([str(failed), *window.errors()[:10]])
+    finally:
+        window.stop()
+    print(fault or "main job, spectra and files: as a user expects")
+    sys.exit(1 if fault else 0)
+
+
+main()

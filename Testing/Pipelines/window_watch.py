@@ -1,0 +1,63 @@
+"""Writes what ParaView's window shows into the file MULTISPECTRAL_WINDOW_STATE, three times a second."""
+
+import json
+import os
+
+from paraview import simple
+from PyQt5 import QtCore, QtWidgets
+
+
+def _middle(widget):
+    place = widget.mapToGlobal(widget.rect().center())
+    return [place.x(), place.y()]
+
+
+def _state():
+    application = QtWidgets.QApplication.instance()
+    windows = [w for w in application.topLevelWidgets() if w.isVisible()]
+    main = next((w for w in windows if isinstance(w, QtWidgets.QMainWindow)), None)
+    panel = main.findChild(QtWidgets.QDockWidget, "MultispectralSpectrum") if main else None
+    if panel is None:
+        return None
+    named = {}
+    for window in windows:
+        for widget in window.findChildren(QtWidgets.QWidget):
+            if widget.objectName().startswith("Multispectral") and widget.isVisible():
+                named[widget.objectName()] = _middle(widget)
+    toolbar = main.findChild(QtWidgets.QToolBar, "MultispectralToolbar")
+    for action in toolbar.actions():
+        named[action.objectName()] = _middle(toolbar.widgetForAction(action))
+    views = {}
+    for view in simple.GetRenderViews():
+        texts = [d.Input.Text for d in view.Representations if getattr(d, "Input", None) is not None and
+                 d.Input.SMProxy.GetXMLName() == "TextSource"]
+        arrays = [list(d.ColorArrayName) + [d.MapScalars] for d in view.Representations
+                  if hasattr(d, "MapScalars") and getattr(d, "Visibility", 0)]
+        views[view.SMProxy.GetGlobalIDAsString()] = {"texts": texts, "arrays": arrays}
+    # Where the views are on the screen, as their widgets stand: the upper left first.
+    frames = [w for w in main.findChildren(QtWidgets.QWidget)
+              if w.metaObject().className() == "pqQVTKWidget" and w.isVisible()]
+    return {
+        "named": named,
+        "dialogs": [w.windowTitle() for w in windows if isinstance(w, QtWidgets.QDialog)],
+        "views": views,
+        "frames": sorted([[w.mapToGlobal(QtCore.QPoint(0, 0)).x(), w.mapToGlobal(QtCore.QPoint(0, 0)).y(),
+                           w.width(), w.height()] for w in frames], key=lambda f: (f[1] // 50, f[0])),
+        "sources": {name: s.SMProxy.GetXMLName() for (name, _), s in simple.GetSources().items()},
+        "pins": [{"name": p.name, "column": p.column, "row": p.row, "values": p.values, "errors": p.errors,
+                  "measured": p.measured is not None, "deviation": p.deviation is not None} for p in panel.pins],
+        "live": panel.live is not None}
+
+
+def _write():
+    state = _state()
+    if state is not None:
+        path = os.environ["MULTISPECTRAL_WINDOW_STATE"]
+        with open(path + ".part", "w", encoding="utf-8") as file:
+            json.dump(state, file)
+        os.replace(path + ".part", path)
+
+
+_timer = QtCore.QTimer()
+_timer.timeout.connect(_write)
+_timer.start(300)

@@ -107,6 +107,8 @@ class Window:
         self.xdotool("key", *names)
 
     def picture(self, name):
+        if shutil.which("import") is None:  # of imagemagick
+            return
         subprocess.run(["import", "-window", "root", str(self.folder / f"{name}.png")], env=self.environment, check=False,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
@@ -123,7 +125,8 @@ def main_job(window):
         window.type(path)
         window.key("Tab", "Tab")
     window.click(window.state()["named"]["MultispectralRun"])
-    state = window.wait("four views", lambda s: len(s["frames"]) == 4 and not s["dialogs"])
+    state = window.wait("four views", lambda s: len(s["frames"]) == 4 and
+                        sum(len(view["texts"]) for view in s["views"].values()) == 4 and not s["dialogs"])
     if window.clicks > MOST_CLICKS:
         raise Failed(f"the main job took {window.clicks} clicks")
     texts = sorted(text for view in state["views"].values() for text in view["texts"])

@@ -156,5 +156,5 @@ def _view(layout, cell, source, title):
     shown.WindowLocation = "Upper Center"
     shown.FontSize = 16
     simple.ResetCamera(view)
-    view.CameraParallelScale *= 0.75
+    view.CameraParallelScale *= 0.9
     return view

@@ -173,7 +173,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
 
 def curves_of(pin, color):
     across = pin.wavelengths or list(range(1, len(pin.values) + 1))
-    label = f"{pin.name.rpartition(': ')[2]} ({pin.column}, {pin.row})"
+    label = f"({pin.column}, {pin.row}) {pin.name.rpartition(': ')[2]}"
     curves = [Curve(across, pin.values, label, color, pin.deviation)]
     if pin.measured is not None:
         curves.append(Curve(*pin.measured, "measured", color, dashed=True, width=1.5))

@@ -1,6 +1,6 @@
 #include "Kernels/Estimation/LeastSquares.h"
 
-#include <Eigen/SVD>
+#include "Kernels/Estimation/ThinSvd.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,7 @@ namespace msi
 LeastSquaresSolution solveLeastSquares(
   const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance)
 {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
-    a.transpose(), Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& singular = svd.singularValues();
+  const auto [left, singular, right] = thinSvd(a.transpose());
   const double relative = tolerance >= 0.0
     ? tolerance
     : static_cast<double>(std::max(a.rows(), a.cols())) * std::numeric_limits<double>::epsilon();
@@ -26,8 +24,8 @@ LeastSquaresSolution solveLeastSquares(
   }
   const Eigen::Index rank = solution.rank;
   solution.condition = rank > 0 ? singular(0) / singular(rank - 1) : 0.0;
-  solution.coefficients = b * svd.matrixU().leftCols(rank) *
-    singular.head(rank).cwiseInverse().asDiagonal() * svd.matrixV().leftCols(rank).transpose();
+  solution.coefficients = b * left.leftCols(rank) *
+    singular.head(rank).cwiseInverse().asDiagonal() * right.leftCols(rank).transpose();
   return solution;
 }
 

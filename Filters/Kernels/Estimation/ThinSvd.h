@@ -14,7 +14,7 @@ struct ThinSvd
   Eigen::MatrixXd right;    // columns x r
 };
 
-// a must be finite. Method: Eigen::BDCSVD.
+// a must be finite. Method: Eigen::JacobiSVD (Eigen::BDCSVD compiles three times as long).
 ThinSvd thinSvd(const Eigen::MatrixXd& a);
 
 } // namespace msi

@@ -25,28 +25,13 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "paraview (>= ${ParaView_VERSION}), paraview (<< ${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}.99), python3-paraview, python3-matplotlib, python3-pyqt5, openmpi-bin")
 
 set(packaging "${PROJECT_SOURCE_DIR}/Packaging")
-# ParaView loads the plugins of one list. The package's list takes its place: ParaView's entries and one more.
-set(plugin_folder "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}")
-set(plugin_list "/usr/${plugin_folder}/paraview.plugins.xml")
-set(own_list "${PROJECT_BINARY_DIR}/Packaging/paraview.plugins.xml")
-foreach(candidate IN ITEMS "${plugin_list}.distrib" "${plugin_list}")
-  if(EXISTS "${candidate}")
-    file(READ "${candidate}" list)
-    string(REPLACE "</Plugins>" "  <Plugin name=\"Multispectral\" auto_load=\"1\"/>\n</Plugins>" list "${list}")
-    file(WRITE "${own_list}" "${list}")
-    break()
-  endif()
-endforeach()
-if(NOT EXISTS "${own_list}")
-  return()
-endif()
-install(FILES "${own_list}" DESTINATION "${plugin_folder}" COMPONENT Package EXCLUDE_FROM_ALL)
+# ParaView, pvpython, pvbatch and pvserver load the plugins of the folder `plugins` beside them at their start.
+install(CODE "
+  file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin\")
+  file(CREATE_LINK \"../${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/Multispectral\"
+    \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin/plugins\" SYMBOLIC)"
+  COMPONENT Package EXCLUDE_FROM_ALL)
 set(CPACK_COMPONENTS_ALL Runtime Package)
-foreach(script IN ITEMS preinst postrm)
-  configure_file("${packaging}/${script}.in" "${PROJECT_BINARY_DIR}/Packaging/${script}" @ONLY
-    FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-  list(APPEND CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/Packaging/${script}")
-endforeach()
 
 # Debian's own texts, for the package alone.
 set(documents "${CMAKE_INSTALL_DATADIR}/doc/multispectral")

@@ -22,7 +22,7 @@ This package holds the ParaView plugin, the command multispectral, which runs
 without a display, and the data of its demonstration.")
 # The plugin fits the ParaView that it was built with.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-  "paraview (>= ${ParaView_VERSION}), paraview (<< ${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}.99), python3-paraview, python3-matplotlib, python3-pyqt5, openmpi-bin")
+  "paraview (>= ${ParaView_VERSION}), paraview (<< ${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}.99), python3 (>= 3.11), python3 (<< 3.12), python3-paraview, python3-matplotlib, python3-pyqt5, libqt5svg5, openmpi-bin")
 
 set(packaging "${PROJECT_SOURCE_DIR}/Packaging")
 # ParaView, pvpython, pvbatch and pvserver load the plugins of the folder `plugins` beside them at their start.

@@ -1,5 +1,5 @@
 # Installs into a fresh prefix and builds the program there against it. -D BUILD=, SOURCE=, OUTPUT=,
-# WITH=launcher|modules, TABLE= (a sample table of 140 samples)
+# WITH=launcher|modules, TABLE= (a sample table of 140 samples), VTK_DIR=
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_VARIABLE text)
   if(NOT status EQUAL 0)
@@ -8,7 +8,7 @@ function(run)
 endfunction()
 file(REMOVE_RECURSE "${OUTPUT}")
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${OUTPUT}/prefix")
-run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${OUTPUT}/build" "-DCMAKE_PREFIX_PATH=${OUTPUT}/prefix")
+run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${OUTPUT}/build" "-DCMAKE_PREFIX_PATH=${OUTPUT}/prefix" "-DVTK_DIR=${VTK_DIR}")
 run("${CMAKE_COMMAND}" --build "${OUTPUT}/build")
 run("${OUTPUT}/build/difference")
 if(WITH STREQUAL "launcher")

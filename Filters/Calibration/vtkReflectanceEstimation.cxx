@@ -18,8 +18,12 @@
 
 #include "Kernels/Spectra/PossibleValues.h"
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <type_traits>
+#include <vector>
 
 vtkStandardNewMacro(vtkReflectanceEstimation);
 
@@ -74,9 +78,42 @@ vtkSmartPointer<ArrayType> newArray(const char* name, std::size_t components, vt
   return array;
 }
 
+// Null where a map is not asked for or not known.
+struct QualityMapsOf
+{
+  std::optional<msi::ResponseRange> range;
+  vtkSmartPointer<vtkFloatArray> outOfRange;
+  vtkSmartPointer<vtkFloatArray> uncertainty;
+};
+
+template <typename Value>
+void fillOutOfRange(const QualityMapsOf& maps, const Value* responses, vtkIdType channels,
+  vtkIdType begin, vtkIdType end)
+{
+  for (vtkIdType pixel = begin; pixel < end; ++pixel)
+  {
+    const Eigen::Map<const Eigen::Array<Value, Eigen::Dynamic, 1>> values(
+      responses + pixel * channels, channels);
+    maps.outOfRange->SetValue(pixel,
+      static_cast<float>(msi::excessOverRange(values.template cast<double>().eval(), *maps.range)));
+  }
+}
+
+template <typename Value>
+void fillUncertainty(const QualityMapsOf& maps, const Value* deviation, vtkIdType bands,
+  vtkIdType begin, vtkIdType end)
+{
+  for (vtkIdType pixel = begin; pixel < end; ++pixel)
+  {
+    const Eigen::Map<const Eigen::Array<Value, Eigen::Dynamic, 1>> values(
+      deviation + (pixel - begin) * bands, bands);
+    maps.uncertainty->SetValue(pixel, static_cast<float>(std::sqrt(values.square().mean())));
+  }
+}
+
 template <typename ArrayType>
 void estimateImage(vtkAlgorithm* self, const Estimator& estimator, vtkDataArray* responses,
-  bool withUncertainty, vtkImageData* output)
+  bool withUncertainty, const QualityMapsOf& maps, vtkImageData* output)
 {
   auto input = vtkSmartPointer<ArrayType>(ArrayType::FastDownCast(responses));
   if (!input)
@@ -99,8 +136,23 @@ void estimateImage(vtkAlgorithm* self, const Estimator& estimator, vtkDataArray*
   msi::forBlocks(self, pixels,
     [&](vtkIdType begin, vtkIdType end)
     {
-      estimator.kernel->apply(in + begin * channels, out + begin * bands,
-        deviation ? deviation + begin * bands : nullptr, end - begin);
+      using Value = std::decay_t<decltype(*out)>;
+      std::vector<Value> buffer;
+      Value* known = deviation ? deviation + begin * bands : nullptr;
+      if (maps.uncertainty && !known)
+      {
+        buffer.resize(static_cast<std::size_t>((end - begin) * bands));
+        known = buffer.data();
+      }
+      estimator.kernel->apply(in + begin * channels, out + begin * bands, known, end - begin);
+      if (maps.outOfRange)
+      {
+        fillOutOfRange(maps, in, channels, begin, end);
+      }
+      if (maps.uncertainty)
+      {
+        fillUncertainty(maps, known, bands, begin, end);
+      }
     });
   msi::setAxis(output, reflectance, estimator.bands);
   msi::replaceArray(output, responses, reflectance);
@@ -108,6 +160,13 @@ void estimateImage(vtkAlgorithm* self, const Estimator& estimator, vtkDataArray*
   {
     msi::setAxis(output, uncertainty, estimator.bands);
     output->GetPointData()->AddArray(uncertainty);
+  }
+  for (const auto& map : { maps.outOfRange, maps.uncertainty })
+  {
+    if (map)
+    {
+      output->GetPointData()->AddArray(map);
+    }
   }
 }
 }
@@ -123,7 +182,9 @@ void vtkReflectanceEstimation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Preview: " << this->Preview << "\n";
   os << indent << "ResponseArray: " << this->ResponseArray << "\n"
-     << indent << "Uncertainty: " << this->Uncertainty << "\n";
+     << indent << "Uncertainty: " << this->Uncertainty << "\n"
+     << indent << "QualityMaps: " << this->QualityMaps << "\n"
+     << indent << "OutOfRangeShare: " << this->OutOfRangeShare << "\n";
 }
 
 int vtkReflectanceEstimation::FillInputPortInformation(int port, vtkInformation* info)
@@ -153,6 +214,7 @@ int vtkReflectanceEstimation::RequestUpdateExtent(
 int vtkReflectanceEstimation::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  this->OutOfRangeShare = -1.0;
   return msi::runAlgorithm(this, outputs,
     [&]
     {
@@ -189,11 +251,12 @@ int vtkReflectanceEstimation::RequestData(
       auto* responses = msi::requireSpectralArray(image, "the image", this->ResponseArray.c_str());
       msi::requireSameChannels(msi::axisOf(image, responses), "the image", estimator.channels,
         "the reflectance transform");
+      const auto range = msi::readResponseRange(
+        vtkTable::GetData(inputs[1]), static_cast<Eigen::Index>(estimator.channels.size()));
       if (msi::isWhole(inputs[0]->GetInformationObject(0), image))
       {
-        const auto judgement = msi::judgeResponses(responses, estimator.channels,
-          msi::readResponseRange(
-            vtkTable::GetData(inputs[1]), static_cast<Eigen::Index>(estimator.channels.size())));
+        const auto judgement = msi::judgeResponses(responses, estimator.channels, range);
+        this->OutOfRangeShare = judgement.outside;
         if (!judgement.error.empty())
         {
           throw std::runtime_error(judgement.error);
@@ -203,17 +266,26 @@ int vtkReflectanceEstimation::RequestData(
           vtkWarningMacro(<< judgement.warning);
         }
       }
+      QualityMapsOf maps;
+      if (this->QualityMaps)
+      {
+        const vtkIdType pixels = responses->GetNumberOfTuples();
+        maps.range = range;
+        maps.outOfRange = range ? newArray<vtkFloatArray>("OutOfRange", 1, pixels) : nullptr;
+        maps.uncertainty =
+          uncertainty ? newArray<vtkFloatArray>("UncertaintyRms", 1, pixels) : nullptr;
+      }
       auto* output = vtkImageData::GetData(outputs, 0);
       output->ShallowCopy(image);
       if (responses->GetDataType() == VTK_DOUBLE)
       {
         estimateImage<vtkDoubleArray>(
-          this, estimator, responses, uncertainty && this->Uncertainty == 2, output);
+          this, estimator, responses, uncertainty && this->Uncertainty == 2, maps, output);
       }
       else
       {
         estimateImage<vtkFloatArray>(
-          this, estimator, responses, uncertainty && this->Uncertainty == 2, output);
+          this, estimator, responses, uncertainty && this->Uncertainty == 2, maps, output);
       }
       // The picture of the responses is not one of the reflectance.
       msi::removePicture(output);

@@ -54,6 +54,25 @@ public:
   vtkBooleanMacro(Preview, bool);
   ///@}
 
+  ///@{
+  /**
+   * Also give an image what tells how far to trust a pixel. "OutOfRange": how far its responses lie outside of those
+   * that the transform was fitted on, in units of a channel's range, 0 within. "UncertaintyRms", where the transform knows
+   * its uncertainty: the root mean square over the bands. Default off.
+   */
+  vtkSetMacro(QualityMaps, bool);
+  vtkGetMacro(QualityMaps, bool);
+  vtkBooleanMacro(QualityMaps, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Share of the last whole image's pixels whose responses lie outside of the range of the samples that the transform was
+   * fitted on by more than a tenth of it; -1 where it is not known.
+   */
+  vtkGetMacro(OutOfRangeShare, double);
+  ///@}
+
 protected:
   vtkReflectanceEstimation();
   ~vtkReflectanceEstimation() override = default;
@@ -72,6 +91,8 @@ private:
   int Uncertainty = 0;
 
   bool Preview = true;
+  bool QualityMaps = false;
+  double OutOfRangeShare = -1.0;
 };
 
 #endif

@@ -102,34 +102,32 @@ ResponseJudgement besideRange(const Eigen::ArrayXXd& pixels, const ResponseRange
   const double middle = quantile(brightness, 0.5);
   const double brightest = quantile(brightness, 0.99);
   const double share = static_cast<double>(outside) / static_cast<double>(pixels.cols());
+  ResponseJudgement judgement;
+  judgement.outside = share;
   if (middle > CountsImage)
   {
-    return { "half of the image's responses exceed the largest ones of the calibration samples " +
-        rounded(middle) + " times; expected responses in the unit of the calibration; " + Remedy,
-      {} };
-  }
-  if (middle > BrightImage)
-  {
-    return { {},
+    judgement.error =
       "half of the image's responses exceed the largest ones of the calibration samples " +
-        rounded(middle) + " times; " + Remedy };
+      rounded(middle) + " times; expected responses in the unit of the calibration; " + Remedy;
   }
-  if (brightest < DimImage)
+  else if (middle > BrightImage)
   {
-    return { {},
-      "the image's responses reach " + percent(brightest) +
-        " of the largest ones of the calibration samples (99th percentile of the pixels); " +
-        Remedy };
+    judgement.warning =
+      "half of the image's responses exceed the largest ones of the calibration samples " +
+      rounded(middle) + " times; " + Remedy;
   }
-  if (share > MostOutside)
+  else if (brightest < DimImage)
   {
-    return { {},
-      percent(share) +
-        " of the pixels have responses outside of the range of the calibration samples: their "
-        "reflectance is "
-        "extrapolated" };
+    judgement.warning = "the image's responses reach " + percent(brightest) +
+      " of the largest ones of the calibration samples (99th percentile of the pixels); " + Remedy;
   }
-  return {};
+  else if (share > MostOutside)
+  {
+    judgement.warning = percent(share) +
+      " of the pixels have responses outside of the range of the calibration samples: their "
+      "reflectance is extrapolated";
+  }
+  return judgement;
 }
 }
 
@@ -189,12 +187,10 @@ ResponseJudgement judgeResponses(
   }
   if (kept == 0)
   {
-    return {
-      "no pixel of the image has finite responses in all channels; expected the responses of a "
-      "camera; where they "
-      "were divided by a white image: is it brighter than the dark image, and of the same camera?",
-      {}
-    };
+    return { "no pixel of the image has finite responses in all channels; expected the responses "
+             "of a camera; where they were divided by a white image: is it brighter than the dark "
+             "image, and of the same camera?",
+      {} };
   }
   pixels.conservativeResize(Eigen::NoChange, kept);
   const Eigen::Array<bool, Eigen::Dynamic, 1> zero = (pixels == 0.0).rowwise().all();
@@ -212,6 +208,28 @@ ResponseJudgement judgeResponses(
     judgement.warning = dead + (judgement.warning.empty() ? "" : "; " + judgement.warning);
   }
   return judgement;
+}
+
+double excessOverRange(
+  const Eigen::Ref<const Eigen::ArrayXd>& responses, const ResponseRange& range) noexcept
+{
+  double excess = 0.0;
+  for (Eigen::Index k = 0; k < responses.size(); ++k)
+  {
+    const double least = range(k, 0);
+    const double most = range(k, 1);
+    const double over = std::max(least - responses[k], responses[k] - most);
+    if (!(over <= 0.0))
+    {
+      const double units = over / std::max(most - least, 1e-12);
+      excess = std::isnan(units) ? units : std::max(excess, units);
+    }
+    if (std::isnan(excess))
+    {
+      return excess;
+    }
+  }
+  return excess;
 }
 
 bool isWhole(vtkInformation* information, vtkImageData* image)

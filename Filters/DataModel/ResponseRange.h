@@ -29,11 +29,18 @@ struct ResponseJudgement
 {
   std::string error;   // no estimate of it means anything
   std::string warning; // the estimates are doubtful
+  // Share of the pixels with responses outside of the range by more than a tenth of it; below 0 where it is not known.
+  double outside = -1.0;
 };
 
 // Looks at up to 65536 pixels, evenly spread.
 ResponseJudgement judgeResponses(
   vtkDataArray* responses, const SpectralAxis& channels, const std::optional<ResponseRange>& range);
+
+// How far a pixel's responses lie outside of the range: the largest excess of a channel, in units of that channel's range.
+// 0 within the range, NaN where a response is NaN.
+double excessOverRange(
+  const Eigen::Ref<const Eigen::ArrayXd>& responses, const ResponseRange& range) noexcept;
 
 // True where the image is not a piece of a larger one: what is true of all its pixels is true of the image.
 bool isWhole(vtkInformation* information, vtkImageData* image);

@@ -73,6 +73,16 @@ def diagnose_capture(folder):
     return gap
 
 
+def before_and_after(results):
+    """The result in one sentence."""
+    if command.rank() != 0:
+        return ""
+    (before, _, count), (after, _, _) = (estimation.mean_of(results[name], "dE00", "D65")
+                                         for name in ("direct", "transfer"))
+    return (f"{TUNING} measured swatches reduce the mean color error of the {count} swatches in the image from "
+            f"\u0394E00 {before:.1f} to {after:.1f} (D65).")
+
+
 # All that it writes into the output folder.
 WRITES = ("*", "direct/*", "transfer/*", "gap/*")
 
@@ -101,10 +111,14 @@ def main():
             "spectra.png": "A typical held-out swatch",
             "rms-against-tuning.png": "Error against the number of tuning swatches",
             "ab-distribution.png": "Where the three sets lie in a*b*"})]
+    sections.insert(1, report.pictures("Before and after", folder, {
+        "direct/rgb.png": "With the chart's calibration alone", "transfer/rgb.png": "Corrected by the tuning swatches",
+        "direct/error-dE00-D65.png": "Its color errors (CIEDE2000, D65)",
+        "transfer/error-dE00-D65.png": "Its color errors, on the same scale"}))
     for name, title in (("direct", "The image with the chart's calibration alone"),
                         ("transfer", "The image corrected by the tuning swatches")):
         place = os.path.join(folder, name)
-        sections.append(report.pictures(title, place, {"rgb.png": "sRGB view under D65"}))
+        sections.append(report.text(title))
         sections += estimation.report_errors(results[name], place)
     sections.append(report.text(
         "Why a simulated and a real camera disagree",
@@ -113,7 +127,7 @@ def main():
         "spectrophotometer (Data/Captures/README.md says by how much). The diagnosis below was told none "
         "of it."))
     sections += diagnosis.sections(gap, gap_folder)
-    report.write(folder, "Multispectral: demo", sections)
+    report.write(folder, "Multispectral: demo", sections, before_and_after(results), pipeline.warnings)
     state.finish()
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 

@@ -1,10 +1,31 @@
 """Reflectance image, RGB view and error maps from a multispectral image."""
 
+import argparse
+import math
 import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from support import command, methods  # noqa: E402
+
+ILLUMINANTS = ("A", "D50", "D65", *(f"F{i}" for i in range(1, 13)), *(f"FL{i}" for i in range(1, 13)),
+               *(f"LED-B{i}" for i in range(1, 6)))
+OBSERVERS = {"2": "CIE 1931 2 degree", "10": "CIE 1964 10 degree"}
+
+
+def number(least, most=math.inf):
+    """Above 'least' (or 'least' itself where there is an upper bound), at most 'most'."""
+    def parse(text):
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not (least < value <= most or (value == least and most < math.inf)) or math.isinf(value):
+            bounds = f"a number from {least:g} to {most:g}" if most < math.inf else f"a number above {least:g}"
+            raise argparse.ArgumentTypeError(f"'{text}' is not {bounds}")
+        return value
+    return parse
+
 
 def arguments():
     parser = command.parser(
@@ -26,8 +47,31 @@ def arguments():
     parser.add_argument("--method", choices=methods.NAMES, default="transfer",
                         help="how tuning samples are used (default: %(default)s)")
     parser.add_argument("--wavelengths", metavar="NM", nargs="+", type=float,
-                        help="wavelengths of the image's channels, over what the files say")
+                        help="wavelengths of the image's channels in nm; overrides those in the files")
+    frames = parser.add_argument_group("how the image was taken")
+    frames.add_argument("--white-reflectance", metavar="FACTOR", type=number(0.001, 2.0),
+                        help="reflectance factor of the white reference (default: 1)")
+    frames.add_argument("--white-level", metavar="COUNTS", type=number(0.0),
+                        help="level of white where there is no --white (default: 1)")
+    frames.add_argument("--saturation", metavar="COUNTS", type=number(0.0),
+                        help="raw and white values from this level on are saturated: their pixels become NaN")
+    frames.add_argument("--exposure", metavar="T", nargs="+", type=number(0.0),
+                        help="exposure times of the image: one, or one per channel; with --white-exposure")
+    frames.add_argument("--white-exposure", metavar="T", nargs="+", type=number(0.0),
+                        help="exposure times of the white reference, in the same unit")
+    results = parser.add_argument_group("results")
+    results.add_argument("--illuminant", metavar="NAME", nargs="+", choices=ILLUMINANTS, default=["D65", "F2"],
+                         help="CIE illuminants of the color differences; the first one also lights the pictures: A, D50, "
+                              "D65, F1 to F12, LED-B1 to LED-B5 (default: D65 F2)")
+    results.add_argument("--observer", choices=list(OBSERVERS), default="2",
+                         help="CIE standard observer, degrees (default: %(default)s)")
+    results.add_argument("--cube", choices=("exr", "envi"), default="exr",
+                         help="format of the reflectance image (default: %(default)s)")
     options = parser.parse_args()
+    if (options.exposure is None) != (options.white_exposure is None):
+        parser.error("--exposure and --white-exposure go together")
+    if options.white_level is not None and options.white is not None:
+        parser.error("--white-level is for images without --white")
     if (options.labels is None) != (options.patches is None):
         parser.error("--labels and --patches go together")
     if options.calibration is None and options.labels is None:
@@ -60,12 +104,29 @@ def responses(options, stride=1):
     """The image with its frames, which nothing has read yet."""
     def read(files):
         return estimation.read_image(files, options.wavelengths, stride) if files else None
-    return estimation.flat_field(read(options.image), read(options.white), read(options.dark))
+    given = {"WhiteReflectance": options.white_reflectance, "WhiteLevel": options.white_level,
+             "SaturationLevel": options.saturation, "ExposureTimes": options.exposure,
+             "WhiteExposureTimes": options.white_exposure}
+    return estimation.flat_field(read(options.image), read(options.white), read(options.dark),
+                                 **{name: value for name, value in given.items() if value is not None})
+
+
+def summarize(options, judged, outside):
+    """The result in one sentence, and what is known of the pixels' responses."""
+    range_text = "It is not known which responses the transform was fitted on." if outside is None else \
+        f"{100.0 * outside:.1f} % of the pixels have responses outside of the range of the fitted samples."
+    if judged is None or command.rank() != 0:
+        return f"Estimated with the method {options.method if options.tuning else 'calibration'}; {range_text}", range_text
+    mean, largest, count = estimation.mean_of(judged, "dE00", options.illuminant[0])
+    rms = estimation.mean_of(judged, "rms")[0]
+    return (f"{count} held-out patches: mean \u0394E00 {mean:.2f}, largest {largest:.2f} ({options.illuminant[0]}); "
+            f"spectral rms {rms:.4f}. {range_text}"), range_text
 
 
 # All that it writes into the output folder.
 WRITES = (
-    "reflectance-transform.csv", "metamerism-transform.csv", "reflectance.exr", "rgb.png", "error-rms.png",
+    "reflectance-transform.csv", "metamerism-transform.csv", "reflectance.exr", "reflectance.img", "reflectance.hdr",
+    "rgb.png", "srgb.png", "out-of-range.png", "uncertainty.png", "error-rms.png",
     "error-dE00-*.png", "error-maps.img", "error-maps.hdr", "errors-of-pixels.csv", "errors-of-patches.csv",
     "patches.csv", "state.pvsm", "report.html")
 
@@ -98,27 +159,34 @@ def main():
                 tuning = pipeline.port(split, 0)
 
     transforms, summary = estimation.correction(calibration, tuning, methods.NAMES[options.method])
-    estimation.require_plausible(responses(options, estimation.stride_of_judgement(image)), transforms)
+    judged_image, outside = estimation.require_plausible(
+        responses(options, estimation.stride_of_judgement(image)), transforms)
     reflectance = estimation.estimate(image, transforms, folder)
-    estimation.save_reflectance(reflectance, folder)
+    estimation.save_reflectance(reflectance, folder, options.cube)
     view = reflectance, labels
     if stride > 1:
         command.say(f"the pictures show every {stride}th pixel of the image")
         view = (pipeline.create("ReflectanceEstimation", Input=responses(options, stride),
                                 **transforms),
                 labels and estimation.read_labels(options.labels, stride))
-    estimation.save_view(view[0], folder)
-    pages = [report.pictures("Reflectance", folder, {"rgb.png": "sRGB view under D65"}),
+    illuminant, observer = options.illuminant[0], OBSERVERS[options.observer]
+    estimation.save_view(view[0], folder, reflectance, illuminant, observer)
+    pages = [report.pictures("Reflectance", folder, {
+                 "rgb.png": f"The colors under {illuminant}; srgb.png has them at the image's own size"}),
+             estimation.save_quality(judged_image, folder),
              report.table("The fit", *pipeline.table(summary))]
     judged = None
     if labels is not None:
-        judged = estimation.judge(reflectance, labels, held_out, folder, view=view)
+        judged = estimation.judge(reflectance, labels, held_out, folder, view=view, illuminants=options.illuminant,
+                                  observer=observer)
         estimation.print_summary("Held-out patches, mean spectrum of each",
                                  pipeline.port(judged.patches, 1))
         estimation.print_summary("Held-out pixels", judged.summary)
         pages += estimation.report_errors(judged, folder)
     estimation.save_state(os.path.join(folder, "state.pvsm"), view[0], judged)
-    report.write(folder, "Spectral reflectance of an image", pages)
+    lead, range_text = summarize(options, judged, outside)
+    command.say(range_text)
+    report.write(folder, "Spectral reflectance of an image", pages, lead, pipeline.warnings)
     state.finish()
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 

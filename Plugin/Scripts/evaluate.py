@@ -32,13 +32,13 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import comparison, pipeline  # noqa: E402
+from support import comparison, pipeline, report  # noqa: E402
 
 
 # All that it writes into the output folder.
 WRITES = (
     "results.csv", "draws.csv", "rms-against-tuning.csv", "spectra.png", "rms-against-tuning.png",
-    "ab-distribution.png")
+    "ab-distribution.png", "report.html")
 
 
 def main():
@@ -50,9 +50,17 @@ def main():
               for path in (options.calibration, options.target)]
     pipeline.update(*tables)
     tables = [comparison.select_channels(table, options.channels) for table in tables]
-    comparison.compare(*tables, folder=folder, methods=",".join(methods.chosen(options.methods)), tuning=options.tuning,
-                       draws=options.draws, seed=options.seed)
-    command.say(f"results, draws and pictures: {folder}")
+    names, rows = comparison.compare(*tables, folder=folder, methods=",".join(methods.chosen(options.methods)),
+                                     tuning=options.tuning, draws=options.draws, seed=options.seed)
+    report.write(folder, "Methods compared", [
+        report.table("Errors of the held-out samples", *comparison.condensed(names, rows),
+                     note=f"Mean / median / largest over the held-out samples, mean over {options.draws} draws of "
+                          f"{options.tuning} tuning samples; rms of reflectance factor, CIEDE2000."),
+        report.pictures("In pictures", folder, {
+            "spectra.png": "A typical held-out sample", "rms-against-tuning.png": "Error against the number of tuning samples",
+            "ab-distribution.png": "Where the three sets lie in a*b*"})],
+        comparison.best(names, rows), pipeline.warnings)
+    command.say(f"report, results, draws and pictures: {os.path.join(folder, 'report.html')}")
 
 
 command.run(main)

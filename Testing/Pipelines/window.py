@@ -139,17 +139,21 @@ def main_job(window):
 
 
 def spectra(window):
-    left, top, width, height = window.state()["frames"][1]  # corrected, upper right
-    for i, (across, up) in enumerate(((0.3, 0.35), (0.45, 0.5), (0.6, 0.5), (0.7, 0.65), (0.5, 0.7))):
-        window.click([left + across * width, top + up * height])
+    window.settle()
+    state = window.state()
+    left, top, width, height = state["frames"][1]  # corrected, upper right
+    view = next(view for view in state["views"].values() if "Corrected by swatches" in view["texts"])
+    for i, (across, up) in enumerate(view["places"]):
+        window.click([left + across, top + height - up])
         window.wait(f"spectrum {i + 1}", lambda s, i=i: len(s["pins"]) == i + 1)
     window.xdotool("mousemove", left + 0.4 * width, top + 0.4 * height)
     pins = window.wait("the spectrum at the cursor", lambda s: s["live"])["pins"]
     for pin in pins:
         if not pin["name"].endswith("corrected by swatches") or len(pin["values"]) != 31 or not pin["deviation"]:
             raise Failed(f"a kept spectrum is of {pin['name']} with {len(pin['values'])} bands")
-    if len({(pin["column"], pin["row"]) for pin in pins}) != 5 or not any(pin["measured"] and pin["errors"] for pin in pins):
-        raise Failed("five clicks did not keep five pixels, one of them with its measured spectrum and error")
+    if len({(pin["column"], pin["row"]) for pin in pins}) != 5 or not all(pin["measured"] and pin["errors"] for pin in pins):
+        raise Failed("five clicks did not keep five pixels, each with its measured spectrum and error: " + ", ".join(
+            f"({pin['column']}, {pin['row']}) measured: {pin['measured']}" for pin in pins))
 
 
 def open_files(window):

@@ -12,6 +12,20 @@ def _middle(widget):
     return [place.x(), place.y()]
 
 
+# Middles of patches of the demo's image, columns and rows from the lower left.
+_PATCHES = [(21.0, 160.0), (105.0, 118.0), (190.0, 75.0), (232.0, 33.0), (63.0, 75.0)]
+
+
+def _places(view):
+    """Where a view shows them, in pixels from its lower left."""
+    renderer, places = view.GetRenderer(), []
+    for x, y in _PATCHES:
+        renderer.SetWorldPoint(x, y, 0.0, 1.0)
+        renderer.WorldToDisplay()
+        places.append(list(renderer.GetDisplayPoint()[:2]))
+    return places
+
+
 def _state():
     application = QtWidgets.QApplication.instance()
     windows = [w for w in application.topLevelWidgets() if w.isVisible()]
@@ -33,7 +47,7 @@ def _state():
                  d.Input.SMProxy.GetXMLName() == "TextSource"]
         arrays = [list(d.ColorArrayName) + [d.MapScalars] for d in view.Representations
                   if hasattr(d, "MapScalars") and getattr(d, "Visibility", 0)]
-        views[view.SMProxy.GetGlobalIDAsString()] = {"texts": texts, "arrays": arrays}
+        views[view.SMProxy.GetGlobalIDAsString()] = {"texts": texts, "arrays": arrays, "places": _places(view)}
     # Where the views are on the screen, as their widgets stand: the upper left first.
     frames = [w for w in main.findChildren(QtWidgets.QWidget)
               if w.metaObject().className() == "pqQVTKWidget" and w.isVisible()]

@@ -7,10 +7,13 @@
 #include "Support/vtk/Images.h"
 #include "Support/vtk/Runs.h"
 
+#include "vtkImageData.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace
@@ -101,6 +104,34 @@ TEST_F(Judgement, MostPixelsOutsideOfTheCalibration)
 {
   const auto text = this->warning([](Eigen::MatrixXd& pixels) { pixels *= -0.7; });
   EXPECT_NE(text, "");
+}
+
+TEST_F(Judgement, QualityMapsTellHowFarPixelsLieOutside)
+{
+  this->Estimation->QualityMapsOn();
+  this->look(
+    [](Eigen::MatrixXd& pixels)
+    {
+      // In one channel half of its range above the largest response; then one that is not known.
+      const double least = pixels.row(1).minCoeff();
+      const double most = pixels.row(1).maxCoeff();
+      pixels(1, 0) = most + 0.5 * (most - least);
+      pixels(1, 1) = std::numeric_limits<double>::quiet_NaN();
+    });
+  this->Estimation->Update();
+  auto* image = vtkImageData::SafeDownCast(this->Estimation->GetOutputDataObject(0));
+  auto* outside = image->GetPointData()->GetArray("OutOfRange");
+  ASSERT_NE(outside, nullptr);
+  EXPECT_NEAR(outside->GetTuple1(0), 0.5, 1e-6);
+  EXPECT_TRUE(std::isnan(outside->GetTuple1(1)));
+  for (vtkIdType pixel = 2; pixel < outside->GetNumberOfTuples(); ++pixel)
+  {
+    EXPECT_EQ(outside->GetTuple1(pixel), 0.0);
+  }
+  // An affine transform knows no uncertainty. Pixels that are not finite are not judged.
+  EXPECT_EQ(image->GetPointData()->GetArray("UncertaintyRms"), nullptr);
+  EXPECT_NEAR(this->Estimation->GetOutOfRangeShare(),
+    1.0 / static_cast<double>(outside->GetNumberOfTuples() - 1), 1e-12);
 }
 
 TEST(TablesOfTwoUnits, AreRefused)

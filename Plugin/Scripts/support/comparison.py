@@ -75,6 +75,28 @@ def condensed(names, rows):
              for method, cells in by_method.items()])
 
 
+def best(names, rows):
+    """The method with the least mean spectral rms, in one sentence; empty on ranks without the table."""
+    column = {name: i for i, name in enumerate(names)}
+
+    def means(metric, illuminant=""):
+        return {row[column["method"]]: row[column["mean"]] for row in rows
+                if (row[column["metric"]], row[column["illuminant"]]) == (metric, illuminant)}
+    rms = means("rms") if rows else {}
+    if not rms:
+        return ""
+    method = min(rms, key=rms.get)
+    text = f"{method} has the least spectral rms on the held-out samples: {rms[method]:.4f}"
+    if "direct" in rms and method != "direct":
+        text += f", against {rms['direct']:.4f} with the chart's calibration alone"
+    colors = means("dE00", "D65")
+    if method in colors:
+        text += f"; mean \u0394E00 {colors[method]:.2f} (D65)"
+        if "direct" in colors and method != "direct":
+            text += f" against {colors['direct']:.2f}"
+    return text + "."
+
+
 def print_results(names, rows):
     titles, lines = condensed(names, rows)
     for line in [titles] + lines:

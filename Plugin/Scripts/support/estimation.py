@@ -5,14 +5,19 @@ import os
 
 from . import command, outputs, pictures, pipeline, report, state
 
-ERROR_ARRAYS = ("rms", "dE00 D65", "dE00 F2")
+DEFAULT_ILLUMINANTS = ("D65", "F2")
+DEFAULT_OBSERVER = "CIE 1931 2 degree"
+
+
+def error_arrays(illuminants):
+    return ("rms", *(f"dE00 {illuminant}" for illuminant in illuminants))
 
 
 # Images of more pixels than this are shown by every n-th one, so that a side has at most so many.
 MOST_PIXELS_SHOWN = 4_000_000
 PIXELS_OF_THINNED_SIDE = 384
 
-Judged = collections.namedtuple("Judged", "errors summary patches")
+Judged = collections.namedtuple("Judged", "errors summary patches arrays")
 
 
 def read_image(files, wavelengths=None, stride=1):
@@ -27,11 +32,11 @@ def read_labels(path, stride=1):
     return pipeline.create("LabelImageReader", FileName=path, Stride=[stride, stride])
 
 
-def flat_field(image, white, dark):
-    """(raw - dark) / (white - dark), with the frames that there are."""
-    if white is None and dark is None:
+def flat_field(image, white, dark, **options):
+    """(raw - dark) / (white - dark), with the frames that there are; options: properties of the filter."""
+    if white is None and dark is None and not options:
         return image
-    frames = {}
+    frames = dict(options)
     if white is not None:
         frames["White"] = white
     if dark is not None:
@@ -76,51 +81,87 @@ def estimate(image, transforms, folder):
 
 def require_plausible(image, transforms):
     """The filter's judgement of responses, which it gives of whole images only: before a large one is worked through in
-    pieces. image: every n-th pixel of it."""
-    pipeline.whole(pipeline.create("ReflectanceEstimation", Input=image, **transforms))
+    pieces. image: every n-th pixel of it. Returns the estimate with its quality maps, and the share of the pixels whose
+    responses lie outside of the range of the fitted samples, None where it is not known."""
+    estimated = pipeline.create("ReflectanceEstimation", Input=image, QualityMaps=1, **transforms)
+    pipeline.whole(estimated)
+    estimated.UpdatePropertyInformation()
+    share = float(estimated.GetProperty("OutOfRangeShare").GetData())
+    return estimated, share if share >= 0.0 else None
 
 
-def save_view(reflectance, folder):
-    """The RGB view as rgb.png."""
-    color = pipeline.create("SpectralToColor", Input=reflectance)
+QUALITY_MAPS = {"OutOfRange": ("out-of-range.png", "How far the responses lie outside of the range of the fitted samples "
+                               "(0: within; 1: by the width of the range)"),
+                "UncertaintyRms": ("uncertainty.png", "Standard uncertainty of the reflectance, root mean square over the "
+                                   "bands")}
+
+
+def save_quality(estimated, folder):
+    """Pictures of the maps that the estimate knows; the report's section on them."""
+    arrays = pipeline.whole(estimated).GetPointData()
+    captions = {}
+    for array, (name, caption) in QUALITY_MAPS.items():
+        path = os.path.join(folder, name)
+        if arrays.GetArray(array) is not None:
+            pictures.image(estimated, array, path)
+            captions[name] = caption
+        elif command.rank() == 0:
+            outputs.remove(path)
+    return report.pictures("How far to trust each pixel", folder, captions) if captions else ""
+
+
+def save_view(reflectance, folder, whole=None, illuminant="D65", observer=DEFAULT_OBSERVER):
+    """The RGB view as rgb.png; whole: the image in full, whose colors are written as srgb.png."""
+    options = {"Illuminant": illuminant, "Observer": observer}
+    color = pipeline.create("SpectralToColor", Input=reflectance, **options)
     pipeline.update(color)
     pictures.image(color, "sRGB", os.path.join(folder, "rgb.png"), rgb=True)
+    if whole is not None:
+        pictures.srgb(pipeline.create("SpectralToColor", Input=whole, **options), os.path.join(folder, "srgb.png"))
 
 
-def save_reflectance(reflectance, folder):
+CUBES = {"exr": ("reflectance.exr",), "envi": ("reflectance.img", "reflectance.hdr")}
+
+
+def save_reflectance(reflectance, folder, cube="exr"):
     """Block by block: the image never stands in memory whole."""
-    pipeline.save_image(reflectance, os.path.join(folder, "reflectance.exr"))
+    pipeline.save_image(reflectance, os.path.join(folder, CUBES[cube][0]))
+    for name in (name for other, names in CUBES.items() if other != cube for name in names):
+        if command.rank() == 0:
+            outputs.remove(os.path.join(folder, name))  # of an earlier run
 
 
-def error_maps(reflectance, labels, held_out):
+def error_maps(reflectance, labels, held_out, conditions):
     reference = pipeline.create("PatchReferenceImage", Input=labels, PatchTable=held_out, Preview=0)
-    return pipeline.create("CIEDE2000Evaluator", Input=reflectance, Reference=reference)
+    return pipeline.create("CIEDE2000Evaluator", Input=reflectance, Reference=reference, **conditions)
 
 
-def judge(reflectance, labels, held_out, folder, tops=None, view=None):
+def judge(reflectance, labels, held_out, folder, tops=None, view=None, illuminants=DEFAULT_ILLUMINANTS,
+          observer=DEFAULT_OBSERVER):
     """Error maps over the held-out patches, their statistics, and the errors of the patches' mean spectra.
 
     view: reflectance and labels for the pictures, where the image is too large to be shown pixel by pixel."""
+    conditions = {"Illuminants": ", ".join(illuminants), "Observer": observer}
+    arrays = error_arrays(illuminants)
     maps = os.path.join(folder, "error-maps.img")
-    pipeline.save_image(error_maps(reflectance, labels, held_out), maps,
-                        PointArrays=list(ERROR_ARRAYS))
+    pipeline.save_image(error_maps(reflectance, labels, held_out, conditions), maps, PointArrays=list(arrays))
     summary = pipeline.create("ErrorSummary",
                               Input=pipeline.create("SpectralImageReader", FileNames=[maps], Preview=0))
     pipeline.update(summary)
     pipeline.save_table(summary, os.path.join(folder, "errors-of-pixels.csv"))
 
-    errors = error_maps(*(view or (reflectance, labels)), held_out)
+    errors = error_maps(*(view or (reflectance, labels)), held_out, conditions)
     pipeline.update(errors)
-    for array, top in zip(ERROR_ARRAYS, tops or top_errors(summary)):
+    for array, top in zip(arrays, tops or top_errors(summary)):
         pictures.image(errors, array, error_picture(folder, array), value_range=(0.0, top))
 
     sampled = pipeline.create("PatchSampler", Input=reflectance, Labels=labels,
                               PatchTable=held_out)
-    patches = pipeline.create("CIEDE2000Evaluator", Input=sampled)
+    patches = pipeline.create("CIEDE2000Evaluator", Input=sampled, **conditions)
     pipeline.update(patches)
     pipeline.save_table(patches, os.path.join(folder, "patches.csv"))
     pipeline.save_table(pipeline.port(patches, 1), os.path.join(folder, "errors-of-patches.csv"))
-    return Judged(errors, summary, patches)
+    return Judged(errors, summary, patches, arrays)
 
 
 def print_summary(title, source):
@@ -140,7 +181,7 @@ def print_summary(title, source):
 def top_errors(summary):
     """The 95th percentile of each error: where the color scale of its map ends."""
     names, rows = pipeline.table(summary)
-    return pipeline.share([row[names.index("p95")] for row in rows], len(ERROR_ARRAYS))
+    return pipeline.share([row[names.index("p95")] for row in rows], pipeline.number_of_rows(summary))
 
 
 def error_picture(folder, array):
@@ -151,19 +192,28 @@ def report_errors(judged, folder):
     """The report's sections on where the result is wrong."""
     maps = {os.path.basename(error_picture(folder, array)):
             f"{array} over the held-out patches; the color scale ends at the 95th percentile"
-            for array in ERROR_ARRAYS}
+            for array in judged.arrays}
     return [report.pictures("Where it is wrong", folder, maps),
             report.table("Errors of the held-out patches (mean spectrum of each)",
                          *pipeline.table(pipeline.port(judged.patches, 1))),
             report.table("Errors of the held-out pixels",
                          *pipeline.table(judged.summary)),
             report.table("Each held-out patch", *pipeline.table(judged.patches),
-                         columns=patch_columns(judged.patches))]
+                         columns=patch_columns(judged))]
 
 
-def patch_columns(patches):
-    names, _ = pipeline.table(patches)
-    return [name for name in ("sample", "label", "medium", "count", *ERROR_ARRAYS) if name in names]
+def patch_columns(judged):
+    names, _ = pipeline.table(judged.patches)
+    return [name for name in ("sample", "label", "medium", "count", *judged.arrays) if name in names]
+
+
+def mean_of(judged, metric, illuminant=""):
+    """Mean and largest error of the held-out patches' mean spectra; None where there is none (or not on this rank)."""
+    names, rows = pipeline.table(pipeline.port(judged.patches, 1))
+    for row in rows:
+        if row[names.index("metric")] == metric and row[names.index("illuminant")] == illuminant:
+            return row[names.index("mean")], row[names.index("max")], int(row[names.index("count")])
+    return None
 
 
 def save_state(path, reflectance, judged=None):
@@ -171,4 +221,4 @@ def save_state(path, reflectance, judged=None):
     color = pipeline.create("SpectralToColor", Input=reflectance)
     pipeline.update(color)
     top = top_errors(judged.summary)[1] if judged else 1.0
-    state.save(path, color, judged and judged.errors, top)
+    state.save(path, color, judged and judged.errors, top, judged.arrays[1] if judged else "")

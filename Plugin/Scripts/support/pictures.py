@@ -4,7 +4,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
-from . import outputs, painter, pipeline
+from . import command, outputs, painter, pipeline
 
 # Okabe and Ito's palette: told apart with any color vision.
 COLORS = {
@@ -34,6 +34,7 @@ _GRID = "#E0E0E0"
 _DPI = 100
 _LEGEND = 150  # pixels at the right of an image
 _PANEL = 300  # pixels of one of several images side by side
+_BLOCK_PIXELS = 1 << 20
 _MOST_NAMES_WITHIN = 4  # a longer legend stands beside its chart
 _STYLE = {"font.size": 12, "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
           "axes.grid": True, "grid.color": _GRID, "axes.titlesize": 15, "axes.labelsize": 13}
@@ -79,6 +80,33 @@ def image(source, array, path, value_range=None, rgb=False, shown=1000):
         painter.draw(path, _draw_colors, pixels, shown)
     else:
         painter.draw(path, _draw_image, pixels[:, :, 0], array, value_range, shown)
+
+
+def srgb(source, path):
+    """The array sRGB at the image's own size, with the ICC profile that says so. Block by block: of the spectra behind the
+    colors only a few rows are in memory at a time."""
+    width, height = size(source)
+    if command.rank() != 0:
+        return
+    rows = max(1, _BLOCK_PIXELS // width)
+    colors = numpy.empty((height, width, 3), numpy.uint8)
+    algorithm = source.SMProxy.GetClientSideObject()
+    for begin in range(0, height, rows):
+        end = min(begin + rows, height)
+        algorithm.UpdateExtent((0, width - 1, begin, end - 1, 0, 0))
+        pipeline.fail_on_error()
+        data = algorithm.GetOutputDataObject(getattr(source, "Port", 0))
+        block = vtk_to_numpy(data.GetPointData().GetArray("sRGB")).reshape(-1, width, 3)
+        first = begin - data.GetExtent()[2]
+        colors[height - end:height - begin] = block[first:first + end - begin][::-1]
+    painter.draw(path, _write_srgb, colors)
+
+
+def _write_srgb(path, colors):
+    from PIL import Image, ImageCms
+    profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
+    with outputs.written(path, outputs.END_OF_PNG) as part:
+        Image.fromarray(colors, "RGB").save(part, format="PNG", icc_profile=profile)
 
 
 def _scale(pixels, shown):

@@ -18,6 +18,7 @@ else:
 _messages = vtkStringOutputWindow()
 _MESSAGE = re.compile(r"(ERROR|Warning): In [^\n]*, line \d+\n[^\n]*? \(0x[0-9a-f]+\): (.*?)\n\n", re.DOTALL)
 _noted = set()
+warnings = []  # of the filters, for the report
 
 
 def load_plugin():
@@ -43,6 +44,8 @@ def fail_on_error():
         if line not in _noted and rank() == 0:
             print(f"multispectral: note: {printable(line)}", file=sys.stderr, flush=True)
         _noted.add(line)
+        if kind == "Warning" and line not in warnings:
+            warnings.append(line)
 
 
 def forget_messages():

@@ -8,13 +8,15 @@ import struct
 
 from . import command, outputs, painter
 
+_MOST_ROWS_SHOWN = 12  # longer tables are folded
 _WIDE = 2.5  # times the height: needs the whole width of the page
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 62rem; margin: 2rem auto;
        padding: 0 1rem; }
 h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.2rem; }
 figure { margin: 1rem 0; } figcaption { color: #555; font-size: .9rem; }
-img { max-width: 100%; height: auto; border: 1px solid #ddd; }
+img { max-width: 100%; height: auto; border: 1px solid #ddd; cursor: zoom-in; }
+img.large { position: fixed; inset: 0; margin: auto; max-width: 98vw; max-height: 98vh; z-index: 1; cursor: zoom-out; }
 .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(28rem, 1fr)); gap: 1rem; }
 .row .wide { grid-column: 1 / -1; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .92rem; }
@@ -22,6 +24,8 @@ th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e3e
 th:first-child, td:first-child { text-align: left; }
 td.text, th.text { text-align: left; }
 .scroll { overflow-x: auto; }
+.lead { font-size: 1.2rem; } .warning { background: #fff3cd; border-left: 4px solid #e69f00; padding: .5rem .8rem; }
+details summary { cursor: pointer; } figure a { display: block; }
 footer { margin-top: 3rem; color: #777; font-size: .85rem; }
 """
 
@@ -39,8 +43,10 @@ def table(title, names, rows, columns=None, note=None):
     body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(row[i])}</td>" for i in chosen)
                    + "</tr>" for row in rows)
     remark = f"<p>{html.escape(note)}</p>" if note else ""
-    return _section(title, f"{remark}<div class='scroll'><table><thead><tr>{head}</tr></thead>"
-                           f"<tbody>{body}</tbody></table></div>")
+    content = f"<div class='scroll'><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
+    if len(rows) > _MOST_ROWS_SHOWN:
+        content = f"<details><summary>{len(rows)} rows</summary>{content}</details>"
+    return _section(title, remark + content)
 
 
 def pictures(title, folder, captions):
@@ -55,20 +61,24 @@ def pictures(title, folder, captions):
         data = base64.b64encode(content).decode("ascii")
         width, height = struct.unpack(">II", content[16:24])  # of a PNG
         wide = " class='wide'" if width > _WIDE * height else ""
-        figures += (f"<figure{wide}><img alt='{html.escape(caption)}' src='data:image/png;base64,{data}'>"
-                    f"<figcaption>{html.escape(caption)}</figcaption></figure>")
+        figures += (f"<figure{wide}><img alt='{html.escape(caption)}' src='data:image/png;base64,{data}' "
+                    f"onclick='this.classList.toggle(\"large\")' title='Click to enlarge'><figcaption>{html.escape(caption)}</figcaption></figure>")
     layout = f"<div class='row'>{figures}</div>" if len(captions) > 1 else figures
     return _section(title, layout)
 
 
-def write(folder, title, sections):
-    """report.html in the folder: complete or absent."""
+def write(folder, title, sections, lead="", warnings=()):
+    """report.html in the folder: complete or absent. lead: the result in one sentence; warnings: what a reader must know
+    before the result."""
     if command.rank() != 0:
         return
     page = (f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'>"
             f"<meta name='viewport' content='width=device-width'>"
             f"<title>{html.escape(title)}</title><style>{_STYLE}</style></head><body>"
-            f"<h1>{html.escape(title)}</h1>{''.join(sections)}"
+            f"<h1>{html.escape(title)}</h1>"
+            + (f"<p class='lead'>{html.escape(lead)}</p>" if lead else "")
+            + "".join(f"<p class='warning'>{html.escape(warning)}</p>" for warning in warnings)
+            + f"{''.join(sections)}"
             f"<footer>Written by Multispectral; the tables stand beside this page as CSV.</footer>"
             f"</body></html>")
     outputs.write_text(os.path.join(folder, "report.html"), page)

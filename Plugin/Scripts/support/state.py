@@ -17,14 +17,14 @@ from . import command, outputs, pipeline  # noqa: E402
 _running = []
 
 
-def save(path, color, errors=None, top=1.0):
-    """color: image with the array sRGB; errors: image with the array dE00 D65, whose color scale ends at top."""
+def save(path, color, errors=None, top=1.0, array="dE00 D65"):
+    """color: image with the array sRGB; errors: image with the named array, whose color scale ends at top."""
     if command.in_paraview():
-        _save(path, color, errors, top)
+        _save(path, color, errors, top, array)
     else:
         from . import plain
         made, places = plain.recipe(color, *([errors] if errors else []))
-        work = {"path": outputs.check(path), "top": top, "made": made, "places": places}
+        work = {"path": outputs.check(path), "top": top, "array": array, "made": made, "places": places}
         environment = {name: value for name, value in os.environ.items() if name != "MULTISPECTRAL_PYTHON"}
         process = subprocess.Popen(["pvbatch", os.path.abspath(__file__), json.dumps(work)], env=environment,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -40,7 +40,7 @@ def finish():
             raise command.Failure(f"{path}: the state was not saved" + (f": {said[-1]}" if said else ""))
 
 
-def _save(path, color, errors, top):
+def _save(path, color, errors, top, array):
     from paraview import simple
 
     from . import views
@@ -48,7 +48,7 @@ def _save(path, color, errors, top):
     shown = [views.image_view(color, "sRGB", rgb=True)]
     if errors is not None:
         errors.UpdatePipelineInformation()
-        shown.append(views.image_view(errors, "dE00 D65", (0.0, top)))
+        shown.append(views.image_view(errors, array, (0.0, top)))
     views.side_by_side(shown)
     if command.rank() == 0:
         with outputs.written(path, b"</GenericParaViewApplication>\n") as part:
@@ -64,7 +64,7 @@ def _main():
                  for key, value in given.items()}
         sources.append(pipeline.create(name, **given))
     color, *errors = (sources[place] for place in work["places"])
-    _save(work["path"], color, errors[0] if errors else None, work["top"])
+    _save(work["path"], color, errors[0] if errors else None, work["top"], work["array"])
 
 
 if __name__ == "__main__":

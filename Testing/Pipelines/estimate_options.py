@@ -1,0 +1,111 @@
+"""`estimate`: nothing goes wrong without a word, and what it writes is what other programs read.
+
+Arguments: the launcher, a folder for files."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+
+root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
+FOLDER = root / "Data" / "Images" / "demo-fabric"
+CHART = root / "Data" / "Samples" / "demo-chart.csv"
+faults = []
+
+
+def stack(*parts):
+    return sorted(FOLDER.joinpath(*parts).glob("channel_*.tif"))
+
+
+def estimate(launcher, output, *arguments):
+    done = subprocess.run([launcher, "estimate", "--calibration", CHART, "--output", output, *map(str, arguments)], text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    page = output / "report.html"
+    return done.returncode, done.stderr, done.stdout, page.read_text(encoding="utf-8") if page.is_file() else ""
+
+
+def said(launcher, base):
+    """Images that cannot give a result: a warning with the numbers, in the report too, or an error and no result."""
+    raw, white, dark = stack(), stack("white"), stack("dark")
+    flat = ["--white", *white, "--dark", *dark]
+    cases = (
+        ("raw counts", ["--image", *raw], 0, "reach 4.1 % of the largest ones of the calibration samples"),
+        ("frames swapped", ["--image", *raw, "--white", *dark, "--dark", *white], 1, "are white and dark swapped?"),
+        ("image and white swapped", ["--image", *white, "--white", *raw, "--dark", *dark], 0, "are the images swapped"),
+        ("all saturated", ["--image", *raw, *flat, "--saturation", "1e-9"], 1, "no pixel of the image has finite responses"),
+        ("in counts of 16 bit", ["--image", *raw, "--white-level", "1e-4"], 1, "are they raw counts?"))
+    for name, arguments, status, part in cases:
+        shutil.rmtree(base / "said", ignore_errors=True)
+        got, stderr, _, page = estimate(launcher, base / "said", *arguments)
+        if got != status or part not in stderr:
+            faults.append(f"{name}: expected status {status} and '{part}', got {got} and {stderr.strip()}")
+        if (status == 0) != ("class='warning'" in page):
+            faults.append(f"{name}: the report {'does not warn' if status == 0 else 'is there'}")
+
+
+def written(launcher, base):
+    from PIL import Image, ImageCms
+    output = base / "written"
+    got, stderr, stdout, page = estimate(
+        launcher, output, "--image", *stack(), "--white", *stack("white"), "--dark", *stack("dark"),
+        "--tuning", root / "Data" / "Samples" / "demo-fabric.csv", "--labels", FOLDER / "labels.png",
+        "--patches", FOLDER / "patches.csv", "--cube", "envi", "--illuminant", "A", "LED-B3", "--observer", "10")
+    if got != 0 or stderr:
+        faults.append(f"estimate: status {got}: {stderr}")
+        return
+    picture = Image.open(output / "srgb.png")
+    if picture.size != Image.open(FOLDER / "labels.png").size:
+        faults.append(f"srgb.png has {picture.size} pixels")
+    import io
+    profile = ImageCms.ImageCmsProfile(io.BytesIO(picture.info.get("icc_profile", b"")))
+    if "sRGB" not in ImageCms.getProfileDescription(profile):
+        faults.append("srgb.png has no sRGB profile")
+    # rgb.png shows the same colors, each pixel enlarged.
+    shown = np.asarray(Image.open(output / "rgb.png"))
+    scale = shown.shape[0] // picture.size[1]
+    if (np.asarray(picture) != shown[::scale, ::scale]).any():
+        faults.append("srgb.png and rgb.png differ")
+    import spectral  # another program's reader
+    cube = spectral.open_image(str(output / "reflectance.hdr"))
+    if cube.shape != (picture.size[1], picture.size[0], 31):
+        faults.append(f"the ENVI cube is {cube.shape}")
+    for name in ("error-dE00-A.png", "error-dE00-LED-B3.png", "out-of-range.png", "uncertainty.png", "state.pvsm"):
+        if not (output / name).is_file():
+            faults.append(f"there is no {name}")
+    for part in ("class='lead'", "held-out patches: mean \u0394E00", "% of the pixels have responses outside"):
+        if part not in page:
+            faults.append(f"the report does not say {part}")
+    if "% of the pixels have responses outside" not in stdout:
+        faults.append("the share of pixels outside of the range is not told")
+
+
+def white_reflectance(launcher, base):
+    """Half the white's reflectance is half the image's responses: exposures do the same."""
+    import spectral
+    means = []
+    flat = ["--image", *stack(), "--white", *stack("white"), "--dark", *stack("dark"), "--cube", "envi"]
+    for i, options in enumerate((["--white-reflectance", "0.5"], ["--exposure", "2", "--white-exposure", "1"], [])):
+        output = base / f"white-{i}"
+        got, stderr, _, _ = estimate(launcher, output, *flat, *options)
+        if got != 0:
+            faults.append(f"{options}: status {got}: {stderr}")
+            return
+        means.append(np.asarray(spectral.open_image(str(output / "reflectance.hdr")).load()))
+    if not np.allclose(means[0], means[1], atol=1e-5) or np.allclose(means[0], means[2], atol=1e-2):
+        faults.append("white reflectance and exposure times do not act as they should")
+
+
+def main():
+    launcher, base = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    shutil.rmtree(base, ignore_errors=True)
+    base.mkdir(parents=True)
+    for test in (said, written, white_reflectance):
+        test(launcher, base)
+    print("\n".join(faults) or "what is wrong is said, what is written is right")
+    sys.exit(1 if faults else 0)
+
+
+main()

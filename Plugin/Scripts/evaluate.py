@@ -45,13 +45,15 @@ def main():
     options = OPTIONS
     command.require_files(options.calibration, options.target)
     folder = command.make_folder(options.output, WRITES)
+    chosen = methods.chosen(options.methods)
+    command.say(f"{len(chosen)} methods, {options.draws} draws of {options.tuning} tuning samples, the rest held out")
     pipeline.load_plugin()
     tables = [pipeline.create("SampleTableReader", FileName=path)
               for path in (options.calibration, options.target)]
     pipeline.update(*tables)
     tables = [comparison.select_channels(table, options.channels) for table in tables]
-    names, rows = comparison.compare(*tables, folder=folder, methods=",".join(methods.chosen(options.methods)),
-                                     tuning=options.tuning, draws=options.draws, seed=options.seed)
+    names, rows = comparison.compare(*tables, folder=folder, methods=",".join(chosen), tuning=options.tuning,
+                                     draws=options.draws, seed=options.seed)
     report.write(folder, "Methods compared", [
         report.table("Errors of the held-out samples", *comparison.condensed(names, rows),
                      note=f"Mean / median / largest over the held-out samples, mean over {options.draws} draws of "

@@ -156,6 +156,17 @@ def spectra(window):
             f"({pin['column']}, {pin['row']}) measured: {pin['measured']}" for pin in pins))
 
 
+def help_page(window):
+    """'?' shows the page of the selected filter, with its mathematics."""
+    window.click(window.state()["named"]["Help"])
+    text = window.wait("the page of the filter", lambda s: s["help"])["help"]
+    if not text.startswith("Reflectance Estimation") or "Mathematics" not in text:
+        raise Failed(f"'?' shows {text[:200]}")
+    window.picture("help")
+    window.key("Escape")
+    window.wait("the page closed", lambda s: not s["help"])
+
+
 def open_files(window):
     """No question comes, and the right reader is taken."""
     for path, name, reader in ((SCENE / "channel_400nm.tif", "channel_400nm.tif", "SpectralImageReader"),
@@ -184,7 +195,7 @@ def main():
     window, fault = Window(folder), None
     try:
         window.start()
-        for step in (main_job, spectra, open_files):
+        for step in (main_job, spectra, help_page, open_files):
             step(window)
             window.picture(step.__name__)
         if window.errors():

@@ -41,6 +41,10 @@ def _state():
     toolbar = main.findChild(QtWidgets.QToolBar, "MultispectralToolbar")
     for action in toolbar.actions():
         named[action.objectName()] = _middle(toolbar.widgetForAction(action))
+    button = main.findChild(QtWidgets.QAbstractButton, "Help")
+    if button is not None:
+        named["Help"] = _middle(button)
+    pages = main.findChild(QtWidgets.QDialog, "MultispectralHelp")
     views = {}
     for view in simple.GetRenderViews():
         texts = [d.Input.Text for d in view.Representations if getattr(d, "Input", None) is not None and
@@ -54,6 +58,7 @@ def _state():
     return {
         "named": named,
         "dialogs": [w.windowTitle() for w in windows if isinstance(w, QtWidgets.QDialog)],
+        "help": pages.text.toPlainText()[:2000] if pages is not None and pages.isVisible() else "",
         "views": views,
         "frames": sorted([[w.mapToGlobal(QtCore.QPoint(0, 0)).x(), w.mapToGlobal(QtCore.QPoint(0, 0)).y(),
                            w.width(), w.height()] for w in frames], key=lambda f: (f[1] // 50, f[0])),

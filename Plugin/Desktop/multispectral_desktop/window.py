@@ -6,7 +6,7 @@ import traceback
 from PyQt5 import QtCore, QtWidgets
 from paraview import simple
 
-from . import main_job
+from . import help, main_job
 from .panel import SpectrumPanel
 
 
@@ -25,7 +25,7 @@ def install(window):
         action.setToolTip(tip)
         action.triggered.connect(lambda _checked, act=act: _guarded(window, act))
     window.addToolBar(toolbar)
-    return panel, toolbar
+    return panel, toolbar, help.install(window)
 
 
 def _guarded(window, act):

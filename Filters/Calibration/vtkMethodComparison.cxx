@@ -15,10 +15,13 @@
 
 #include "Kernels/Estimation/MethodComparison.h"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 vtkStandardNewMacro(vtkMethodComparison);
 
@@ -112,13 +115,70 @@ Eigen::Index typicalSample(const Eigen::VectorXd& rms)
   return *middle;
 }
 
-void writeSpectra(const msi::WavelengthGrid& bands, const msi::ComparisonDraw& draw,
+// A method without figures, with the numbers of tuning samples where that is so.
+struct LeftOutMethod
+{
+  std::vector<std::size_t> counts; // places in the list of numbers
+  std::string reason;
+};
+
+// Why the method has no estimate at the first such number and draw. All draws were judged before.
+LeftOutMethod leftOut(const std::vector<msi::MethodComparison>& comparisons, std::size_t method,
+  std::size_t draws, msi::FigureStore& store)
+{
+  LeftOutMethod result;
+  for (std::size_t count = 0; count < comparisons.size(); ++count)
+  {
+    for (std::size_t draw = 0; draw < draws; ++draw)
+    {
+      if (!std::isnan(*store.at(count, draw, method, 0)))
+      {
+        continue;
+      }
+      if (result.counts.empty())
+      {
+        result.reason = comparisons[count].only(method).run(draw).estimates.front().failure;
+      }
+      result.counts.push_back(count);
+      break;
+    }
+  }
+  return result;
+}
+
+std::string textOf(
+  const LeftOutMethod& method, const std::string& name, const std::vector<Eigen::Index>& counts)
+{
+  std::ostringstream text;
+  text << "the method " << name << " is left out";
+  if (method.counts.size() < counts.size())
+  {
+    const char* separator = " with ";
+    for (const auto count : method.counts)
+    {
+      text << std::exchange(separator, ", ") << counts[count];
+    }
+    text << " tuning samples";
+  }
+  text << ": " << method.reason;
+  return text.str();
+}
+
+void writeSpectra(const msi::WavelengthGrid& bands, msi::ComparisonDraw draw,
   const Eigen::MatrixXd& target, vtkTable* table)
 {
-  const auto sample = typicalSample(draw.estimates.front().rms);
+  auto& estimates = draw.estimates;
+  estimates.erase(std::remove_if(estimates.begin(), estimates.end(),
+                    [](const msi::MethodEstimate& estimate) { return !estimate.failure.empty(); }),
+    estimates.end());
+  if (estimates.empty())
+  {
+    return;
+  }
+  const auto sample = typicalSample(estimates.front().rms);
   msi::setNumbers(table, "wavelength", bands.vector());
   msi::setNumbers(table, "measured", target.col(draw.heldOut[static_cast<std::size_t>(sample)]));
-  for (const auto& estimate : draw.estimates)
+  for (const auto& estimate : estimates)
   {
     const std::string& name = estimate.method;
     const Eigen::VectorXd mean = estimate.reflectance.col(sample);
@@ -187,6 +247,8 @@ int vtkMethodComparison::RequestData(
       msi::requireSameUnit(chart, "the calibration table", medium, "the target table");
       const auto dead =
         msi::deadChannels(chart.samples.response, chart.channels, "the calibration table");
+      const auto deadOfTarget =
+        msi::deadChannels(medium.samples.response, medium.channels, "the target table");
       msi::ComparisonOptions options;
       options.methods = msi::namesIn(this->Methods);
       if (options.methods == std::vector<std::string>{ "all" })
@@ -223,6 +285,12 @@ int vtkMethodComparison::RequestData(
         const auto result = comparisons[count].run(draw);
         for (std::size_t method = 0; method < result.estimates.size(); ++method)
         {
+          if (!result.estimates[method].failure.empty())
+          {
+            std::fill_n(store.at(count, draw, method, 0), judge.metrics().size() * msi::FigureCount,
+              std::nan(""));
+            continue;
+          }
           const auto figures = judge(result.estimates[method], result.heldOut);
           for (std::size_t metric = 0; metric < figures.size(); ++metric)
           {
@@ -263,6 +331,18 @@ int vtkMethodComparison::RequestData(
       }
       msi::throwOnAnyRank(failure, controller);
       store.sumOverRanks(controller);
+      std::vector<LeftOutMethod> without;
+      std::size_t complete = 0;
+      for (std::size_t method = 0; method < options.methods.size(); ++method)
+      {
+        without.push_back(leftOut(comparisons, method, draws, store));
+        complete += without.back().counts.size() < counts.size() ? 1 : 0;
+      }
+      if (complete == 0)
+      {
+        throw std::invalid_argument(
+          "method " + options.methods.front() + ": " + without.front().reason);
+      }
       if (msi::isEmptyPiece(outputs))
       {
         return;
@@ -272,7 +352,8 @@ int vtkMethodComparison::RequestData(
       RowTable perDraw(vtkTable::GetData(outputs, 1), true);
       auto* curves = vtkTable::GetData(outputs, 3);
       Eigen::VectorXd tuning(counts.size());
-      Eigen::MatrixXd meanRms(counts.size(), options.methods.size());
+      Eigen::MatrixXd meanRms = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(counts.size()),
+        static_cast<Eigen::Index>(options.methods.size()), std::nan(""));
       const auto channels = chart.samples.channels();
       for (std::size_t count = 0; count < counts.size(); ++count)
       {
@@ -293,7 +374,7 @@ int vtkMethodComparison::RequestData(
             }
             if (std::isnan(mean[0]))
             {
-              continue; // a method without uncertainty has no coverage
+              continue; // a method that was left out, or coverage of one without uncertainty
             }
             for (std::size_t draw = 0; draw < draws; ++draw)
             {
@@ -312,14 +393,27 @@ int vtkMethodComparison::RequestData(
       msi::setNumbers(curves, "tuning", tuning);
       for (std::size_t method = 0; method < options.methods.size(); ++method)
       {
-        msi::setNumbers(
-          curves, options.methods[method], meanRms.col(static_cast<Eigen::Index>(method)));
+        if (without[method].counts.size() < counts.size())
+        {
+          msi::setNumbers(
+            curves, options.methods[method], meanRms.col(static_cast<Eigen::Index>(method)));
+        }
       }
       writeSpectra(*chart.bands.wavelengths, comparisons.front().run(0), target,
         vtkTable::GetData(outputs, 2));
-      if (!dead.empty())
+      for (const auto& warning : { dead, deadOfTarget })
       {
-        vtkWarningMacro(<< dead);
+        if (!warning.empty())
+        {
+          vtkWarningMacro(<< warning);
+        }
+      }
+      for (std::size_t method = 0; method < options.methods.size(); ++method)
+      {
+        if (!without[method].counts.empty())
+        {
+          vtkWarningMacro(<< textOf(without[method], options.methods[method], counts));
+        }
       }
     });
 }

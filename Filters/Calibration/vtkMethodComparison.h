@@ -15,6 +15,9 @@
  * "transfer +2s". Output 3, curves: one row per number of tuning samples, "tuning" and the mean rms of each
  * method.
  *
+ * A method that cannot be fitted to the samples of some draw is left out at that number of tuning samples, with a
+ * warning that gives the reason; where no method is left the reason is the error.
+ *
  * Draws run in threads and are spread over ranks; the numbers do not depend on how many there are.
  */
 #ifndef vtkMethodComparison_h

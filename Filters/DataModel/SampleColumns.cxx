@@ -1,5 +1,7 @@
 #include "SampleColumns.h"
 
+#include "UsefulData.h"
+
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -208,6 +210,7 @@ MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameO
   requireValid(measured.samples, nameOfTable);
   requirePossibleReflectance(measured.samples.reflectance, nameOfTable);
   requirePossibleResponse(measured.samples.response, nameOfTable);
+  requireResponsesThatChange(measured.samples.response, nameOfTable);
   return measured;
 }
 

@@ -2,6 +2,7 @@
 
 #include "CameraTable.h"
 #include "SampleColumns.h"
+#include "UsefulData.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
@@ -30,9 +31,6 @@ constexpr const char* ResponsesName = "the responses table";
 
 // With fewer samples nothing can be held out that judges what the others taught.
 constexpr std::size_t FewestSamples = 5;
-// Of a channel's response to the perfect white: where more comes from wavelengths without measured reflectance, the
-// simulation is a guess.
-constexpr double MostUnmeasured = 0.5;
 
 // The column of that name, upper and lower case alike, or null.
 vtkAbstractArray* findColumn(vtkTable* table, const std::string& name)
@@ -156,48 +154,6 @@ void requireNoEffects(const CameraTable& camera)
   }
 }
 
-std::string rounded(double value)
-{
-  std::ostringstream text;
-  text << std::round(value);
-  return text.str();
-}
-
-// A camera that answers to nothing, or only where no sample was measured, explains everything and nothing.
-void requireUsefulCamera(const CameraModel& camera, const WavelengthGrid& measured)
-{
-  if (camera.wavelengths().size() < 2)
-  {
-    throw std::invalid_argument(std::string(CameraName) +
-      " has 1 wavelength; expected the responsivity of each channel over the spectrum");
-  }
-  for (Eigen::Index k = 0; k < camera.channelCount(); ++k)
-  {
-    const Eigen::VectorXd curve = camera.responsivity().row(k).transpose().cwiseAbs();
-    const std::string channel =
-      "channel " + camera.channels()[static_cast<std::size_t>(k)] + " of " + CameraName;
-    const double all = curve.sum();
-    if (!(all > 0.0))
-    {
-      throw std::invalid_argument(
-        channel + " answers to no light: its curve is 0; expected responsivities above 0");
-    }
-    double outside = 0.0;
-    for (Eigen::Index j = 0; j < curve.size(); ++j)
-    {
-      const double nm = camera.wavelengths()[j];
-      outside += nm < measured.front() || nm > measured.back() ? curve[j] : 0.0;
-    }
-    if (outside > MostUnmeasured * all)
-    {
-      throw std::invalid_argument(channel + " gets " + rounded(100.0 * outside / all) +
-        " % of its response from wavelengths where no reflectance was measured (measured: " +
-        rounded(measured.front()) + " to " + rounded(measured.back()) +
-        " nm); expected curves over the measured wavelengths: check the wavelengths of both");
-    }
-  }
-}
-
 void requireUsefulReadings(const Eigen::MatrixXd& readings, const std::vector<int>& sampleOf,
   const Eigen::MatrixXd& reflectance, const CameraModel& camera, const std::string& name)
 {
@@ -246,7 +202,13 @@ NamedGapCapture gapCaptureOf(vtkTable* cameraTable, vtkTable* samples, vtkTable*
       (own ? SamplesName : ResponsesName) + " has " + std::to_string(channels) +
       "; both must be of the same camera with the same channels");
   }
-  requireUsefulCamera(camera.camera, *reflectance.axis.wavelengths);
+  // A camera that answers to nothing, or only where no sample was measured, explains everything and nothing.
+  const std::string useless =
+    uselessChannel(camera.camera, *reflectance.axis.wavelengths, CameraName);
+  if (!useless.empty())
+  {
+    throw std::invalid_argument(useless);
+  }
   requirePossibleReflectance(reflectance.values, SamplesName);
   auto names = namesOf(samples);
   std::vector<int> sampleOf(names.size());

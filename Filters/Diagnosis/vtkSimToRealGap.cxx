@@ -4,11 +4,38 @@
 #include "DiagnosisRun.h"
 #include "GapReportTables.h"
 #include "GapTables.h"
+#include "SampleColumns.h"
+#include "SampleSpread.h"
 
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 
+#include "Kernels/Camera/Effects/Effect.h"
+
 vtkStandardNewMacro(vtkSimToRealGap);
+
+namespace
+{
+// Effects of light from neighbouring samples, which samples that were left out no longer give.
+void leaveOutNeighbours(std::vector<std::string>& without)
+{
+  for (const auto& effect : msi::effectRegistry())
+  {
+    if (effect.surround == msi::Surround::Near)
+    {
+      without.push_back(effect.definition.name);
+    }
+  }
+}
+
+std::string noteOnSubset(Eigen::Index used, Eigen::Index all, bool hasPositions)
+{
+  return std::to_string(used) + " of " + std::to_string(all) +
+    " samples were used, spread evenly over media, scenes and levels (Maximum Samples)." +
+    (hasPositions ? " Effects of light from neighbouring samples were not tried." : "");
+}
+}
 
 vtkSimToRealGap::vtkSimToRealGap()
 {
@@ -26,6 +53,7 @@ void vtkSimToRealGap::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << "\n"
      << indent << "MaximumCauses: " << this->MaximumCauses << "\n"
+     << indent << "MaximumSamples: " << this->MaximumSamples << "\n"
      << indent << "Folds: " << this->Folds << "\n"
      << indent << "Seed: " << this->Seed << "\n"
      << indent << "ReflectanceNoise: " << this->ReflectanceNoise << "\n";
@@ -78,7 +106,7 @@ int vtkSimToRealGap::RequestData(
       auto* camera = vtkTable::GetData(inputs[0]);
       auto* samples = vtkTable::GetData(inputs[1]);
       auto* responses = vtkTable::GetData(inputs[2]);
-      const msi::NamedGapCapture named = msi::gapCaptureOf(camera, samples, responses);
+      msi::NamedGapCapture named = msi::gapCaptureOf(camera, samples, responses);
 
       msi::GapOptions options;
       options.without = this->Without;
@@ -89,7 +117,26 @@ int vtkSimToRealGap::RequestData(
       {
         options.reflectanceNoise = this->ReflectanceNoise;
       }
+      const auto all = named.capture.samples.reflectance.cols();
+      vtkNew<vtkTable> chosen;
+      if (this->MaximumSamples > 0 && all > this->MaximumSamples)
+      {
+        const auto rows = msi::spreadSamples(named.capture, this->MaximumSamples);
+        named = msi::capturedSubset(named, rows);
+        msi::copyRows(samples, rows, chosen);
+        samples = chosen;
+        if (named.capture.samples.x.size() > 0)
+        {
+          leaveOutNeighbours(options.without);
+        }
+      }
       msi::GapReport report = msi::runDiagnosis(this, named.capture, options);
+      const auto used = named.capture.samples.reflectance.cols();
+      if (used < all)
+      {
+        report.notes.insert(
+          report.notes.begin(), noteOnSubset(used, all, named.capture.samples.x.size() > 0));
+      }
       msi::nameSamples(report, named.sampleNames);
 
       const auto output = [outputs](OutputPort port) { return vtkTable::GetData(outputs, port); };

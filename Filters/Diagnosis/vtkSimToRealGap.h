@@ -62,6 +62,15 @@ public:
 
   ///@{
   /**
+   * Largest number of samples that are used; of more, as many are chosen, spread evenly over media, scenes and levels,
+   * and a note says so. 0: all. Default 2000.
+   */
+  vtkSetClampMacro(MaximumSamples, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MaximumSamples, int);
+  ///@}
+
+  ///@{
+  /**
    * Folds of the samples; each takes no part once in choosing and fitting the effects. Range 2 .. 20, default 5.
    */
   vtkSetClampMacro(Folds, int, 2, 20);
@@ -101,6 +110,7 @@ private:
 
   std::vector<std::string> Without;
   int MaximumCauses = 5;
+  int MaximumSamples = 2000;
   int Folds = 5;
   int Seed = 1;
   double ReflectanceNoise = -1.0;

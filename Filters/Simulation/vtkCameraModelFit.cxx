@@ -3,13 +3,16 @@
 #include "AlgorithmSupport.h"
 #include "CameraFitTables.h"
 #include "CameraTable.h"
+#include "ResponseRange.h"
 #include "SampleColumns.h"
+#include "UsefulData.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 
 #include "Kernels/Camera/CameraModelFit.h"
 #include "Kernels/Camera/CameraResampling.h"
+#include "Kernels/Spectra/PossibleValues.h"
 
 #include <cstdint>
 #include <stdexcept>
@@ -74,6 +77,10 @@ int vtkCameraModelFit::RequestData(
       auto* chart = vtkTable::GetData(inputs[0]);
       const auto reflectance = msi::requireSpectra(chart, msi::SampleQuantity::Reflectance, name);
       const auto response = msi::requireSpectra(chart, msi::SampleQuantity::Response, name);
+      msi::requirePossibleReflectance(reflectance.values, name);
+      msi::requirePossibleResponse(response.values, name);
+      msi::requireResponsesThatChange(response.values, name);
+      const auto dead = msi::deadChannels(response.values, response.axis, name);
       msi::CameraModelFitOptions options;
       options.channels = columnsOf(response.axis);
       options.passbandWidth = this->PassbandWidth;
@@ -105,5 +112,9 @@ int vtkCameraModelFit::RequestData(
       msi::writeUncertainty(fit, vtkTable::GetData(outputs, 1));
       msi::writeSummary(fit, vtkTable::GetData(outputs, 2));
       msi::writeChannels(fit, vtkTable::GetData(outputs, 3));
+      if (!dead.empty())
+      {
+        vtkWarningMacro(<< dead);
+      }
     });
 }

@@ -8,6 +8,7 @@
 #include "SampleColumns.h"
 #include "SceneTable.h"
 #include "SpectralImage.h"
+#include "UsefulData.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -24,6 +25,7 @@
 #include "Kernels/Camera/CameraResampling.h"
 #include "Kernels/Camera/CameraSimulator.h"
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
+#include "Kernels/Spectra/PossibleValues.h"
 
 #include <cstdint>
 #include <stdexcept>
@@ -180,6 +182,10 @@ vtkCameraSimulator::Work vtkCameraSimulator::Prepare(vtkTable* table)
 void vtkCameraSimulator::SimulateTable(const Work& work, vtkTable* input, vtkTable* output)
 {
   const msi::SampleScene scene = msi::sceneOf(input, work.camera.wavelengths(), "the sample table");
+  const auto measured =
+    msi::requireSpectra(input, msi::SampleQuantity::Reflectance, "the sample table");
+  msi::requirePossibleReflectance(measured.values, "the sample table");
+  const auto useless = msi::uselessChannel(work.camera, *measured.axis.wavelengths, "the camera");
   const msi::CameraSimulator simulator(work.camera, work.effects, { work.whiteAfterEffects });
   const msi::NoiseGenerator noise =
     simulator.noiseGenerator(work.noise, static_cast<std::uint64_t>(this->Seed));
@@ -208,6 +214,10 @@ void vtkCameraSimulator::SimulateTable(const Work& work, vtkTable* input, vtkTab
   }
   msi::setSpectra(output, msi::SampleQuantity::Response, msi::channelsOf(work.camera), response);
   msi::setWhiteLevel(output, work.whiteLevel);
+  if (!useless.empty())
+  {
+    vtkWarningMacro(<< useless);
+  }
 }
 
 bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* information,

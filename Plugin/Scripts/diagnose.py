@@ -20,6 +20,9 @@ def arguments():
                         help="an effect that may not be blamed; may be given several times")
     parser.add_argument("--causes", metavar="N", type=command.whole_number(1), default=5,
                         help="largest number of causes, up to 8 (default: %(default)s)")
+    parser.add_argument("--samples", metavar="N", type=command.whole_number(0), default=2000,
+                        help="largest number of samples that are used, spread over media, scenes and levels; 0: all "
+                             "(default: %(default)s)")
     parser.add_argument("--folds", metavar="N", type=command.whole_number(2), default=5,
                         help="folds of the samples, up to 20 (default: %(default)s)")
     parser.add_argument("--seed", metavar="N", type=command.whole_number(0), default=1,
@@ -54,7 +57,8 @@ def main():
     outcomes = []
     if images is None or os.path.exists(os.path.join(place, "samples.csv")):
         outcomes.append((diagnosis, diagnosis.diagnose(diagnosis.read_capture(options.capture),
-                                                       Folds=options.folds, **choices)))
+                                                       Folds=options.folds, MaximumSamples=options.samples,
+                                                       **choices)))
     if images is not None:
         outcomes.append((image_gap, image_gap.diagnose(images, **choices)))
 

@@ -135,6 +135,35 @@ TEST_F(SimToRealGap, HeatMapHasEveryChannelOfEveryGroup)
   }
 }
 
+TEST_F(SimToRealGap, UsesNoMoreSamplesThanAskedForAndSaysSo)
+{
+  Gap->SetMaximumSamples(24);
+  EXPECT_EQ(msi::testing::errorOf(Gap), "");
+  auto* samples = output(vtkSimToRealGap::SAMPLES);
+  ASSERT_EQ(samples->GetNumberOfRows(), 24);
+  int paper = 0;
+  std::set<std::string> names;
+  for (vtkIdType row = 0; row < samples->GetNumberOfRows(); ++row)
+  {
+    paper += textCell(samples, row, "medium") == "paper" ? 1 : 0;
+    names.insert(textCell(samples, row, "sample"));
+    // Each sample kept its own readings.
+    EXPECT_NEAR(
+      cell(samples, row, "gap_before"), Gain - 1.0, 5.0 * 2.0 * GapTestTables::ReadNoise / 0.2);
+  }
+  EXPECT_EQ(paper, 12);
+  EXPECT_EQ(names.size(), 24u);
+  EXPECT_EQ(textCell(output(vtkSimToRealGap::CAUSES), 0, "effect"), "exposure_gain");
+  EXPECT_EQ(textCell(output(vtkSimToRealGap::NOTES), 0, "note"),
+    "24 of 40 samples were used, spread evenly over media, scenes and levels (Maximum Samples). "
+    "Effects of light from "
+    "neighbouring samples were not tried.");
+  EXPECT_EQ(texts(vtkSimToRealGap::CANDIDATES, "effect").count("local_stray_light"), 0u);
+  Gap->SetMaximumSamples(0);
+  Gap->Update();
+  EXPECT_EQ(output(vtkSimToRealGap::SAMPLES)->GetNumberOfRows(), GapTestTables::Samples);
+}
+
 TEST_F(SimToRealGap, WithoutAnEffectAnotherIsNamed)
 {
   Gap->AddWithout("exposure_gain");

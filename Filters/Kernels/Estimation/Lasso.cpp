@@ -15,6 +15,8 @@ constexpr int MostRounds = 200;
 constexpr int SweepsPerRound = 20;
 // Of the penalty and the largest gradient, by which an optimality condition may miss.
 constexpr double Slack = 1e-9;
+// Of the cost, by which a round has to lower it.
+constexpr double LeastGain = 1e-6;
 
 double softened(double value, double penalty) noexcept
 {
@@ -83,6 +85,7 @@ Eigen::VectorXd solveOne(const LassoProblem& problem)
 {
   Eigen::VectorXd w = Eigen::VectorXd::Zero(problem.b.size());
   Eigen::VectorXd gradient = problem.b; // b - A w
+  double cost = 0.0;
   for (int round = 0; round < MostRounds; ++round)
   {
     for (int i = 0; i < SweepsPerRound; ++i)
@@ -90,6 +93,13 @@ Eigen::VectorXd solveOne(const LassoProblem& problem)
       sweep(problem, w, gradient);
     }
     if (solveActive(problem, w, gradient))
+    {
+      break;
+    }
+    // Channels that hardly differ: their coefficients move on for ever, and nothing gets better.
+    const double before = cost;
+    cost = problem.penalty * w.cwiseAbs().sum() - 0.5 * w.dot(problem.b + gradient);
+    if (before - cost <= LeastGain * std::abs(cost))
     {
       break;
     }

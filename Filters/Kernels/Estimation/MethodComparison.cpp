@@ -46,6 +46,13 @@ MethodComparison::MethodComparison(
   }
 }
 
+MethodComparison MethodComparison::only(std::size_t method) const
+{
+  ComparisonOptions options = Options;
+  options.methods = { Options.methods.at(method) };
+  return MethodComparison(Calibration, Target, std::move(options));
+}
+
 ComparisonDraw MethodComparison::run(std::uint64_t draw) const
 {
   ComparisonDraw result;
@@ -57,11 +64,13 @@ ComparisonDraw MethodComparison::run(std::uint64_t draw) const
   estimation.metamerism.channelWavelengths = Options.channelWavelengths;
   for (const std::string& name : Options.methods)
   {
+    MethodEstimate estimate;
+    estimate.method = name;
     try
     {
       const EstimationFit fit = estimationMethodNamed(name).fit(Calibration, tuning, estimation);
-      MethodEstimate estimate{ name, (*fit.estimator)(heldOut.response),
-        fit.estimator->standardDeviation(heldOut.response), {}, fit.summary };
+      estimate.reflectance = (*fit.estimator)(heldOut.response);
+      estimate.standardDeviation = fit.estimator->standardDeviation(heldOut.response);
       estimate.rms = (estimate.reflectance - heldOut.reflectance)
                        .array()
                        .square()
@@ -69,12 +78,17 @@ ComparisonDraw MethodComparison::run(std::uint64_t draw) const
                        .mean()
                        .sqrt()
                        .transpose();
-      result.estimates.push_back(std::move(estimate));
+      estimate.summary = fit.summary;
+      requireFinite(estimate.reflectance, "the estimate of held-out");
+      requireFinite(estimate.standardDeviation, "the standard deviation of held-out");
     }
     catch (const std::invalid_argument& error)
     {
-      throw std::invalid_argument("method " + name + ": " + error.what());
+      estimate = {};
+      estimate.method = name;
+      estimate.failure = error.what();
     }
+    result.estimates.push_back(std::move(estimate));
   }
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ struct MethodEstimate
   Eigen::MatrixXd standardDeviation; // N x held-out where the method knows it, else 0 x 0
   Eigen::VectorXd rms;               // held-out: sqrt(mean over bands of the squared error), Eq. 21
   FitSummary summary;
+  std::string failure; // why the method has no estimate; empty where it has one
 };
 
 struct ComparisonDraw
@@ -49,13 +51,17 @@ struct ComparisonDraw
 //
 // Errors: the constructor throws std::invalid_argument where a set is empty or not finite, bands or
 //         channels differ, no method is asked for or one is not known, or tuningSamples leaves nothing to hold out;
-//         run() throws what the method's fit throws (std::invalid_argument), with the method's name.
+//         run() does not throw: a method that cannot be fitted to the samples of a draw, or whose estimates are not
+//         finite, has a failure and no estimate.
 class MethodComparison
 {
 public:
   MethodComparison(SampleSet calibration, SampleSet target, ComparisonOptions options = {});
 
   ComparisonDraw run(std::uint64_t draw) const;
+
+  // The same draws with one of the methods, by its place in the options.
+  MethodComparison only(std::size_t method) const;
 
   const SampleSet& target() const noexcept { return Target; }
   const ComparisonOptions& options() const noexcept { return Options; }

@@ -13,10 +13,25 @@ namespace msi
 
 namespace
 {
+constexpr double LeastFit = 1e-12; // of outputs whose mean square is 1
 using Kernel = TransferKernel;
 
 // Weak prior of the log hyperparameters, for outputs and features of unit variance.
 constexpr double PriorDeviation = 2.0;
+Eigen::VectorXd priorCenter()
+{
+  Eigen::VectorXd center(Kernel::Count);
+  center[Kernel::Constant] = 0.0;
+  center[Kernel::Linear] = 0.0;
+  center[Kernel::Smooth] = -2.0;
+  center[Kernel::Length] = 0.0;
+  center[Kernel::TargetConstant] = -4.0;
+  center[Kernel::TargetLinear] = -4.0;
+  center[Kernel::TargetSmooth] = -4.0;
+  center[Kernel::ChartNoise] = -5.0;
+  center[Kernel::TargetNoise] = -5.0;
+  return center;
+}
 
 // Reflectances have about this many independent dimensions, however many bands are sampled.
 constexpr double EffectiveOutputs = 4.0;
@@ -50,7 +65,7 @@ TransferObjective::TransferObjective(const TransferFeatures& start,
   , Tuning(tuningResponses.cols())
   , Channels(chartResponses.rows())
   , ChartShare(std::min(1.0, static_cast<double>(Tuning) / static_cast<double>(Chart)))
-  , Center(startingKernel().logarithms)
+  , Center(priorCenter())
   , Factor(channelPriorFactor(Channels))
   , X(Channels, Chart + Tuning)
 {
@@ -110,8 +125,9 @@ double TransferObjective::likelihood(
   const Eigen::MatrixXd white = inverseFactor.triangularView<Eigen::Lower>() * Y;
   const double chartFit = white.topRows(Chart).squaredNorm();
   const double tuningFit = white.bottomRows(Tuning).squaredNorm();
-  const double fit = tuningFit + ChartShare * chartFit;
   const double count = static_cast<double>(Tuning) + ChartShare * static_cast<double>(Chart);
+  // Outputs that are all 0, where every sample has the same reflectance, fit any kernel.
+  const double fit = std::max(tuningFit + ChartShare * chartFit, LeastFit * count);
   const double logDeterminant =
     logDiagonal.tail(Tuning).sum() + ChartShare * logDiagonal.head(Chart).sum();
 

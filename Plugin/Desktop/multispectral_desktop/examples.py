@@ -34,13 +34,8 @@ def capture():
     gap = simple.SimToRealGap(registrationName="warm camera: gap", Camera=reader[0], Samples=reader[1],
                               Responses=reader[2])
     gap.UpdatePipeline()
-    layout = simple.CreateLayout(name="warm camera: gap")
-    top = layout.SplitVertical(0, 0.4)
-    for cell, port in ((top, 0), (top + 1, 2)):  # the summary, the causes
-        view = simple.CreateView("SpreadSheetView")
-        layout.AssignView(cell, view)
-        simple.Show(simple.OutputPort(gap, port), view)
-        simple.Render(view)
+    view = simple.CreateView("SpreadSheetView")
+    simple.Show(gap, view)
     simple.SetActiveSource(gap)
 
 

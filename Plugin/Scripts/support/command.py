@@ -22,6 +22,7 @@ class Parser(argparse.ArgumentParser):
 
 def parser(name, description, *examples):
     """examples: arguments of the command, one line each."""
+    end_at_once_when_stopped()
     program = f"{os.environ.get('MULTISPECTRAL_PROGRAM', './multispectral')} {name}"
     arguments = Parser(prog=program, description=description, allow_abbrev=False,
                        formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -131,12 +132,17 @@ def _is_parallel():
     return any(name in os.environ for name in ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"))
 
 
-def run(main):
-    """Runs main() and turns what can go wrong into one line and an exit status."""
-    # Ctrl-C ends the process at once, also within a filter, and without the traces that MPI and ParaView print. What was
-    # being written is under no final name; the next run removes it.
+def end_at_once_when_stopped():
+    """Ctrl-C ends the process at once, also within a filter, and without the traces that Python, MPI and ParaView print.
+
+    What was being written is under no final name; the next run removes it."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_DFL)
+
+
+def run(main):
+    """Runs main() and turns what can go wrong into one line and an exit status."""
+    end_at_once_when_stopped()  # ParaView has set its own handlers since
     try:
         main()
         painter = sys.modules.get(f"{__package__}.painter")

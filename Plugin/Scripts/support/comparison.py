@@ -48,11 +48,16 @@ def compare(calibration, target, folder, methods, tuning, draws, seed):
                              Draws=min(draws, MOST_DRAWS_OF_PICTURE), Seed=seed)
     pipeline.update(curves)
     pipeline.save_table(pipeline.port(curves, 0), os.path.join(folder, "rms-against-tuning.csv"))
-    chosen = [name for name in NAMES if name in methods.replace(" ", ",").split(",")]
-    _draw_spectra(comparison, chosen, os.path.join(folder, "spectra.png"))
-    _draw_curves(curves, chosen, os.path.join(folder, "rms-against-tuning.png"))
+    _draw_spectra(comparison, _methods_in(comparison, 2), os.path.join(folder, "spectra.png"))
+    _draw_curves(curves, _methods_in(curves, 3), os.path.join(folder, "rms-against-tuning.png"))
     _draw_colors(calibration, target, tuning, seed, os.path.join(folder, "ab-distribution.png"))
     return names, rows
+
+
+def _methods_in(comparison, index):
+    """The methods that have a column in this output; those that could not be fitted have none."""
+    columns = pipeline.column_names(pipeline.port(comparison, index))
+    return [name for name in NAMES if name in columns]
 
 
 def condensed(names, rows):

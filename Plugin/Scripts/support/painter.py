@@ -12,6 +12,7 @@ from . import command, outputs
 from .command import Failure
 
 _LENGTH = struct.Struct("<Q")
+_ENDED = "the process that draws the pictures ended; was it killed, or is there too little memory?"
 _orders = None  # where what is to be drawn is written to
 _answers = None  # where what went wrong is read from
 
@@ -39,17 +40,27 @@ def draw(path, function, *arguments):
     if _orders is None:
         function(path, *arguments)
     else:
-        _send(_orders, (function, (outputs.check(path), *arguments)))
+        _order((function, (outputs.check(path), *arguments)))
 
 
 def finish():
     """Returns when all pictures are there."""
     if _orders is None:
         return
-    _send(_orders, None)
-    fault = _receive(_answers)
+    _order(None)
+    try:
+        fault = _receive(_answers)
+    except EOFError:
+        raise Failure(_ENDED) from None
     if fault:
         raise Failure(fault)
+
+
+def _order(content):
+    try:
+        _send(_orders, content)
+    except BrokenPipeError:
+        raise Failure(_ENDED) from None
 
 
 def _send(file, content):

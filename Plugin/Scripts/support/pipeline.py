@@ -170,11 +170,10 @@ def save_png(source, array, path):
     shown.GetPointData().SetActiveScalars(array)
     writer = vtkPNGWriter()
     writer.SetInputData(shown)
-    writer.SetFileName(path + ".part")
-    writer.Write()
-    if not os.path.isfile(path + ".part"):
-        raise Failure(f"{path}: cannot be written")
-    os.replace(path + ".part", path)
+    with outputs.written(path, outputs.END_OF_PNG) as part:
+        writer.SetFileName(part)
+        writer.Write()
+        fail_on_error()
 
 
 def save_camera(source, path):

@@ -35,7 +35,7 @@ std::string normalizedKey(std::string_view key)
     {
       normalized += c;
     }
-    else if (normalized.back() != ' ')
+    else if (!normalized.empty() && normalized.back() != ' ')
     {
       normalized += ' ';
     }

@@ -2,6 +2,8 @@
 
 #include "Kernels/Estimation/TransferEstimation.h"
 
+#include <stdexcept>
+
 namespace msi
 {
 
@@ -10,6 +12,12 @@ namespace
 EstimationFit fitTransferMethod(
   const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
 {
+  if (calibration.size() == 1)
+  {
+    throw std::invalid_argument(
+      "transfer has 1 calibration sample; expected at least 2, which tell "
+      "the range of the responses");
+  }
   TransferFit transfer = fitTransfer(calibration, tuning);
   return { std::make_shared<TransferEstimator>(transfer.estimator), transfer.summary, {}, {} };
 }

@@ -47,6 +47,9 @@ def cases(folder):
         "500 tuning samples are asked for and the target has 120 samples"
     yield ["evaluate", "--calibration", CHART, "--target", FABRIC, "--methods", "magic"], 1, \
         "there is no estimation method 'magic'"
+    yield ["choose", "--calibration", CHART, "--candidates", no_responses], 1, "camera responses"
+    yield ["choose", "--calibration", CHART, "--candidates", FABRIC, "--count", "500"], 1, \
+        "500 samples are to be chosen from 120"
     yield ["estimate", "--image", *IMAGE], 2, "give --calibration"
     yield ["estimate", "--image", *IMAGE[:9], "--calibration", CHART], 1, \
         "the image has 9 channels (400, 420, .., 560 nm), but the reflectance transform has 16 channels"

@@ -9,7 +9,8 @@ import subprocess
 import sys
 
 COMMANDS = {"setup": "", "demo": "--ranks", "test": "CTEST", "evaluate": "--calibration", "estimate": "--tuning",
-            "camera": "--effects", "scene": "--size", "diagnose": "CAPTURE_DIR", "bench": "--output", "paraview": "STATE"}
+            "choose": "--candidates", "camera": "--effects", "scene": "--size", "diagnose": "CAPTURE_DIR",
+            "bench": "--output", "paraview": "STATE"}
 FORBIDDEN = ("apt-get", "cmake", "ctest", "mpirun", "ninja", "paraview", "pvbatch", "xvfb-run")
 
 

@@ -44,6 +44,7 @@ struct EffectParameter
   bool secondary =
     false; // shapes an effect that another parameter turns on; a fit may hold it at neutral
   bool searched = false; // has no useful derivative: a fit tries places instead
+  bool given = false;    // follows from the data; not fitted
 };
 
 // What the diagnosis asks of a form. Bits of EffectForm::traits.
@@ -55,7 +56,8 @@ enum Bit : unsigned
   KeepsWhite = 1U << 0, // of lamp and filters: the response to white does not change
   Brightens = 1U << 1,  // unless the white is balanced, it contains a gain common to all channels
   Adds = 1U << 2,       // adds to the response instead of multiplying it
-  SmallError = 1U << 3  // gain, center or dark of each channel: every camera is off by a little
+  SmallError = 1U << 3, // gain, center or dark of each channel: every camera is off by a little
+  BesideLine = 1U << 4  // its given parameters are slope and constant of the line through the squared responses
 };
 }
 

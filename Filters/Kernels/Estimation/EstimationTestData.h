@@ -76,15 +76,10 @@ inline Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index columns, uns
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(generator); });
 }
 
-// A table under $MULTISPECTRAL_DATA with columns R<nm> and C<nm>; empty without the variable.
-inline std::optional<SampleSet> realSamples(const std::string& name)
+// A table with columns R<nm> and C<nm>.
+inline SampleSet samplesIn(const std::string& path)
 {
-  const char* folder = std::getenv("MULTISPECTRAL_DATA");
-  if (folder == nullptr)
-  {
-    return std::nullopt;
-  }
-  std::ifstream file(std::string(folder) + "/" + name);
+  std::ifstream file(path);
   std::vector<std::vector<double>> reflectances;
   std::vector<std::vector<double>> responses;
   std::string header;
@@ -120,7 +115,18 @@ inline std::optional<SampleSet> realSamples(const std::string& name)
     }
     return matrix;
   };
-  return SampleSet{ toMatrix(reflectances), toMatrix(responses) };
+  return { toMatrix(reflectances), toMatrix(responses) };
+}
+
+// Such a table under $MULTISPECTRAL_DATA; empty without the variable.
+inline std::optional<SampleSet> realSamples(const std::string& name)
+{
+  const char* folder = std::getenv("MULTISPECTRAL_DATA");
+  if (folder == nullptr)
+  {
+    return std::nullopt;
+  }
+  return samplesIn(std::string(folder) + "/" + name);
 }
 
 } // namespace msi::test

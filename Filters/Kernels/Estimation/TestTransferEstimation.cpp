@@ -210,20 +210,34 @@ TEST(TransferEstimator, IsRebuiltFromItsParametersToTheByte)
   EXPECT_EQ(rebuilt.channels(), 5);
 }
 
-TEST(TransferEstimator, SameBytesForAnySplitAndInstructionSet)
+template <typename Scalar>
+using Block = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+// Mean above standard deviation.
+template <typename Scalar>
+Block<Scalar> meanAndDeviation(const TransferEstimator& estimator, const Block<Scalar>& in)
+{
+  Block<Scalar> mean(estimator.bands(), in.cols());
+  Block<Scalar> deviation(estimator.bands(), in.cols());
+  estimator.apply(in.data(), mean.data(), deviation.data(), in.cols());
+  Block<Scalar> both(2 * estimator.bands(), in.cols());
+  both << mean, deviation;
+  return both;
+}
+
+template <typename Scalar>
+void expectSameBytes()
 {
   const auto& estimator = exampleFit().estimator;
-  const Eigen::MatrixXd& in = exampleResponses();
-  const Eigen::MatrixXd whole = estimator(in);
-  const Eigen::MatrixXd deviation = estimator.standardDeviation(in);
+  const Block<Scalar> in = exampleResponses().cast<Scalar>();
+  const Block<Scalar> whole = meanAndDeviation<Scalar>(estimator, in);
   for (const Eigen::Index piece : { 1, 3, 8, 13 })
   {
     for (Eigen::Index first = 0; first < in.cols(); first += piece)
     {
       const Eigen::Index count = std::min(piece, in.cols() - first);
-      EXPECT_EQ(estimator(in.middleCols(first, count)), whole.middleCols(first, count));
-      EXPECT_EQ(estimator.standardDeviation(in.middleCols(first, count)),
-        deviation.middleCols(first, count));
+      EXPECT_EQ(meanAndDeviation<Scalar>(estimator, in.middleCols(first, count)),
+        whole.middleCols(first, count));
     }
   }
   std::uint32_t disabled = 0;
@@ -232,22 +246,75 @@ TEST(TransferEstimator, SameBytesForAnySplitAndInstructionSet)
   {
     disabled |= best & (~best + 1U);
     hwy::DisableTargets(disabled);
-    EXPECT_EQ(estimator(in), whole) << "without targets " << disabled;
-    EXPECT_EQ(estimator.standardDeviation(in), deviation) << "without targets " << disabled;
+    EXPECT_EQ(meanAndDeviation<Scalar>(estimator, in), whole) << "without targets " << disabled;
   }
   hwy::DisableTargets(0);
 }
 
-TEST(TransferEstimator, FloatBlocksAreTheDoubleOnesRounded)
+TEST(TransferEstimator, SameBytesForAnySplitAndInstructionSet)
+{
+  expectSameBytes<double>();
+  expectSameBytes<float>();
+}
+
+// Rms over bands and samples of the difference between float and double blocks.
+double floatDifference(const TransferEstimator& estimator, const Eigen::MatrixXd& responses)
+{
+  const Eigen::MatrixXf in = responses.cast<float>();
+  const Eigen::MatrixXf narrow = meanAndDeviation<float>(estimator, in);
+  const Eigen::MatrixXd wide = meanAndDeviation<double>(estimator, in.cast<double>());
+  EXPECT_EQ(narrow.bottomRows(estimator.bands()), // the deviation is that of double, rounded
+    wide.bottomRows(estimator.bands()).cast<float>());
+  const Eigen::MatrixXd apart = narrow.cast<double>() - wide;
+  return std::sqrt(apart.topRows(estimator.bands()).array().square().mean());
+}
+
+TEST(TransferEstimator, FloatBlocksAreWithinTheStatedBound)
+{
+  EXPECT_LT(floatDifference(exampleFit().estimator, exampleResponses()), 3e-4);
+}
+
+TEST(TransferEstimator, FloatBlocksOfRealSamplesAreWithinTheStatedBound)
+{
+  const auto paper = msi::test::realSamples("hkpolyu/paper.csv");
+  const auto cotton = msi::test::realSamples("hkpolyu/cotton.csv");
+  if (!paper || !cotton)
+  {
+    GTEST_SKIP() << "MULTISPECTRAL_DATA is not set";
+  }
+  std::vector<Eigen::Index> everyTwelfth;
+  for (Eigen::Index i = 0; i < paper->size(); i += 12)
+  {
+    everyTwelfth.push_back(i);
+  }
+  const std::vector<Eigen::Index> nine{ 0, 2, 4, 6, 8, 10, 12, 14, 15 };
+  for (auto [chart, target] : { std::pair(*paper, *cotton), std::pair(*cotton, *paper) })
+  {
+    const auto fit = msi::fitTransfer(chart, target.subset(everyTwelfth));
+    EXPECT_LT(floatDifference(fit.estimator, target.response), 3e-4);
+    chart.response = Eigen::MatrixXd(chart.response(nine, Eigen::all));
+    target.response = Eigen::MatrixXd(target.response(nine, Eigen::all));
+    const auto fitOfNine = msi::fitTransfer(chart, target.subset(everyTwelfth));
+    EXPECT_LT(floatDifference(fitOfNine.estimator, target.response), 3e-4);
+  }
+}
+
+TEST(TransferEstimator, NaNAndInfinityStayInTheirPixelOfFloatBlocks)
 {
   const auto& estimator = exampleFit().estimator;
-  const Eigen::MatrixXf in = exampleResponses().cast<float>();
-  Eigen::MatrixXf mean(16, in.cols());
-  Eigen::MatrixXf deviation(16, in.cols());
-  estimator.apply(in.data(), mean.data(), deviation.data(), in.cols());
-  const Eigen::MatrixXd wide = in.cast<double>();
-  EXPECT_EQ(mean, estimator(wide).cast<float>());
-  EXPECT_EQ(deviation, estimator.standardDeviation(wide).cast<float>());
+  const Eigen::MatrixXf good = exampleResponses().cast<float>();
+  const Eigen::MatrixXf clean = meanAndDeviation<float>(estimator, good);
+  for (const float bad : { static_cast<float>(NaN), std::numeric_limits<float>::infinity(),
+         -std::numeric_limits<float>::infinity() })
+  {
+    Eigen::MatrixXf in = good;
+    in(2, 10) = bad;
+    const Eigen::MatrixXf mean = meanAndDeviation<float>(estimator, in);
+    for (Eigen::Index p = 0; p < in.cols(); ++p)
+    {
+      EXPECT_TRUE(p == 10 ? mean.col(p).array().isNaN().all() : mean.col(p) == clean.col(p));
+    }
+  }
 }
 
 TEST(TransferEstimator, NaNAndInfinityStayInTheirPixel)

@@ -158,8 +158,8 @@ TEST(TransferExpert, PredictsAsTheWholeMatrixDoes)
       example.tuning, example.center, at, example.kernel[TransferKernel::TargetNoise], true);
     Eigen::MatrixXd mean(5, 11);
     Eigen::MatrixXd deviation(5, 11);
-    const msi::PackedTransfer mixture{ { msi::PackedTransferExpert(example.fit.expert, 1.0, 1.0) },
-      msi::PackedAffineExpert(Eigen::MatrixXd::Zero(5, 4), 0.0), std::vector<double>(5, 1.0) };
+    const msi::PackedTransfer mixture({ { example.fit.expert }, { 1.0 }, { 1.0 },
+      Eigen::MatrixXd::Zero(5, 4), 0.0, Eigen::VectorXd::Ones(5) });
     msi::runTransfer(mixture, at.data(), mean.data(), deviation.data(), 11);
     const Eigen::MatrixXd reflectance =
       expected.mean.unaryExpr([&](double y) { return msi::fromSpace(space, y); });

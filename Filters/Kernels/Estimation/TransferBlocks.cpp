@@ -326,6 +326,17 @@ PackedAffineExpert::PackedAffineExpert(
     pack(affineCoefficients.leftCols(channels).transpose(), channels, transferStride(bands));
 }
 
+PackedTransfer::PackedTransfer(const TransferMixture& mixture)
+  : affine(mixture.affine, mixture.affineShare)
+  , bandVariance(
+      mixture.bandVariance.data(), mixture.bandVariance.data() + mixture.bandVariance.size())
+{
+  for (std::size_t i = 0; i < mixture.experts.size(); ++i)
+  {
+    experts.emplace_back(mixture.experts[i], mixture.meanShares[i], mixture.varianceShares[i]);
+  }
+}
+
 void runTransfer(const PackedTransfer& mixture, const double* response, double* mean,
   double* standardDeviation, Eigen::Index pixels) noexcept
 {

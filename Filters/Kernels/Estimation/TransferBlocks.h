@@ -1,7 +1,7 @@
 // The inner loop of TransferEstimator.
 #pragma once
 
-#include "Kernels/Estimation/TransferExpert.h"
+#include "Kernels/Estimation/TransferEstimator.h"
 
 #include <Eigen/Core>
 
@@ -50,6 +50,8 @@ struct PackedAffineExpert
 
 struct PackedTransfer
 {
+  explicit PackedTransfer(const TransferMixture& mixture);
+
   std::vector<PackedTransferExpert> experts;
   PackedAffineExpert affine;
   std::vector<double> bandVariance;

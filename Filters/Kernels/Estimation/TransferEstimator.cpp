@@ -1,5 +1,6 @@
 #include "Kernels/Estimation/TransferEstimator.h"
 
+#include "Kernels/Estimation/ReducedTransfer.h"
 #include "Kernels/Estimation/TransferBlocks.h"
 
 #include <array>
@@ -25,8 +26,9 @@ const Eigen::MatrixXd& require(
   return requireMatrix(parameters, name, rows, columns, "the transfer estimator");
 }
 
-PackedTransferExpert readExpert(
-  const NamedMatrices& parameters, TransferSpace space, Eigen::Index bands)
+// Adds an expert of the mixture with its shares.
+void readExpert(const NamedMatrices& parameters, TransferSpace space, Eigen::Index bands,
+  TransferMixture& mixture)
 {
   const std::string prefix = prefixOf(space);
   const Eigen::MatrixXd& points = require(parameters, prefix + "points", AnySize, AnySize);
@@ -60,10 +62,12 @@ PackedTransferExpert readExpert(
   expert.coefficients = require(parameters, prefix + "coefficients", count, bands);
   expert.center = require(parameters, prefix + "center", bands, 1);
   expert.reduction = require(parameters, prefix + "reduction", count, count);
-  return { expert, scalars(0), scalars(1) };
+  mixture.experts.push_back(std::move(expert));
+  mixture.meanShares.push_back(scalars(0));
+  mixture.varianceShares.push_back(scalars(1));
 }
 
-PackedTransfer readMixture(const NamedMatrices& parameters)
+TransferMixture readMixture(const NamedMatrices& parameters)
 {
   const Eigen::MatrixXd& variance = require(parameters, "bandVariance", AnySize, 1);
   if (variance.minCoeff() < 0.0)
@@ -71,24 +75,24 @@ PackedTransfer readMixture(const NamedMatrices& parameters)
     throw std::invalid_argument(
       "matrix 'bandVariance' of the transfer estimator holds a negative variance");
   }
-  const Eigen::Index bands = variance.size();
-  std::vector<PackedTransferExpert> experts;
+  TransferMixture mixture;
   for (const TransferSpace space : Spaces)
   {
-    experts.push_back(readExpert(parameters, space, bands));
-    if (experts.back().channels != experts.front().channels)
+    readExpert(parameters, space, variance.size(), mixture);
+    if (mixture.experts.back().points.rows() != mixture.experts.front().points.rows())
     {
       std::ostringstream message;
-      message << "the experts of the transfer estimator take " << experts.front().channels
-              << " and " << experts.back().channels << " channels; expected the same number";
+      message << "the experts of the transfer estimator take "
+              << mixture.experts.front().points.rows() << " and "
+              << mixture.experts.back().points.rows() << " channels; expected the same number";
       throw std::invalid_argument(message.str());
     }
   }
-  const PackedAffineExpert affine(
-    require(parameters, "affine.coefficients", bands, experts.front().channels + 1),
-    require(parameters, "affine.share", 1, 1)(0, 0));
-  return { std::move(experts), affine,
-    std::vector<double>(variance.data(), variance.data() + bands) };
+  mixture.affine = require(
+    parameters, "affine.coefficients", variance.size(), mixture.experts.front().points.rows() + 1);
+  mixture.affineShare = require(parameters, "affine.share", 1, 1)(0, 0);
+  mixture.bandVariance = variance;
+  return mixture;
 }
 
 // What readMixture has read.
@@ -112,13 +116,37 @@ NamedMatrices knownParameters(const NamedMatrices& parameters)
 
 struct TransferEstimator::Implementation
 {
-  PackedTransfer Mixture;
+  explicit Implementation(const NamedMatrices& parameters)
+    : Mixture(readMixture(parameters))
+    , Packed(Mixture)
+    , Parameters(knownParameters(parameters))
+  {
+  }
+
+  // Made when the first float block comes: tables never need it. Where several blocks come at once,
+  // each may make it; all make the same.
+  std::shared_ptr<const ReducedTransfer> reduced() const
+  {
+    auto known = std::atomic_load(&Reduced);
+    if (!known)
+    {
+      known =
+        std::make_shared<const ReducedTransfer>(reduceTransfer(Mixture, TransferFloatTolerance));
+      std::atomic_store(&Reduced, known);
+    }
+    return known;
+  }
+
+  TransferMixture Mixture;
+  PackedTransfer Packed;
   NamedMatrices Parameters;
+
+private:
+  mutable std::shared_ptr<const ReducedTransfer> Reduced;
 };
 
 TransferEstimator::TransferEstimator(const NamedMatrices& parameters)
-  : Impl(std::make_shared<const Implementation>(
-      Implementation{ readMixture(parameters), knownParameters(parameters) }))
+  : Impl(std::make_shared<const Implementation>(parameters))
 {
 }
 
@@ -129,18 +157,28 @@ NamedMatrices TransferEstimator::parameters() const
 
 Eigen::Index TransferEstimator::bands() const noexcept
 {
-  return Impl->Mixture.experts.front().bands;
+  return Impl->Packed.experts.front().bands;
 }
 
 Eigen::Index TransferEstimator::channels() const noexcept
 {
-  return Impl->Mixture.experts.front().channels;
+  return Impl->Packed.experts.front().channels;
 }
 
 void TransferEstimator::apply(const double* response, double* mean, double* standardDeviation,
   Eigen::Index pixels) const noexcept
 {
-  runTransfer(Impl->Mixture, response, mean, standardDeviation, pixels);
+  runTransfer(Impl->Packed, response, mean, standardDeviation, pixels);
+}
+
+void TransferEstimator::apply(
+  const float* response, float* mean, float* standardDeviation, Eigen::Index pixels) const noexcept
+{
+  if (standardDeviation != nullptr)
+  {
+    ReflectanceEstimator::apply(response, mean, standardDeviation, pixels);
+  }
+  runReducedTransfer(*Impl->reduced(), response, mean, pixels);
 }
 
 NamedMatrices transferParameters(const TransferMixture& mixture)

@@ -3,6 +3,22 @@
 namespace msi
 {
 
+TransferKernel startingKernel()
+{
+  using Kernel = TransferKernel;
+  Eigen::VectorXd center(Kernel::Count);
+  center[Kernel::Constant] = 0.0;
+  center[Kernel::Linear] = 0.0;
+  center[Kernel::Smooth] = -2.0;
+  center[Kernel::Length] = 0.0;
+  center[Kernel::TargetConstant] = -4.0;
+  center[Kernel::TargetLinear] = -4.0;
+  center[Kernel::TargetSmooth] = -4.0;
+  center[Kernel::ChartNoise] = -5.0;
+  center[Kernel::TargetNoise] = -5.0;
+  return { center };
+}
+
 Eigen::MatrixXd scaledProducts(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 {
   return a.transpose() * b / static_cast<double>(a.rows());

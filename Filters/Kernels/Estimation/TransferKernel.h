@@ -34,6 +34,9 @@ struct TransferKernel
   double operator[](Parameter parameter) const { return std::exp(logarithms[parameter]); }
 };
 
+// Where the fit starts, and the center of its prior: for features and outputs of unit variance.
+TransferKernel startingKernel();
+
 // x . x' / K and |x - x'|^2 / K of the columns of two feature matrices.
 Eigen::MatrixXd scaledProducts(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd scaledDistances(

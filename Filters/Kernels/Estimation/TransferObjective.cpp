@@ -18,20 +18,6 @@ using Kernel = TransferKernel;
 
 // Weak prior of the log hyperparameters, for outputs and features of unit variance.
 constexpr double PriorDeviation = 2.0;
-Eigen::VectorXd priorCenter()
-{
-  Eigen::VectorXd center(Kernel::Count);
-  center[Kernel::Constant] = 0.0;
-  center[Kernel::Linear] = 0.0;
-  center[Kernel::Smooth] = -2.0;
-  center[Kernel::Length] = 0.0;
-  center[Kernel::TargetConstant] = -4.0;
-  center[Kernel::TargetLinear] = -4.0;
-  center[Kernel::TargetSmooth] = -4.0;
-  center[Kernel::ChartNoise] = -5.0;
-  center[Kernel::TargetNoise] = -5.0;
-  return center;
-}
 
 // Reflectances have about this many independent dimensions, however many bands are sampled.
 constexpr double EffectiveOutputs = 4.0;
@@ -65,7 +51,7 @@ TransferObjective::TransferObjective(const TransferFeatures& start,
   , Tuning(tuningResponses.cols())
   , Channels(chartResponses.rows())
   , ChartShare(std::min(1.0, static_cast<double>(Tuning) / static_cast<double>(Chart)))
-  , Center(priorCenter())
+  , Center(startingKernel().logarithms)
   , Factor(channelPriorFactor(Channels))
   , X(Channels, Chart + Tuning)
 {

@@ -32,7 +32,7 @@ bool nearlyAsGood(const EffectFit& other, const EffectFit& fit, double gapEnergy
 bool hasSecondary(const EffectChoice& choice)
 {
   return std::any_of(choice.form->parameters.begin(), choice.form->parameters.end(),
-    [](const EffectParameter& parameter) { return parameter.secondary; });
+    [](const EffectParameter& parameter) { return parameter.secondary && !parameter.given; });
 }
 
 EffectFit withSecondary(

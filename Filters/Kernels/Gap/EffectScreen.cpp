@@ -64,6 +64,36 @@ private:
   Eigen::MatrixXd Basis;
 };
 
+// No square yet, and slope and constant of the line through the squared signals of each channel.
+std::vector<double> besideLine(const GapData& data)
+{
+  const Eigen::Index channels = data.channels();
+  std::vector<double> start(static_cast<std::size_t>(1 + 2 * channels), 0.0);
+  for (Eigen::Index k = 0; k < channels; ++k)
+  {
+    double n = 0, x = 0, xx = 0, xxx = 0;
+    for (Eigen::Index j = 0; j < data.samples(); ++j)
+    {
+      if (data.weight(k, j) > 0.0)
+      {
+        const double u = data.simulated(k, j) - data.camera.dark()[k];
+        n += 1.0;
+        x += u;
+        xx += u * u;
+        xxx += u * u * u;
+      }
+    }
+    const double spread = n * xx - x * x;
+    if (spread > 1e-9 * n * xx)
+    {
+      const double slope = (n * xxx - x * xx) / spread;
+      start[static_cast<std::size_t>(1 + k)] = slope;
+      start[static_cast<std::size_t>(1 + channels + k)] = (xx - slope * x) / n;
+    }
+  }
+  return start;
+}
+
 std::vector<std::vector<double>> startsOf(
   const EffectChoice& choice, const GapData& data, const OrderBreaks& breaks)
 {
@@ -72,6 +102,10 @@ std::vector<std::vector<double>> startsOf(
         [](const EffectParameter& parameter) { return parameter.searched; }))
   {
     return breaks.startsFor(*choice.form);
+  }
+  if (choice.form->has(FormTrait::BesideLine))
+  {
+    return { besideLine(data) };
   }
   std::vector<std::vector<double>> starts = choice.form->starts;
   if (choice.effect->has(EffectTrait::LimitsResponse))

@@ -121,7 +121,11 @@ void EffectSet::add(
   effects.push_back(
     neutralEffect(choice.effect->name, camera.channels(), choice.form->name, choice.medium));
   secondaryFree.push_back(0);
-  if (!start.empty())
+  if (start.size() == effects.back().parameters.size())
+  {
+    effects.back().parameters = start;
+  }
+  else if (!start.empty())
   {
     std::size_t at = 0;
     for (std::size_t p = 0; p < choice.form->parameters.size(); ++p)
@@ -187,7 +191,8 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
     for (const EffectParameter& parameter : choices[e].form->parameters)
     {
       const auto count = parameter.perChannel ? camera.channelCount() : Eigen::Index(1);
-      const bool isFree = !parameter.searched && (!parameter.secondary || secondaryFree[e] != 0);
+      const bool isFree =
+        !parameter.searched && !parameter.given && (!parameter.secondary || secondaryFree[e] != 0);
       for (Eigen::Index k = 0; k < count; ++k, ++index)
       {
         if (isFree)

@@ -71,7 +71,7 @@ struct EffectSet
   Eigen::Index reach() const noexcept;
   // What the simulator is to run with.
   std::vector<CameraEffect> simulated() const;
-  // Added at its neutral values, or at `start` (one number a parameter of the form).
+  // Added at its neutral values, or at `start`: one number a parameter of the form, or all numbers of the effect.
   void add(
     const EffectChoice& choice, const CameraModel& camera, const std::vector<double>& start = {});
   void add(const EffectSet& from, std::size_t position); // with its values

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace msi
@@ -78,6 +79,7 @@ struct GapCause
   double undone = 0.0;                 // part of what it does that the other causes undo, 0..1
   std::vector<std::string> equivalent; // effects that this data cannot tell from it; at most two
   std::vector<GapParameter> parameters;
+  double probability = 0.0; // of this effect being a cause
 };
 
 struct GapCandidate
@@ -113,6 +115,8 @@ struct GapReport
     false; // the causes show in so few samples that those left out cannot confirm them
   std::vector<GapCandidate> candidates; // the largest shrink first
   GapRemainder unexplained;
+  // Of each effect being a cause, of "nothing" being one, and of an "unknown" one; the largest first.
+  std::vector<std::pair<std::string, double>> probabilities;
   std::optional<GapNextCapture> nextCapture;
   std::vector<std::string> notes; // what the data cannot decide, and why
   // The corrected simulator is CameraSimulator(camera, correction, { whiteAfterEffects }) with the capture's

@@ -34,8 +34,13 @@ def capture():
     gap = simple.SimToRealGap(registrationName="warm camera: gap", Camera=reader[0], Samples=reader[1],
                               Responses=reader[2])
     gap.UpdatePipeline()
-    view = simple.CreateView("SpreadSheetView")
-    simple.Show(gap, view)
+    layout = simple.CreateLayout(name="warm camera: gap")
+    top = layout.SplitVertical(0, 0.4)
+    for cell, port in ((top, 0), (top + 1, 2)):  # the summary, the causes
+        view = simple.CreateView("SpreadSheetView")
+        layout.AssignView(cell, view)
+        simple.Show(simple.OutputPort(gap, port), view)
+        simple.Render(view)
     simple.SetActiveSource(gap)
 
 

@@ -28,6 +28,14 @@ public:
       Kind = Compressive;
       Linear = effect.value("compression");
     }
+    else if (form == "fitted")
+    {
+      Kind = Fitted;
+      const double square = effect.value("square");
+      Square = square;
+      LinearOf = ChannelValues(1.0 - square * effect.perChannel("slope"));
+      ConstantOf = ChannelValues(-square * effect.perChannel("constant"));
+    }
     else
     {
       // linear u + square u^2 + cube u^3
@@ -48,6 +56,11 @@ public:
         break;
       case Compressive:
         u /= Scalar(1) + linear * u;
+        break;
+      case Fitted:
+        u = (u.colwise() * LinearOf.as<Scalar>() + static_cast<Scalar>(Square) * u.square())
+              .colwise() +
+          ConstantOf.as<Scalar>();
         break;
       case Gamma:
         if constexpr (std::is_same_v<Scalar, double>)
@@ -70,11 +83,13 @@ private:
   {
     Polynomial,
     Gamma,
-    Compressive
+    Compressive,
+    Fitted
   } Kind = Polynomial;
   double Linear = 1.0;
   double Square = 0.0;
   double Cube = 0.0;
+  ChannelValues LinearOf, ConstantOf;
 };
 }
 
@@ -85,6 +100,9 @@ Effect detectorNonlinearity()
   const EffectParameter cube{ "cube", "1", 0.0, -0.45, 0.9, 0.05, "weight of u^3" };
   const EffectParameter exponent{ "exponent", "1", 1.0, 0.4, 2.5, 0.05, "exponent" };
   const EffectParameter compression{ "compression", "1", 0.0, -0.4, 2.0, 0.05, "loss at white" };
+  const auto line = [](const char* name, const char* meaning) {
+    return EffectParameter{ name, "1", 0.0, -10.0, 10.0, 1.0, meaning, true, true, false, true };
+  };
   Effect effect;
   effect.definition = { "detector_nonlinearity", "Detector nonlinearity",
     "One curve for all channels between light and response.", EffectStage::Detector,
@@ -93,7 +111,13 @@ Effect detectorNonlinearity()
       { "anchored", "(1 - square) u + square u^2: white keeps its response", { square } },
       { "gamma", "u^exponent: white keeps its response", { exponent } },
       { "compressive", "u / (1 + compression u)", { compression } },
-      { "cubic", "u + square u^2 + cube u^3", { square, cube } } },
+      { "cubic", "u + square u^2 + cube u^3", { square, cube } },
+      { "fitted",
+        "u + square (u^2 - slope_k u - constant_k): what a linear camera that was fitted to the "
+        "curve leaves of it",
+        { square, line("slope", "of the line through u^2 over the samples"),
+          line("constant", "of that line") },
+        {}, FormTrait::BesideLine } },
     "exposure series of one patch", EffectTrait::None,
     { { "quadratic", { imageTerm(P::Square, square) } },
       { "gamma", { imageTerm(P::Exponent, exponent) } },

@@ -1,0 +1,97 @@
+#include "Kernels/Estimation/SampleChoice.h"
+
+#include "Kernels/Estimation/TransferFeatures.h"
+#include "Kernels/Estimation/TransferKernel.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace msi
+{
+
+namespace
+{
+void requireResponses(const Eigen::MatrixXd& responses, const std::string& name)
+{
+  if (responses.size() == 0)
+  {
+    throw std::invalid_argument(
+      "there are no " + name + " responses; expected at least one sample");
+  }
+  if (!responses.allFinite())
+  {
+    throw std::invalid_argument(
+      "a response of the " + name + " samples is not finite; expected finite numbers");
+  }
+}
+
+// Each channel divided by its root mean square over the chart, as the method transfer does.
+Eigen::VectorXd inverseScales(const Eigen::MatrixXd& chart)
+{
+  return chart.cwiseAbs2().rowwise().mean().cwiseSqrt().unaryExpr(
+    [](double scale) { return scale > 0.0 ? 1.0 / scale : 1.0; });
+}
+
+// Covariance of the candidates' reflectance, up to a common factor, once the chart is known.
+Eigen::MatrixXd candidateCovariance(
+  const TransferKernel& kernel, const Eigen::MatrixXd& chart, const Eigen::MatrixXd& candidates)
+{
+  const TransferFeatures features = featuresOf(TransferSpace::Linear, chart);
+  const Eigen::MatrixXd a = features.ofChart(chart);
+  const Eigen::MatrixXd b = features.ofChart(candidates);
+  Eigen::MatrixXd ofChart = covariance(kernel, a, a.cols(), a, a.cols());
+  ofChart.diagonal().array() += kernel[TransferKernel::ChartNoise];
+  const Eigen::MatrixXd white =
+    ofChart.llt().matrixL().solve(covariance(kernel, a, a.cols(), b, 0));
+  return covariance(kernel, b, 0, b, 0) - white.transpose() * white;
+}
+}
+
+SampleChoice chooseSamples(const Eigen::MatrixXd& chartResponses,
+  const Eigen::MatrixXd& candidateResponses, Eigen::Index count)
+{
+  requireResponses(chartResponses, "chart");
+  requireResponses(candidateResponses, "candidate");
+  std::ostringstream message;
+  if (chartResponses.rows() != candidateResponses.rows())
+  {
+    message << "the chart has " << chartResponses.rows()
+            << " response channels and the candidates have " << candidateResponses.rows()
+            << "; expected the same channels in both";
+    throw std::invalid_argument(message.str());
+  }
+  if (count < 1 || count > candidateResponses.cols())
+  {
+    message << count << " samples are to be chosen from " << candidateResponses.cols()
+            << "; expected a number from 1 to " << candidateResponses.cols();
+    throw std::invalid_argument(message.str());
+  }
+  const TransferKernel kernel = startingKernel();
+  const double noise = kernel[TransferKernel::TargetNoise];
+  const Eigen::VectorXd scales = inverseScales(chartResponses);
+  Eigen::MatrixXd left = candidateCovariance(
+    kernel, scales.asDiagonal() * chartResponses, scales.asDiagonal() * candidateResponses);
+  const double before = left.trace();
+
+  SampleChoice choice;
+  Eigen::VectorXd available = Eigen::VectorXd::Ones(left.cols());
+  while (static_cast<Eigen::Index>(choice.samples.size()) < count)
+  {
+    const Eigen::VectorXd reductions = left.colwise().squaredNorm().transpose().cwiseQuotient(
+      (left.diagonal().array() + noise).matrix());
+    Eigen::Index next = 0;
+    (reductions.array() * available.array() + available.array()).maxCoeff(&next);
+    available[next] = 0.0;
+    const Eigen::VectorXd column = left.col(next) / std::sqrt(left(next, next) + noise);
+    left -= column * column.transpose();
+    choice.samples.push_back(next);
+    choice.explained.push_back(1.0 - left.trace() / before);
+  }
+  return choice;
+}
+
+} // namespace msi

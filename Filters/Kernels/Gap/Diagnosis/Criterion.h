@@ -1,0 +1,46 @@
+// How well a set of effects explains the data: one number for sets of any size, forms and kinds of data.
+#pragma once
+
+#include "Kernels/Gap/Diagnosis/Observation.h"
+
+namespace msi
+{
+
+// Logarithm of the posterior probability of a set, but for a constant.
+//
+//   -m/2 log (Q + f G)  -  1/2 sum_i log(1 + information_i / phi)  -  surprise  -  sum of the options' improbabilities
+//
+// Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera; f: Decision::FormPart.
+// phi, the dispersion, is what one independent number of the best residual known has of energy: noise, as far as
+//   it is coherent within groups, and what is left beyond noise, which counts as Decision::DiscrepancyNumbers numbers.
+// m = (Q + f G) / phi of that residual: the independent numbers.
+class Criterion
+{
+public:
+  Criterion(const Observation& data, const ObservedFit& nominal);
+
+  // The least energy known sets the dispersion. coherence: of its fit.
+  void refer(double energy, double coherence);
+  double operator()(const ObservedFit& fit) const;
+  // Of a fit that would have this energy and so many parameters more than `from`.
+  double preview(const ObservedFit& from, const GapPreview& with) const;
+
+  double gapEnergy() const noexcept { return Gap; }
+  double dispersion() const noexcept { return Dispersion; }
+  // Logarithm of the likelihood of an energy, relative to the best residual's.
+  double fitOf(double energy) const;
+
+private:
+  double improbability(const ObservedFit& fit) const;
+  double occam(const ObservedFit& fit) const;
+
+  const Observation& Data;
+  double Gap = 0.0;
+  double Noise = 0.0;
+  double Floor = 0.0;
+  double Reference = 0.0;
+  double Dispersion = 1.0;
+  double Numbers = 1.0;
+};
+
+} // namespace msi

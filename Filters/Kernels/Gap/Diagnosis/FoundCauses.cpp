@@ -1,0 +1,225 @@
+#include "Kernels/Gap/Diagnosis/FoundCauses.h"
+
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Gap/Shapley.h"
+#include "Kernels/Gap/Shrink.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace msi
+{
+
+namespace
+{
+double heldOutShrink(const Observation& data, const ObservedFit& fit)
+{
+  const GroupEnergies energies = data.energies(fit);
+  const auto sum = [](const std::vector<double>& values)
+  { return std::accumulate(values.begin(), values.end(), 0.0); };
+  return shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
+}
+
+// Of every subset of the positions, fitted anew.
+std::vector<double> subsetShrinksOf(const Observation& data, const ObservedFit& best)
+{
+  const std::size_t subsets = std::size_t(1) << best.set.size();
+  std::vector<double> shrink(subsets, 0.0);
+  for (std::size_t subset = 1; subset < subsets; ++subset)
+  {
+    shrink[subset] = std::fmax(
+      heldOutShrink(data, subset + 1 == subsets ? best : *data.reduced(best, subset)), 0.0);
+  }
+  return shrink;
+}
+
+// Effects that, in the place of the one at this position, explain the data nearly as well.
+std::vector<std::string> equivalentsAt(
+  const Observation& data, const FoundSets& found, std::size_t position)
+{
+  const std::vector<GapOption>& options = data.options();
+  const std::vector<std::size_t>& best = found.best->set;
+  const double top = *std::max_element(found.score.begin(), found.score.end());
+  std::vector<Rival> rivals;
+  for (std::size_t v = 0; v < found.visited.size(); ++v)
+  {
+    const std::vector<std::size_t>& set = found.visited[v]->set;
+    if (set.size() != best.size() || found.score[v] < top - Decision::EquivalentLog)
+    {
+      continue;
+    }
+    std::vector<std::size_t> other = set;
+    for (std::size_t p = 0; p < best.size(); ++p)
+    {
+      const auto same = std::find_if(other.begin(), other.end(),
+        [&](std::size_t option) { return options[option].sameCause(options[best[p]]); });
+      if (p != position && same != other.end())
+      {
+        other.erase(same);
+      }
+    }
+    if (other.size() == 1 && options[other.front()].effect != options[best[position]].effect)
+    {
+      rivals.push_back({ options[other.front()].effect->name, -found.score[v] });
+    }
+  }
+  return cheapestOf(std::move(rivals));
+}
+}
+
+std::vector<double> sharesUnderPrecedence(
+  const std::vector<double>& shrink, const std::vector<char>& later)
+{
+  const std::vector<double> plain = shapleyValues(shrink, later.size());
+  std::vector<double> share(later.size(), 0.0);
+  std::size_t present = 0;
+  for (const char turn : { 0, 1 })
+  {
+    std::vector<std::size_t> players;
+    for (std::size_t p = 0; p < later.size(); ++p)
+    {
+      if (later[p] == turn)
+      {
+        players.push_back(p);
+      }
+    }
+    std::vector<double> value;
+    std::size_t all = present;
+    for (std::size_t subset = 0; subset < std::size_t(1) << players.size(); ++subset)
+    {
+      all = present;
+      for (std::size_t p = 0; p < players.size(); ++p)
+      {
+        all |= (subset >> p & 1U) != 0 ? std::size_t(1) << players[p] : 0;
+      }
+      value.push_back(shrink[all]);
+    }
+    const std::vector<double> worth = shapleyValues(value, players.size());
+    for (std::size_t p = 0; p < players.size(); ++p)
+    {
+      const std::size_t player = players[p];
+      share[player] =
+        turn == 0 ? std::fmax(worth[p], plain[player]) : std::fmin(worth[p], plain[player]);
+    }
+    present = all;
+  }
+  return share;
+}
+
+std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink)
+{
+  const ObservedFit& best = *found.best;
+  const std::vector<double> reached = subsetShrinksOf(data, best);
+  std::vector<char> later;
+  for (const std::size_t option : best.set)
+  {
+    later.push_back(data.options()[option].perChannel ? 1 : 0);
+  }
+  std::vector<double> share = sharesUnderPrecedence(reached, later);
+  double sum = 0.0;
+  for (double& one : share)
+  {
+    one = std::fmax(one, 0.0);
+    sum += one;
+  }
+  const auto parameters = data.parameters(best);
+  std::vector<GapCause> causes;
+  for (std::size_t p = 0; p < best.set.size(); ++p)
+  {
+    const GapOption& option = data.options()[best.set[p]];
+    GapCause cause;
+    cause.effect = option.effect->name;
+    cause.form = option.form;
+    cause.medium = option.medium;
+    cause.share = sum > 0.0 ? shrink * share[p] / sum : 0.0;
+    cause.shrink = reached[std::size_t(1) << p];
+    cause.equivalent = equivalentsAt(data, found, p);
+    cause.parameters = parameters[p];
+    causes.push_back(std::move(cause));
+  }
+  std::stable_sort(causes.begin(), causes.end(),
+    [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
+  return causes;
+}
+
+std::vector<GapCandidate> foundCandidates(
+  const Observation& data, const FoundSets& found, std::uint64_t seed)
+{
+  std::map<std::pair<std::string, std::string>, std::size_t> bestForm;
+  for (std::size_t v = 0; v < found.visited.size(); ++v)
+  {
+    if (found.visited[v]->set.size() == 1)
+    {
+      const GapOption& option = data.options()[found.visited[v]->set.front()];
+      const auto [entry, fresh] =
+        bestForm.emplace(std::make_pair(option.effect->name, option.medium), v);
+      if (!fresh && found.score[v] > found.score[entry->second])
+      {
+        entry->second = v;
+      }
+    }
+  }
+  std::vector<GapCandidate> candidates;
+  for (const auto& [cause, v] : bestForm)
+  {
+    const GroupEnergies energies = data.energies(*found.visited[v]);
+    const auto sum = [](const std::vector<double>& values)
+    { return std::accumulate(values.begin(), values.end(), 0.0); };
+    const double shrink = shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
+    std::array<double, 2> interval =
+      shrinkInterval({ energies.before, energies.after, energies.noise }, seed);
+    interval = { std::fmin(interval[0], shrink), std::fmax(interval[1], shrink) };
+    candidates.push_back({ cause.first, data.options()[found.visited[v]->set.front()].form,
+      cause.second, shrink, interval });
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+    [](const GapCandidate& a, const GapCandidate& b) { return a.shrink > b.shrink; });
+  return candidates;
+}
+
+std::vector<std::pair<std::string, double>> effectProbabilities(
+  const Observation& data, const FoundSets& found)
+{
+  // Of a set of causes only the likeliest forms count: more forms make no effect likelier.
+  const double top = *std::max_element(found.score.begin(), found.score.end());
+  std::map<std::vector<std::string>, double> sets;
+  for (std::size_t v = 0; v < found.visited.size(); ++v)
+  {
+    std::vector<std::string> names;
+    for (const std::size_t option : found.visited[v]->set)
+    {
+      names.push_back(data.options()[option].effect->name);
+    }
+    std::sort(names.begin(), names.end());
+    double& weight = sets[names];
+    weight = std::fmax(weight, std::exp((found.score[v] - top) / Decision::Temperature));
+  }
+  double all = 0.0;
+  std::map<std::string, double> effects;
+  for (const auto& [names, weight] : sets)
+  {
+    all += weight;
+    if (names.empty())
+    {
+      effects["nothing"] += weight;
+    }
+    for (std::size_t n = 0; n < names.size(); ++n)
+    {
+      if (n == 0 || names[n] != names[n - 1])
+      {
+        effects[names[n]] += weight;
+      }
+    }
+  }
+  std::vector<std::pair<std::string, double>> probabilities;
+  for (const auto& [name, weight] : effects)
+  {
+    probabilities.emplace_back(name, weight / all);
+  }
+  return probabilities;
+}
+
+} // namespace msi

@@ -1,0 +1,33 @@
+// What is said about the effects that were found: how large, how certain, what else it may be.
+#pragma once
+
+#include "Kernels/Gap/Diagnosis/SetSearch.h"
+#include "Kernels/Gap/GapReport.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace msi
+{
+
+// Shapley values of the held-out shrink over the positions of a fit; their sum is that of the whole fit.
+// shrink: of every subset of the positions, by the bits that are set; later: positions that come after all others.
+//
+// A number for each channel can also do what one number for all channels does. Where they do the same, the effect with the
+// common number is credited with it: it gets its Shapley value under precedence constraints (Faigle and Kern 1992,
+// doi:10.1007/BF01258278) where that is larger than the plain one, those that come later the smaller of both.
+std::vector<double> sharesUnderPrecedence(
+  const std::vector<double>& shrink, const std::vector<char>& later);
+
+// The causes, the largest share first; their shares sum to `shrink`, the held-out shrink of the whole diagnosis.
+std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink);
+
+// Single effects by what each alone would do. seed: of the intervals.
+std::vector<GapCandidate> foundCandidates(
+  const Observation& data, const FoundSets& found, std::uint64_t seed);
+
+// Probability of each effect of being in the set that is right, among the sets that were fitted; "nothing": of none.
+std::vector<std::pair<std::string, double>> effectProbabilities(
+  const Observation& data, const FoundSets& found);
+
+} // namespace msi

@@ -1,0 +1,86 @@
+// The seam between the diagnosis and its data: a table of samples or a pair of images.
+#pragma once
+
+#include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Gap/GapReport.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+// One form of one effect that may be tried.
+struct GapOption
+{
+  const EffectDefinition* effect = nullptr;
+  std::string form;
+  std::string medium;
+  bool perChannel = false;    // a number for every channel
+  double improbability = 0.0; // minus the logarithm of its probability before the data speak
+
+  // The same effect on the same medium, whatever the form.
+  bool sameCause(const GapOption& other) const noexcept
+  {
+    return effect == other.effect && medium == other.medium;
+  }
+};
+
+// Energies of the gap in plain response units, one of each group of data that are held out together.
+struct GroupEnergies
+{
+  std::vector<double> before, after, noise;
+};
+
+// A set of options fitted to the data.
+class ObservedFit
+{
+public:
+  virtual ~ObservedFit() = default;
+
+  std::vector<std::size_t> set; // numbers of options
+  double energy = 0.0;          // weighted sum of squares, cross-validated by groups
+  double coherence =
+    1.0; // independent residuals would scatter by that much less in the sum over a group
+  Eigen::VectorXd
+    information; // prior variance over noise variance along its principal axes; unit dispersion
+  double surprise =
+    0.0; // half the sum of squares of the parameters over their learned prior deviations
+  bool atBound = false; // a parameter lies at the end of its range
+};
+using FitPointer = std::shared_ptr<const ObservedFit>;
+
+// What one linear step with one more option would bring.
+struct GapPreview
+{
+  std::size_t option = 0;
+  std::vector<double> start; // one number a parameter of the form; empty: neutral
+  double gain = 0.0;         // of energy, not cross-validated
+  double parameters = 0.0;
+};
+
+class Observation
+{
+public:
+  virtual ~Observation() = default;
+
+  virtual const std::vector<GapOption>& options() const = 0;
+  virtual double elements() const = 0;    // residuals with weight
+  virtual double noiseEnergy() const = 0; // what noise alone leaves of the energy
+
+  virtual FitPointer nominal() const = 0;
+  // Options whose effect the fit does not have, the largest gain first.
+  virtual std::vector<GapPreview> previews(const ObservedFit& from) const = 0;
+  virtual FitPointer extended(const ObservedFit& from, const GapPreview& with) const = 0;
+  // The positions of `from` whose bit is set.
+  virtual FitPointer reduced(const ObservedFit& from, std::size_t positions) const = 0;
+  virtual GroupEnergies energies(const ObservedFit& fit) const = 0;
+  // Of each position of the fit.
+  virtual std::vector<std::vector<GapParameter>> parameters(const ObservedFit& fit) const = 0;
+};
+
+} // namespace msi

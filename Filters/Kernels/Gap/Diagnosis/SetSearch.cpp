@@ -1,0 +1,186 @@
+#include "Kernels/Gap/Diagnosis/SetSearch.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int MostRounds = 4;
+
+class SetSearch
+{
+public:
+  SetSearch(
+    const Observation& data, const SetSearchLimits& limits, const std::function<bool()>& stop)
+    : Data(data)
+    , Limits(limits)
+    , Stop(stop)
+    , Nominal(data.nominal())
+    , Score(data, *Nominal)
+  {
+    Visited.push_back(Nominal);
+  }
+
+  FoundSets run()
+  {
+    grow();
+    for (int round = 0; round < MostRounds && Limits.exchange && !Stop(); ++round)
+    {
+      const FitPointer before = best();
+      if (before->set.empty())
+      {
+        break;
+      }
+      revise(*before);
+      if (best() == before)
+      {
+        break;
+      }
+    }
+    FoundSets found{ Nominal, best(), Visited, {}, Score.gapEnergy(), Score.dispersion() };
+    for (const FitPointer& fit : Visited)
+    {
+      found.score.push_back(Score(*fit));
+    }
+    return found;
+  }
+
+private:
+  FitPointer best() const
+  {
+    return *std::max_element(Visited.begin(), Visited.end(),
+      [this](const FitPointer& a, const FitPointer& b) { return Score(*a) < Score(*b); });
+  }
+
+  FitPointer consider(FitPointer fit)
+  {
+    Score.refer(fit->energy, fit->coherence);
+    Visited.push_back(fit);
+    return fit;
+  }
+
+  // The likeliest options beside those of `from`, at most two forms of a cause.
+  std::vector<GapPreview> promising(const ObservedFit& from, std::size_t most) const
+  {
+    std::vector<GapPreview> all = Data.previews(from);
+    // Judged as if the best of them were the whole truth.
+    Criterion hopeful = Score;
+    for (const GapPreview& preview : all)
+    {
+      hopeful.refer(from.energy - preview.gain, from.coherence);
+    }
+    std::stable_sort(all.begin(), all.end(),
+      [&](const GapPreview& a, const GapPreview& b)
+      { return hopeful.preview(from, a) > hopeful.preview(from, b); });
+    std::vector<GapPreview> chosen;
+    for (GapPreview& preview : all)
+    {
+      const auto alike = std::count_if(chosen.begin(), chosen.end(),
+        [&](const GapPreview& other)
+        { return Data.options()[other.option].sameCause(Data.options()[preview.option]); });
+      if (chosen.size() < most && alike < 2)
+      {
+        chosen.push_back(std::move(preview));
+      }
+    }
+    return chosen;
+  }
+
+  std::vector<FitPointer> extend(const ObservedFit& from, std::size_t most)
+  {
+    std::vector<FitPointer> fits;
+    for (const GapPreview& preview : promising(from, most))
+    {
+      std::vector<std::size_t> set = from.set;
+      set.push_back(preview.option);
+      std::sort(set.begin(), set.end());
+      if (Tried.insert(set).second && !Stop())
+      {
+        fits.push_back(consider(Data.extended(from, preview)));
+      }
+    }
+    return fits;
+  }
+
+  bool sameCauses(const ObservedFit& a, const ObservedFit& b) const
+  {
+    const std::vector<GapOption>& options = Data.options();
+    return a.set.size() == b.set.size() &&
+      std::all_of(a.set.begin(), a.set.end(),
+        [&](std::size_t mine)
+        {
+          return std::any_of(b.set.begin(), b.set.end(),
+            [&](std::size_t other) { return options[mine].sameCause(options[other]); });
+        });
+  }
+
+  void grow()
+  {
+    std::vector<FitPointer> beam{ Nominal };
+    for (int size = 1; size <= Limits.maximumEffects && !Stop(); ++size)
+    {
+      std::vector<FitPointer> grown;
+      for (const FitPointer& from : beam)
+      {
+        const std::vector<FitPointer> more =
+          extend(*from, static_cast<std::size_t>(Limits.optionsFitted));
+        grown.insert(grown.end(), more.begin(), more.end());
+      }
+      std::stable_sort(grown.begin(), grown.end(),
+        [this](const FitPointer& a, const FitPointer& b) { return Score(*a) > Score(*b); });
+      beam.clear();
+      for (const FitPointer& fit : grown)
+      {
+        const bool known = std::any_of(beam.begin(), beam.end(),
+          [&](const FitPointer& other) { return sameCauses(*fit, *other); });
+        if (!known && beam.size() < static_cast<std::size_t>(Limits.beamWidth))
+        {
+          beam.push_back(fit);
+        }
+      }
+      if (beam.empty() || Score(*beam.front()) < Score(*best()) - Decision::Patience)
+      {
+        break;
+      }
+    }
+  }
+
+  // Fewer effects, others, and other forms of them.
+  void revise(const ObservedFit& fit)
+  {
+    const std::size_t all = (std::size_t(1) << fit.set.size()) - 1;
+    for (std::size_t first = 0; first < fit.set.size(); ++first)
+    {
+      const std::size_t rest = all & ~(std::size_t(1) << first);
+      extend(*consider(Data.reduced(fit, rest)), static_cast<std::size_t>(Limits.optionsFitted));
+      for (std::size_t second = first + 1; second < fit.set.size() && fit.set.size() > 2; ++second)
+      {
+        if (!Stop())
+        {
+          extend(*consider(Data.reduced(fit, rest & ~(std::size_t(1) << second))), 4);
+        }
+      }
+    }
+  }
+
+  const Observation& Data;
+  SetSearchLimits Limits;
+  const std::function<bool()>& Stop;
+  FitPointer Nominal;
+  Criterion Score;
+  std::vector<FitPointer> Visited;
+  std::set<std::vector<std::size_t>> Tried;
+};
+}
+
+FoundSets searchSets(
+  const Observation& data, const SetSearchLimits& limits, const std::function<bool()>& stop)
+{
+  return SetSearch(data, limits, stop).run();
+}
+
+} // namespace msi

@@ -1,0 +1,35 @@
+// Which sets of effects explain the data best.
+#pragma once
+
+#include "Kernels/Gap/Diagnosis/Criterion.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+
+#include <functional>
+#include <vector>
+
+namespace msi
+{
+
+struct SetSearchLimits
+{
+  int maximumEffects = 5;
+  int beamWidth = Decision::BeamWidth;
+  int optionsFitted = Decision::OptionsFitted;
+  bool exchange = true;
+};
+
+struct FoundSets
+{
+  FitPointer nominal, best;
+  std::vector<FitPointer> visited; // every set that was fitted, of each only the likeliest form
+  std::vector<double> score;       // of each, by the final criterion
+  double gapEnergy = 0.0;
+  double dispersion = 1.0;
+};
+
+// Beam search by size, then exchanges and removals of one or two effects and other forms of each, until none makes the set likelier.
+// stop() is asked now and then; true ends the search early.
+FoundSets searchSets(
+  const Observation& data, const SetSearchLimits& limits, const std::function<bool()>& stop);
+
+} // namespace msi

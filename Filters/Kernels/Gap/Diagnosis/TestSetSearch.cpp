@@ -1,0 +1,220 @@
+// The search and what is said of it, on data of which everything is known: columns of numbers and their sums.
+#include "Kernels/Gap/Diagnosis/FoundCauses.h"
+#include "Kernels/Gap/Diagnosis/SetSearch.h"
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+namespace
+{
+
+// y = sum of some columns + noise of deviation 1; every row is a group of its own. The options are the columns, under
+// names of the library.
+class ColumnSums : public msi::Observation
+{
+public:
+  ColumnSums(Eigen::MatrixXd columns, Eigen::VectorXd y)
+    : X(std::move(columns))
+    , Y(std::move(y))
+  {
+    for (Eigen::Index c = 0; c < X.cols(); ++c)
+    {
+      Options.push_back({ &msi::effectLibrary()[static_cast<std::size_t>(c)], "", "", false, 3.0 });
+    }
+  }
+  const std::vector<msi::GapOption>& options() const override { return Options; }
+  double elements() const override { return static_cast<double>(Y.size()); }
+  double noiseEnergy() const override { return static_cast<double>(Y.size()); }
+  msi::FitPointer nominal() const override { return fitted({}); }
+  std::vector<msi::GapPreview> previews(const msi::ObservedFit& from) const override
+  {
+    std::vector<msi::GapPreview> all;
+    for (std::size_t c = 0; c < Options.size(); ++c)
+    {
+      if (std::find(from.set.begin(), from.set.end(), c) == from.set.end())
+      {
+        std::vector<std::size_t> set = from.set;
+        set.push_back(c);
+        all.push_back({ c, {}, from.energy - fitted(set)->energy, 1.0 });
+      }
+    }
+    return all;
+  }
+  msi::FitPointer extended(const msi::ObservedFit& from, const msi::GapPreview& with) const override
+  {
+    std::vector<std::size_t> set = from.set;
+    set.push_back(with.option);
+    return fitted(set);
+  }
+  msi::FitPointer reduced(const msi::ObservedFit& from, std::size_t positions) const override
+  {
+    std::vector<std::size_t> set;
+    for (std::size_t p = 0; p < from.set.size(); ++p)
+    {
+      if ((positions >> p & 1U) != 0)
+      {
+        set.push_back(from.set[p]);
+      }
+    }
+    return fitted(set);
+  }
+  msi::GroupEnergies energies(const msi::ObservedFit& fit) const override
+  {
+    const Eigen::VectorXd left = leftOf(fit.set);
+    msi::GroupEnergies energies;
+    for (Eigen::Index i = 0; i < Y.size(); ++i)
+    {
+      energies.before.push_back(Y[i] * Y[i]);
+      energies.after.push_back(left[i] * left[i]);
+      energies.noise.push_back(1.0);
+    }
+    return energies;
+  }
+  std::vector<std::vector<msi::GapParameter>> parameters(const msi::ObservedFit& fit) const override
+  {
+    return std::vector<std::vector<msi::GapParameter>>(fit.set.size());
+  }
+
+private:
+  Eigen::MatrixXd chosen(const std::vector<std::size_t>& set) const
+  {
+    Eigen::MatrixXd columns(X.rows(), static_cast<Eigen::Index>(set.size()));
+    for (std::size_t p = 0; p < set.size(); ++p)
+    {
+      columns.col(static_cast<Eigen::Index>(p)) = X.col(static_cast<Eigen::Index>(set[p]));
+    }
+    return columns;
+  }
+  Eigen::MatrixXd normalOf(const Eigen::MatrixXd& columns) const
+  {
+    return columns.transpose() * columns +
+      0.01 * Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
+  }
+  // Each row predicted without it.
+  Eigen::VectorXd leftOf(const std::vector<std::size_t>& set) const
+  {
+    if (set.empty())
+    {
+      return Y;
+    }
+    const Eigen::MatrixXd columns = chosen(set);
+    const Eigen::LDLT<Eigen::MatrixXd> factor(normalOf(columns));
+    const Eigen::VectorXd left = Y - columns * factor.solve(columns.transpose() * Y);
+    const Eigen::MatrixXd solved = factor.solve(columns.transpose());
+    return left.array() / (1.0 - (columns.array() * solved.transpose().array()).rowwise().sum());
+  }
+  msi::FitPointer fitted(std::vector<std::size_t> set) const
+  {
+    auto fit = std::make_shared<Fit>();
+    fit->energy = leftOf(set).squaredNorm();
+    fit->information = 100.0 * (chosen(set).colwise().squaredNorm()).transpose();
+    fit->set = std::move(set);
+    return fit;
+  }
+  class Fit : public msi::ObservedFit
+  {
+  };
+
+  Eigen::MatrixXd X;
+  Eigen::VectorXd Y;
+  std::vector<msi::GapOption> Options;
+};
+
+Eigen::MatrixXd drawnNumbers(Eigen::Index rows, Eigen::Index columns, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
+}
+
+constexpr Eigen::Index SumRows = 300;
+
+msi::FoundSets foundSets(const msi::Observation& data)
+{
+  return msi::searchSets(data, {}, [] { return false; });
+}
+
+double probabilityOf(const msi::Observation& data, const msi::FoundSets& sets, std::size_t option)
+{
+  for (const auto& [name, probability] : msi::effectProbabilities(data, sets))
+  {
+    if (name == data.options()[option].effect->name)
+    {
+      return probability;
+    }
+  }
+  return 0.0;
+}
+
+TEST(SetSearch, FindsWhatIsThereAndNothingElse)
+{
+  const Eigen::MatrixXd X = drawnNumbers(SumRows, 8, 1);
+  const ColumnSums data(X, 4.0 * X.col(2) - 3.0 * X.col(5) + drawnNumbers(SumRows, 1, 2));
+  const msi::FoundSets sets = foundSets(data);
+  std::vector<std::size_t> set = sets.best->set;
+  std::sort(set.begin(), set.end());
+  EXPECT_EQ(set, (std::vector<std::size_t>{ 2, 5 }));
+  EXPECT_GT(probabilityOf(data, sets, 2), 0.9);
+  EXPECT_LT(probabilityOf(data, sets, 0), 0.2);
+  const std::vector<msi::GapCause> causes = msi::foundCauses(data, sets, 0.9);
+  ASSERT_EQ(causes.size(), 2U);
+  EXPECT_EQ(causes.front().effect, data.options()[2].effect->name);
+  EXPECT_NEAR(causes[0].share + causes[1].share, 0.9, 1e-12);
+}
+
+TEST(SetSearch, NoiseIsNothing)
+{
+  const ColumnSums data(drawnNumbers(SumRows, 8, 3), drawnNumbers(SumRows, 1, 4));
+  const msi::FoundSets sets = foundSets(data);
+  EXPECT_TRUE(sets.best->set.empty());
+  EXPECT_EQ(msi::effectProbabilities(data, sets).size(), 9U); // each effect, and "nothing"
+}
+
+TEST(SetSearch, TwoThatDoTheSameAreEquivalent)
+{
+  Eigen::MatrixXd X = drawnNumbers(SumRows, 6, 5);
+  X.col(4) = X.col(1);
+  const ColumnSums data(X, 4.0 * X.col(1) + drawnNumbers(SumRows, 1, 6));
+  const msi::FoundSets sets = foundSets(data);
+  ASSERT_EQ(sets.best->set.size(), 1U);
+  const msi::GapCause cause = msi::foundCauses(data, sets, 1.0).front();
+  const std::size_t other = sets.best->set.front() == 1 ? 4 : 1;
+  EXPECT_EQ(cause.equivalent, std::vector<std::string>{ data.options()[other].effect->name });
+  EXPECT_NEAR(probabilityOf(data, sets, 1), probabilityOf(data, sets, 4), 1e-9);
+}
+
+// The first column takes much of what the sum of two others does, and goes when they are both there.
+TEST(SetSearch, AnEffectThatOnlyStoodInForOthersIsDropped)
+{
+  Eigen::MatrixXd X = drawnNumbers(SumRows, 6, 7);
+  X.col(0) = 0.7 * (X.col(2) + X.col(3)) + 0.3 * X.col(0);
+  const ColumnSums data(X, 4.0 * X.col(2) + 4.0 * X.col(3) + drawnNumbers(SumRows, 1, 8));
+  std::vector<std::size_t> set = foundSets(data).best->set;
+  std::sort(set.begin(), set.end());
+  EXPECT_EQ(set, (std::vector<std::size_t>{ 2, 3 }));
+}
+
+TEST(SharesUnderPrecedence, AreShapleyValuesWithoutPrecedence)
+{
+  // Two players that do the same, and one of its own.
+  const std::vector<double> shrink{ 0.0, 0.6, 0.6, 0.6, 0.3, 0.9, 0.9, 0.9 };
+  const std::vector<double> share = msi::sharesUnderPrecedence(shrink, { 0, 0, 0 });
+  EXPECT_NEAR(share[0], 0.3, 1e-12);
+  EXPECT_NEAR(share[1], 0.3, 1e-12);
+  EXPECT_NEAR(share[2], 0.3, 1e-12);
+}
+
+TEST(SharesUnderPrecedence, ThoseThatComeLaterGetWhatTheOthersLeave)
+{
+  const std::vector<double> shrink{ 0.0, 0.8, 0.9, 1.0 };
+  const std::vector<double> share = msi::sharesUnderPrecedence(shrink, { 0, 1 });
+  EXPECT_NEAR(share[0], 0.8, 1e-12);
+  EXPECT_NEAR(share[1], 0.2, 1e-12);
+}
+
+} // namespace

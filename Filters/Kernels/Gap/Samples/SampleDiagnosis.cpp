@@ -1,0 +1,258 @@
+#include "Kernels/Gap/Samples/SampleDiagnosis.h"
+
+#include "Kernels/Gap/Diagnosis/FoundCauses.h"
+#include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Gap/GapCertainty.h"
+#include "Kernels/Gap/GapData.h"
+#include "Kernels/Gap/GapEvidence.h"
+#include "Kernels/Gap/GapNoise.h"
+#include "Kernels/Gap/GapNotes.h"
+#include "Kernels/Gap/HeldOut.h"
+#include "Kernels/Gap/OrderBreaks.h"
+#include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Gap/ResidualScatter.h"
+#include "Kernels/Gap/Samples/SampleObservation.h"
+#include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/TableDecisions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int MostBreaks = 6;
+
+// SampleProgress over jobs that may run on several threads.
+class SampleProgress
+{
+public:
+  SampleProgress(const GapOptions& options, double steps)
+    : Report(options.progress)
+    , Exclusive(options.exclusive)
+    , Steps(steps)
+  {
+  }
+  bool stopped() const
+  {
+    bool now = false;
+    alone([&] { now = Stopped; });
+    return now;
+  }
+  void step(const char* what, double count = 1.0)
+  {
+    alone(
+      [&]
+      {
+        Done += count;
+        ask(what);
+      });
+  }
+  bool ask()
+  {
+    bool now = false;
+    alone(
+      [&]
+      {
+        ask("searching for effects");
+        now = Stopped;
+      });
+    return now;
+  }
+
+private:
+  void alone(const std::function<void()>& body) const
+  {
+    if (Exclusive)
+    {
+      Exclusive(body);
+    }
+    else
+    {
+      body();
+    }
+  }
+  void ask(const char* what)
+  {
+    if (Report && !Stopped && !Report(std::fmin(Done / Steps, 1.0), what))
+    {
+      Stopped = true;
+    }
+  }
+  std::function<bool(double, const char*)> Report;
+  std::function<void(const std::function<void()>&)> Exclusive;
+  bool Stopped = false;
+  double Done = 0.0;
+  double Steps;
+};
+
+// Takes over what was found; the sum of the causes' shares.
+double credit(
+  GapReport& report, const SampleObservation& observation, const FoundSets& found, double shrink)
+{
+  const EffectSet& effects = static_cast<const SampleFit&>(*found.best).effects;
+  report.correction = effects.simulated();
+  report.whiteAfterEffects = effects.whiteAfterEffects();
+  return creditCauses(report, foundCauses(observation, found, shrink));
+}
+
+}
+
+std::optional<GapReport> diagnoseSamples(const GapCapture& capture, const GapOptions& options)
+{
+  for (const std::string& name : options.without)
+  {
+    if (findEffect(name) == nullptr)
+    {
+      throw std::invalid_argument("there is no effect '" + name + "' to leave out");
+    }
+  }
+  GapData data = prepareGapData(capture, options);
+  NoiseFinding noise = findNoise(data, capture.noise);
+  if (noise.unknown)
+  {
+    setUnknownNoise(data);
+  }
+  else
+  {
+    data.variance = readingVariance(data, noise.reading);
+  }
+  const Eigen::MatrixXd integration = integrationVariance(data, capture.wavelengths);
+  data.variance += integration;
+  if (options.reflectanceNoise)
+  {
+    data.variance.colwise() +=
+      *options.reflectanceNoise * *options.reflectanceNoise * reflectanceErrorGain(data.camera);
+  }
+  setWeights(data);
+
+  GapReport report;
+  const Eigen::MatrixXd before = measuredOnly(data, data.observed - data.simulated);
+  SampleProgress progress(options, data.folds + 4.0);
+  const std::vector<EffectChoice> choices = choicesFor(data.scene, options.without);
+  const SampleObservation observation(data, data.usable, choices, options.seed);
+  FoundSets found;
+  Eigen::MatrixXd after = before;
+  const std::function<bool()> stop = [&progress] { return progress.ask(); };
+  const auto job = [&](int number)
+  {
+    SetSearchLimits limits;
+    limits.maximumEffects = options.maximumCauses;
+    if (number == 0)
+    {
+      found = searchSets(observation, limits, stop);
+      progress.step("effects found", 2.0);
+      return;
+    }
+    std::vector<char> training = data.usable;
+    for (std::size_t i = 0; i < training.size(); ++i)
+    {
+      training[i] = training[i] != 0 && data.fold[i] != number - 1 ? 1 : 0;
+    }
+    const SampleObservation fold(
+      data, training, choices, options.seed + static_cast<std::uint64_t>(number));
+    limits.beamWidth = 1;
+    limits.optionsFitted = 5;
+    limits.exchange = false;
+    const FoundSets result = searchSets(fold, limits, stop);
+    const Eigen::MatrixXd left = leftOfHeldOut(data, fold.whole(*result.best), training);
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      if (data.fold[static_cast<std::size_t>(i)] == number - 1)
+      {
+        after.col(i) = left.col(i);
+      }
+    }
+    progress.step("checked on samples left out");
+  };
+  if (options.parallelFor)
+  {
+    options.parallelFor(data.folds + 1, job);
+  }
+  else
+  {
+    for (int number = 0; number <= data.folds && !progress.stopped(); ++number)
+    {
+      job(number);
+    }
+  }
+  if (progress.stopped())
+  {
+    return std::nullopt;
+  }
+
+  const AxisShares rest = shareOverAxes(data, after, true);
+  const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
+  const double doubted = limitIntegration(data, integration, unpredicted);
+  if (capture.noise && noise.degrees == 0.0)
+  {
+    const Eigen::MatrixXd modelled = readingVariance(data, noise.reading);
+    noise.excess = excessScatter(data, after, modelled, data.variance - modelled);
+    noise.unrepeated = noise.excess > 1.0;
+    noise.reading.read *= noise.excess;
+    noise.reading.shot *= noise.excess;
+    data.variance += readingVariance(data, noise.reading) - modelled;
+  }
+  double reflectanceNoise = options.reflectanceNoise.value_or(0.0);
+  if (!options.reflectanceNoise && !noise.unknown)
+  {
+    reflectanceNoise = reflectanceScatter(data, after, unpredicted);
+    data.variance.colwise() +=
+      reflectanceNoise * reflectanceNoise * reflectanceErrorGain(data.camera);
+  }
+  report.gap =
+    figuresOf(energiesOf(data, before, after), static_cast<double>(data.elements), options.seed);
+  const AxisShares where = shareOverAxes(data, before, true);
+  report.where = where.axes;
+  report.changePoints = OrderBreaks::significant(observation.fitter(), data.simulated, MostBreaks);
+  progress.step("axes shared");
+
+  const bool causes = !found.best->set.empty();
+  const double shrink = report.gap.shrink;
+  const EffectFit best = observation.whole(*found.best);
+  const double alone = shrinkOf(observation.fitter(), best); // all samples took part in the choice
+  if (causes && shrink > 0.0 && noticeable(data, before, after, integration))
+  {
+    const double share = credit(report, observation, found, shrink);
+    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest.axes) : "";
+    report.verdict = verdictOf(shrink, share, false);
+  }
+  else if (causes && alone >= ExplainedShrink &&
+    inFewSamples(data, best.predicted - data.simulated))
+  {
+    report.unconfirmed = true;
+    credit(report, observation, found, TableDecision::UnconfirmedShare * alone);
+    report.unexplained.where = whereIs(where.axes);
+    report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
+  }
+  else if ((predictable(data, before, where) &&
+             where.predictable > negligibleEnergy(data, after, integration)) ||
+    beyondNoise(report.gap, doubted))
+  {
+    report.verdict = GapVerdict::Unexplained;
+    report.unexplained = { 1.0, whereIs(where.axes) };
+  }
+  if (report.correction.empty())
+  {
+    report.gap.rmsAfter = report.gap.rmsBefore;
+    report.gap.shrink = 0.0;
+    report.gap.shrinkInterval = { 0.0, 0.0 };
+    after = before;
+  }
+  report.candidates = foundCandidates(observation, found, options.seed);
+  report.probabilities = effectProbabilities(observation, found);
+  addExcessNoise(report, data, noise, capture.noise, options.without);
+  recommendCapture(report);
+  report.notes = notesOn(data, capture, noise, reflectanceNoise, report);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  report.gapBefore = (data.count.array() > 0.0).select(before, nan);
+  report.gapAfter = (data.count.array() > 0.0).select(after, nan);
+  progress.step("done", 10.0);
+  return report;
+}
+
+} // namespace msi

@@ -1,0 +1,248 @@
+#include "Kernels/Gap/Samples/SampleObservation.h"
+
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/EffectForms.h"
+#include "Kernels/Gap/EffectScreen.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+constexpr FitEffort NoStep{ 0, 1.0 };
+
+const SampleFit& sampleFit(const ObservedFit& fit)
+{
+  return static_cast<const SampleFit&>(fit);
+}
+
+std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, const GapData& data)
+{
+  std::vector<GapOption> options;
+  for (const EffectChoice& choice : choices)
+  {
+    const auto& parameters = choice.form->parameters;
+    const bool onlyMedium = !choice.medium.empty() && data.scene.media().size() == 1;
+    options.push_back({ choice.effect, choice.form->name, choice.medium,
+      std::any_of(parameters.begin(), parameters.end(),
+        [](const EffectParameter& parameter) { return parameter.perChannel && !parameter.given; }),
+      Decision::EffectImprobability +
+        Decision::FormImprobability *
+          static_cast<double>(
+            choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0)) +
+        (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter
+            ? Decision::EffectImprobability
+            : 0.0) +
+        (onlyMedium ? Decision::EffectImprobability : 0.0) });
+  }
+  return options;
+}
+
+// Covariance of the free parameters before the data speak. The variance of numbers of single channels is learned from
+// them, and their mean where the effect also has a form with one number for all channels; surprise: half their sum of
+// squares over that variance.
+Eigen::MatrixXd priorCovariance(const EffectFit& fit, double& surprise)
+{
+  const auto count = static_cast<Eigen::Index>(fit.free.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index first = 0; first < count;)
+  {
+    const FreeParameter& parameter = fit.free[static_cast<std::size_t>(first)];
+    Eigen::Index size = 1;
+    while (first + size < count &&
+      fit.free[static_cast<std::size_t>(first + size)].group == parameter.group)
+    {
+      ++size;
+    }
+    auto block = covariance.block(first, first, size, size);
+    const double variance = parameter.spread * parameter.spread;
+    if (parameter.channel < 0)
+    {
+      block.diagonal().setConstant(variance);
+    }
+    else
+    {
+      Eigen::ArrayXd deviation(size);
+      for (Eigen::Index p = 0; p < size; ++p)
+      {
+        deviation[p] =
+          valueOf(fit.set, fit.free[static_cast<std::size_t>(first + p)]) - parameter.neutral;
+      }
+      const auto& common = fit.set.choices[parameter.effect].effect->forms.front().parameters;
+      if (std::none_of(common.begin(), common.end(),
+            [](const EffectParameter& one) { return one.perChannel; }))
+      {
+        deviation -= deviation.mean();
+        block.setConstant(variance);
+      }
+      const double learned =
+        std::fmin(deviation.square().mean() + std::pow(1e-6 * parameter.scale, 2), variance);
+      block.diagonal().array() += learned;
+      surprise += 0.5 * deviation.square().sum() / learned;
+    }
+    first += size;
+  }
+  return covariance;
+}
+}
+
+SampleObservation::SampleObservation(const GapData& data, std::vector<char> training,
+  const std::vector<EffectChoice>& choices, std::uint64_t seed)
+  : Fitter(data, std::move(training), seed)
+  , Choices(choices)
+  , Options(gapOptions(choices, data))
+{
+}
+
+FitPointer SampleObservation::nominal() const
+{
+  return described(Fitter.nominal(), {});
+}
+
+EffectFit SampleObservation::linearised(const EffectSet& effects) const
+{
+  return Fitter.fit(effects, NoStep);
+}
+
+EffectFit SampleObservation::whole(const ObservedFit& fit) const
+{
+  return Fitter.fit(sampleFit(fit).effects, FinalFit);
+}
+
+std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) const
+{
+  std::vector<GapPreview> previews;
+  for (ScreenedEffect& screened :
+    screenEffects(Fitter, linearised(sampleFit(from).effects), Choices, 0.0))
+  {
+    const auto at = std::find_if(Choices.begin(), Choices.end(),
+      [&screened](const EffectChoice& choice)
+      {
+        return choice.sameCause(screened.choice) && choice.form == screened.choice.form &&
+          choice.whiteAfter == screened.choice.whiteAfter &&
+          choice.leveled == screened.choice.leveled;
+      });
+    previews.push_back({ static_cast<std::size_t>(at - Choices.begin()), std::move(screened.start),
+      screened.gain, static_cast<double>(screened.parameters) });
+  }
+  return previews;
+}
+
+FitPointer SampleObservation::extended(const ObservedFit& from, const GapPreview& with) const
+{
+  EffectSet effects = sampleFit(from).effects;
+  effects.add(Choices[with.option], Fitter.data().camera, with.start);
+  std::vector<std::size_t> set = from.set;
+  set.push_back(with.option);
+  EffectFit fit = Fitter.fit(std::move(effects), SearchFit);
+  return described(
+    withSecondary(Fitter, std::move(fit), from.set.size(), SearchFit), std::move(set));
+}
+
+FitPointer SampleObservation::reduced(const ObservedFit& from, std::size_t positions) const
+{
+  EffectSet effects = sampleFit(from).effects;
+  std::vector<std::size_t> set = from.set;
+  for (std::size_t p = set.size(); p-- > 0;)
+  {
+    if ((positions >> p & 1U) == 0)
+    {
+      effects.remove(p);
+      set.erase(set.begin() + static_cast<std::ptrdiff_t>(p));
+    }
+  }
+  return described(Fitter.fit(std::move(effects), SearchFit), std::move(set));
+}
+
+FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> set) const
+{
+  auto described = std::make_shared<SampleFit>();
+  described->set = std::move(set);
+  described->energy = fit.energy;
+  described->coherence = fit.energy > 0.0
+    ? fit.dispersion * std::fmax(Fitter.trainingElements(), 1.0) / fit.energy
+    : 1.0;
+  const Eigen::MatrixXd prior = priorCovariance(fit, described->surprise);
+  for (const FreeParameter& parameter : fit.free)
+  {
+    const double value = valueOf(fit.set, parameter);
+    described->atBound = described->atBound || value <= parameter.lower || value >= parameter.upper;
+  }
+  if (!fit.free.empty())
+  {
+    Eigen::MatrixXd information = fit.information;
+    for (std::size_t p = 0; p < fit.free.size(); ++p)
+    {
+      const auto at = static_cast<Eigen::Index>(p);
+      information(at, at) -= 1.0 / (fit.free[p].spread * fit.free[p].spread);
+    }
+    const Eigen::MatrixXd root = prior.llt().matrixL();
+    described->information = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+      root.transpose() * information * root, Eigen::EigenvaluesOnly)
+                               .eigenvalues()
+                               .cwiseMax(0.0);
+  }
+  // The place of a step is a number, too, found among those of the samples.
+  described->surprise += static_cast<double>(fit.set.steps()) * std::log(Fitter.trainingSamples());
+  described->effects = std::move(fit.set);
+  return described;
+}
+
+GroupEnergies SampleObservation::energies(const ObservedFit& fit) const
+{
+  const EffectFit whole = linearised(sampleFit(fit).effects);
+  const GapData& data = Fitter.data();
+  GroupEnergies energies;
+  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  {
+    const auto with = Fitter.weight().col(i).array() > 0.0;
+    if (with.any())
+    {
+      const auto sum = [&with](const auto& values) { return with.select(values, 0.0).sum(); };
+      energies.before.push_back(
+        sum((data.observed.col(i) - data.simulated.col(i)).array().square()));
+      energies.after.push_back(sum(whole.heldOut.col(i).array().square()));
+      energies.noise.push_back(sum(data.variance.col(i).array()));
+    }
+  }
+  return energies;
+}
+
+std::vector<std::vector<GapParameter>> SampleObservation::parameters(const ObservedFit& fit) const
+{
+  const EffectFit whole = linearised(sampleFit(fit).effects);
+  std::vector<std::vector<GapParameter>> all(whole.set.size());
+  if (whole.set.size() == 0)
+  {
+    return all;
+  }
+  const Eigen::VectorXd error = Fitter.covariance(whole).diagonal().cwiseMax(0.0).cwiseSqrt();
+  for (std::size_t e = 0; e < whole.set.size(); ++e)
+  {
+    for (std::size_t p = 0; p < whole.free.size(); ++p)
+    {
+      const FreeParameter& parameter = whole.free[p];
+      if (parameter.effect == e ||
+        (parameter.effect == whole.set.size() && whole.set.choices[e].leveled))
+      {
+        all[e].push_back({ parameter.name, valueOf(whole.set, parameter), parameter.unit,
+          error[static_cast<Eigen::Index>(p)] });
+      }
+    }
+    // The place of a step lies between two samples; the error is that of a uniform distribution there.
+    if (const auto place = whole.set.placeOf(e))
+    {
+      all[e].push_back({ place->parameter->name, whole.set.effects[e].parameters[place->index],
+        place->parameter->unit, 1.0 / (Fitter.trainingSamples() * std::sqrt(12.0)) });
+    }
+  }
+  return all;
+}
+
+} // namespace msi

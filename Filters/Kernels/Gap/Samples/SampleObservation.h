@@ -1,0 +1,50 @@
+// A table of samples as the diagnosis sees it.
+#pragma once
+
+#include "Kernels/Gap/Diagnosis/Observation.h"
+#include "Kernels/Gap/EffectFit.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace msi
+{
+
+class SampleFit : public ObservedFit
+{
+public:
+  EffectSet effects;
+};
+
+// Samples are the groups; only those with training != 0 are looked at.
+class SampleObservation : public Observation
+{
+public:
+  // Hold references to data.
+  SampleObservation(const GapData& data, std::vector<char> training,
+    const std::vector<EffectChoice>& choices, std::uint64_t seed);
+
+  const std::vector<GapOption>& options() const override { return Options; }
+  double elements() const override { return Fitter.trainingElements(); }
+  double noiseEnergy() const override { return Fitter.noiseEnergy(); }
+  FitPointer nominal() const override;
+  std::vector<GapPreview> previews(const ObservedFit& from) const override;
+  FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
+  FitPointer reduced(const ObservedFit& from, std::size_t positions) const override;
+  GroupEnergies energies(const ObservedFit& fit) const override;
+  std::vector<std::vector<GapParameter>> parameters(const ObservedFit& fit) const override;
+
+  const EffectFitter& fitter() const noexcept { return Fitter; }
+  // With everything that a fit knows, taken to the end.
+  EffectFit whole(const ObservedFit& fit) const;
+
+private:
+  FitPointer described(EffectFit fit, std::vector<std::size_t> set) const;
+  EffectFit linearised(const EffectSet& effects) const;
+
+  EffectFitter Fitter;
+  std::vector<EffectChoice> Choices;
+  std::vector<GapOption> Options;
+};
+
+} // namespace msi

@@ -18,7 +18,7 @@ import subprocess
 import sys
 
 ROOMS = ("Filters/", "Readers/", "Plugin/")
-TEST = re.compile(r"(^|/)(Testing/|Test[A-Z]\w*\.(cpp|cxx|dir)\b|\w+Probe\.cpp$)")
+TEST = re.compile(r"(^|/)(Testing/|Test[A-Z]\w*(/|\.(cpp|cxx)\b)|\w+Probe\.cpp$)")
 GROUP = re.compile(r"/Unity/\w+/unity_\w+\.cxx$")
 WRAPPERS = "Plugin/CMakeFiles/"  # generated
 # The sources of a group are included by it: checked like a main file. GCC's own warnings are unknown to clang.

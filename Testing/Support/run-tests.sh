@@ -50,7 +50,7 @@ case ${1:-} in
     ;;
 esac
 require_ctest_options "$@"
-prepare run build test
+prepare run window build test
 faces="plugin sanitize"
 build_preset plugin all -DBUILD_TESTING=ON
 build_preset sanitize all

@@ -15,7 +15,6 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-
 vtkImageData* errorsOf(vtkCIEDE2000Evaluator* evaluator)
 {
   return vtkImageData::SafeDownCast(evaluator->GetOutputDataObject(0));

@@ -17,7 +17,6 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-
 TEST(ErrorSummary, TellsTheFiguresOfAMap)
 {
   // 0, 0.125, 0.25, 0.25, 0.5 and one that is not known; the 95th percentile lies at 0.8 between the last two.

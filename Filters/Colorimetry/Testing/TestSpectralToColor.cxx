@@ -18,7 +18,6 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-
 vtkImageData* imageOf(vtkSpectralToColor* color)
 {
   return vtkImageData::SafeDownCast(color->GetOutputDataObject(0));

@@ -57,7 +57,8 @@ enum Bit : unsigned
   Brightens = 1U << 1,  // unless the white is balanced, it contains a gain common to all channels
   Adds = 1U << 2,       // adds to the response instead of multiplying it
   SmallError = 1U << 3, // gain, center or dark of each channel: every camera is off by a little
-  BesideLine = 1U << 4  // its given parameters are slope and constant of the line through the squared responses
+  BesideLine =
+    1U << 4 // its given parameters are slope and constant of the line through the squared responses
 };
 }
 

@@ -93,7 +93,9 @@ TEST_P(EveryMethod, GivesAPixelTheSameBytesInAnyBlock)
   const Eigen::MatrixXf single = responses.cast<float>();
   Eigen::MatrixXf estimate(whole.rows(), whole.cols());
   fitted.estimator->apply(single.data(), estimate.data(), nullptr, single.cols());
-  EXPECT_LT(largestDifference(estimate.cast<double>(), whole), 1e-4);
+  // transfer takes fewer points in single precision: at most .0007 on real pairs (Documentation/Decisions/reflectance-estimation.md).
+  EXPECT_LT(
+    largestDifference(estimate.cast<double>(), whole), GetParam() == "transfer" ? 1e-3 : 1e-4);
 }
 
 TEST_P(EveryMethod, KeepsNaNInItsPixel)

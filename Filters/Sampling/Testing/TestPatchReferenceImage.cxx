@@ -16,7 +16,6 @@ namespace
 using namespace msi;
 using namespace msi::testing;
 
-
 std::string errorWith(vtkImageData* labels, vtkTable* patches)
 {
   vtkNew<vtkPatchReferenceImage> reference;

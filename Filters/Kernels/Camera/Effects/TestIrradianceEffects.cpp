@@ -26,7 +26,8 @@ const Eigen::RowVectorXd White = Eigen::RowVectorXd::Ones(48);
 
 TEST(IlluminationGradient, IsAPlaneOverTheField)
 {
-  const Eigen::MatrixXd u = respondToFlat(White, { "illumination_gradient", "", "", { 0.10, -0.04 } });
+  const Eigen::MatrixXd u =
+    respondToFlat(White, { "illumination_gradient", "", "", { 0.10, -0.04 } });
   EXPECT_NEAR(u(3, 0), 1.0 - 0.10 + 0.04 * 25.0 / 35.0, 1e-14);
   EXPECT_NEAR(u(3, 7), 1.0 + 0.10 + 0.04 * 25.0 / 35.0, 1e-14);
   EXPECT_NEAR(u(0, 47), 1.0 + 0.10 - 0.04 * 25.0 / 35.0, 1e-14);
@@ -55,7 +56,8 @@ TEST(Vignetting, IsTheFourthPowerOfTheCosine)
 
 TEST(Vignetting, QuadraticFalloffIsAboutItsCenter)
 {
-  const Eigen::MatrixXd u = respondToFlat(White, { "vignetting", "", "", { 0.2, -1.0, -25.0 / 35.0 } });
+  const Eigen::MatrixXd u =
+    respondToFlat(White, { "vignetting", "", "", { 0.2, -1.0, -25.0 / 35.0 } });
   EXPECT_NEAR(u(2, 0), 1.0, 1e-14);
   EXPECT_NEAR(u(2, 7), 1.0 - 0.2 * 4.0, 1e-14);
 }
@@ -95,7 +97,8 @@ TEST(VeilingGlare, ConservingKeepsTheSceneMean)
 
 TEST(LocalStrayLight, LeavesAnEvenFieldAlone)
 {
-  const Eigen::MatrixXd u = respondToFlat(0.5 * White, { "local_stray_light", "", "", { 0.2, 8.0 } });
+  const Eigen::MatrixXd u =
+    respondToFlat(0.5 * White, { "local_stray_light", "", "", { 0.2, 8.0 } });
   EXPECT_LT((u.array() - 0.5).abs().maxCoeff(), 1e-14);
 }
 
@@ -103,7 +106,8 @@ TEST(LocalStrayLight, BrightensTheNeighboursOfABrightSample)
 {
   Eigen::RowVectorXd reflectance = Eigen::RowVectorXd::Zero(48);
   reflectance[9] = 0.8; // second row, second column: eight neighbours
-  const Eigen::MatrixXd u = respondToFlat(reflectance, { "local_stray_light", "", "", { 0.1, 8.0 } });
+  const Eigen::MatrixXd u =
+    respondToFlat(reflectance, { "local_stray_light", "", "", { 0.1, 8.0 } });
   EXPECT_NEAR(u(0, 9), 0.8 * 0.9, 1e-14);
   EXPECT_NEAR(u(0, 10), 0.1 * 0.8 / 8.0, 1e-14);
   EXPECT_NEAR(u(0, 0), 0.1 * 0.8 / 3.0, 1e-14); // a corner has three neighbours

@@ -87,7 +87,8 @@ TEST(FilterShift, KeepsTheResponseToWhite)
 {
   const Eigen::VectorXd white = Eigen::VectorXd::Ones(fineGrid().size());
   EXPECT_LT(
-    (responseTo(white, { "filter_shift", "", "", { 15.0 } }).array() - 1.0).abs().maxCoeff(), 1e-13);
+    (responseTo(white, { "filter_shift", "", "", { 15.0 } }).array() - 1.0).abs().maxCoeff(),
+    1e-13);
 }
 
 TEST(FilterBandwidth, WidensAGaussianPassband)

@@ -75,10 +75,10 @@ def diagnose_capture(folder):
 
 def before_and_after(results):
     """The result in one sentence."""
+    means = [estimation.mean_of(results[name], "dE00", "D65") for name in ("direct", "transfer")]
     if command.rank() != 0:
         return ""
-    (before, _, count), (after, _, _) = (estimation.mean_of(results[name], "dE00", "D65")
-                                         for name in ("direct", "transfer"))
+    (before, _, count), (after, _, _) = means
     return (f"{TUNING} measured swatches reduce the mean color error of the {count} swatches in the image from "
             f"\u0394E00 {before:.1f} to {after:.1f} (D65).")
 

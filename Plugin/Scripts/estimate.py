@@ -115,10 +115,10 @@ def summarize(options, judged, outside):
     """The result in one sentence, and what is known of the pixels' responses."""
     range_text = "It is not known which responses the transform was fitted on." if outside is None else \
         f"{100.0 * outside:.1f} % of the pixels have responses outside of the range of the fitted samples."
-    if judged is None or command.rank() != 0:
+    means = judged and [estimation.mean_of(judged, *what) for what in (("dE00", options.illuminant[0]), ("rms",))]
+    if means is None or command.rank() != 0:
         return f"Estimated with the method {options.method if options.tuning else 'calibration'}; {range_text}", range_text
-    mean, largest, count = estimation.mean_of(judged, "dE00", options.illuminant[0])
-    rms = estimation.mean_of(judged, "rms")[0]
+    (mean, largest, count), (rms, _, _) = means
     return (f"{count} held-out patches: mean \u0394E00 {mean:.2f}, largest {largest:.2f} ({options.illuminant[0]}); "
             f"spectral rms {rms:.4f}. {range_text}"), range_text
 

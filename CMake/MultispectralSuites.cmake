@@ -6,7 +6,8 @@ if(NOT EXISTS "${program}")
   return()
 endif()
 set(list "${program}.suites")
-if("${program}" IS_NEWER_THAN "${list}" OR "${CMAKE_CURRENT_LIST_FILE}" IS_NEWER_THAN "${list}")
+if("${program}" IS_NEWER_THAN "${list}" OR "${CMAKE_CURRENT_LIST_FILE}" IS_NEWER_THAN "${list}"
+  OR "${CMAKE_PARENT_LIST_FILE}" IS_NEWER_THAN "${list}")
   execute_process(COMMAND "${program}" --gtest_list_tests "--gtest_filter=${filter}"
     OUTPUT_VARIABLE text ERROR_VARIABLE error RESULT_VARIABLE status)
   if(NOT status EQUAL 0)

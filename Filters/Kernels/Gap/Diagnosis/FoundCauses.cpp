@@ -215,6 +215,7 @@ std::vector<std::pair<std::string, double>> effectProbabilities(
     }
   }
   std::vector<std::pair<std::string, double>> probabilities;
+  probabilities.reserve(effects.size());
   for (const auto& [name, weight] : effects)
   {
     probabilities.emplace_back(name, weight / all);

@@ -219,7 +219,7 @@ void vtkSceneReader::Open()
     if (auto table = tableReaderOf(*tables[i]))
     {
       parts->messages->watch(table);
-      parts->last[static_cast<std::size_t>(PatchPort + i)] = table;
+      parts->last[static_cast<std::size_t>(PatchPort) + static_cast<std::size_t>(i)] = table;
     }
   }
   note(this->Notes, "image", scene.image);

@@ -15,7 +15,7 @@ import tempfile
 import numpy as np
 
 TABLES = pathlib.Path(__file__).resolve().parents[3] / "Data" / "Tables"
-GRIDS = [(400, 700, 10), (380, 730, 10), (380, 780, 5), (380, 780, 1)]
+GRIDS = [(400, 700, 10), (380, 730, 10), (380, 780, 5), (380, 780, 1), (400, 700, 20), (380, 780, 20)]
 ILLUMINANTS = ["D65", "D50", "A", "FL2"]
 OBSERVERS = {"2": "1931_2", "10": "1964_10"}
 

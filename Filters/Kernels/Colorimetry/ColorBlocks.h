@@ -8,6 +8,9 @@
 namespace msi
 {
 
+// A channel beyond 0..1 by more than this is out of gamut.
+inline constexpr double SRGBGamutTolerance = 1e-6;
+
 // In and out may be the same. Defined for float and double.
 template <typename Scalar>
 void labFromXYZ(

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 
 namespace msi
 {
@@ -20,20 +21,20 @@ Eigen::Vector3d fromChromaticity(double x, double y)
 }
 
 // Linear RGB to XYZ, Y = 1 for white: the primaries, scaled so that their sum is the white.
-Eigen::Matrix3d primaries(const Eigen::Vector3d& white)
+Eigen::Matrix3d primaries(DisplaySpace display, const Eigen::Vector3d& white)
 {
   Eigen::Matrix3d columns;
-  columns << fromChromaticity(0.64, 0.33), fromChromaticity(0.30, 0.60),
-    fromChromaticity(0.15, 0.06);
+  if (display == DisplaySpace::SRGB)
+  {
+    columns << fromChromaticity(0.64, 0.33), fromChromaticity(0.30, 0.60),
+      fromChromaticity(0.15, 0.06);
+  }
+  else
+  {
+    columns << fromChromaticity(0.680, 0.320), fromChromaticity(0.265, 0.690),
+      fromChromaticity(0.150, 0.060);
+  }
   return columns * (columns.inverse() * white).asDiagonal();
-}
-
-Eigen::Matrix3d bradford(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
-{
-  Eigen::Matrix3d cones;
-  cones << 0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296;
-  const Eigen::Vector3d scale = (cones * to).array() / (cones * from).array();
-  return cones.inverse() * scale.asDiagonal() * cones;
 }
 
 template <typename Scalar>
@@ -55,11 +56,38 @@ SRGBClipping sRGBOfBlock(const Eigen::Matrix3d& linearMatrix,
 }
 }
 
-SRGB::SRGB(const Eigen::Vector3d& whitePoint)
+std::vector<std::string> displaySpaceNames()
+{
+  return { "sRGB", "Display P3" };
+}
+
+DisplaySpace displaySpaceNamed(std::string_view name)
+{
+  if (name == "sRGB")
+  {
+    return DisplaySpace::SRGB;
+  }
+  if (name == "Display P3")
+  {
+    return DisplaySpace::DisplayP3;
+  }
+  throw std::invalid_argument(
+    "there is no display space '" + std::string(name) + "'; expected sRGB or Display P3");
+}
+
+SRGB::SRGB(const Eigen::Vector3d& whitePoint, DisplaySpace display, ChromaticAdaptation adaptation)
 {
   const Eigen::Vector3d source = validWhitePoint(whitePoint) / WhiteY;
   const Eigen::Vector3d d65 = fromChromaticity(0.3127, 0.3290);
-  LinearMatrix = primaries(d65).inverse() * bradford(source, d65) / WhiteY;
+  LinearMatrix =
+    primaries(display, d65).inverse() * adaptationMatrix(adaptation, source, d65) / WhiteY;
+}
+
+bool SRGB::isOutOfGamut(const Eigen::Vector3d& xyz) const noexcept
+{
+  const Eigen::Array3d linear = LinearMatrix * xyz;
+  return linear.isFinite().all() &&
+    (linear < -SRGBGamutTolerance || linear > 1.0 + SRGBGamutTolerance).any();
 }
 
 SRGBClipping SRGB::apply(

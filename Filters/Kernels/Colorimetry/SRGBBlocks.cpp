@@ -14,8 +14,6 @@ namespace HWY_NAMESPACE
 
 namespace
 {
-constexpr double GamutTolerance = 1e-6;
-
 struct SRGBKernel
 {
   const double* Matrix;
@@ -30,7 +28,8 @@ struct SRGBKernel
 
   static Mask outOfGamut(Vector linear)
   {
-    return hn::Or(hn::Lt(linear, set(-GamutTolerance)), hn::Gt(linear, set(1.0 + GamutTolerance)));
+    return hn::Or(
+      hn::Lt(linear, set(-SRGBGamutTolerance)), hn::Gt(linear, set(1.0 + SRGBGamutTolerance)));
   }
 
   // x^(1/2.4) is the cube root times its own fourth root.

@@ -1,4 +1,4 @@
-// The CIE standard colorimetric observers.
+// The CIE standard colorimetric observers, and observers of the user's own.
 #pragma once
 
 #include "Kernels/Spectra/WavelengthGrid.h"
@@ -18,6 +18,12 @@ namespace msi
 class StandardObserver
 {
 public:
+  // An observer of one's own: the rows are x-bar, y-bar and z-bar. Functions known at more than 1 nm
+  // are carried to 1 nm by cubic Lagrange interpolation.
+  // Throws std::invalid_argument where the sizes disagree, a value is not finite (naming its wavelength),
+  // or y-bar has no positive sum.
+  StandardObserver(std::string name, WavelengthGrid wavelengths, Eigen::Matrix3Xd functions);
+
   static const StandardObserver& cie1931TwoDegree();
   static const StandardObserver& cie1964TenDegree();
 

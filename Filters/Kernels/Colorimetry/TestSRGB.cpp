@@ -36,6 +36,34 @@ TEST(SRGB, MatrixIsThatOfTheStandard)
   EXPECT_LT((100.0 * SRGB(D65).linearMatrix() - printed).cwiseAbs().maxCoeff(), 5e-4);
 }
 
+// The matrix that CSS Color 4 states for Display P3.
+TEST(SRGB, DisplayP3IsThatOfCSS)
+{
+  Matrix3d published;
+  published << 2.4934969119, -0.9313836179, -0.4027107845, -0.8294889696, 1.7626640603,
+    0.0236246858, 0.0358458302, -0.0761723893, 0.9568845240;
+  const SRGB p3(D65, msi::displaySpaceNamed("Display P3"));
+  EXPECT_LT((100.0 * p3.linearMatrix() - published).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_THROW(msi::displaySpaceNamed("Rec. 2020"), std::invalid_argument);
+}
+
+TEST(SRGB, ThePrimariesOfDisplayP3AreOutOfTheGamutOfSRGB)
+{
+  const SRGB p3(D65, msi::DisplaySpace::DisplayP3);
+  const SRGB srgb(D65);
+  const Matrix3d primaries = p3.linearMatrix().inverse();
+  for (Eigen::Index i = 0; i < 3; ++i)
+  {
+    const Vector3d xyz = 0.9 * primaries.col(i);
+    EXPECT_FALSE(p3.isOutOfGamut(xyz));
+    EXPECT_EQ(srgb.isOutOfGamut(xyz), i < 2); // their blues are one
+    msi::SRGBClipping clipping;
+    rgbOf(srgb, xyz, &clipping);
+    EXPECT_EQ(clipping.outOfGamut, i < 2 ? 1 : 0);
+  }
+  EXPECT_FALSE(srgb.isOutOfGamut(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())));
+}
+
 // Bruce Lindbloom's matrix from XYZ under D50 to sRGB, by Bradford; his D65 has slightly other digits.
 TEST(SRGB, AdaptsByBradford)
 {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace
@@ -58,6 +59,49 @@ TEST(StandardObserver, AnUnknownNameListsTheKnownOnes)
     EXPECT_STREQ(error.what(),
       "unknown standard observer 'CIE 2006'; known are: 'CIE 1931 2 degree' 'CIE 1964 10 degree'");
   }
+}
+
+// A table at 5 nm comes close to the observer at 1 nm that it was taken from.
+TEST(StandardObserver, OnesOwnIsCarriedToOneNanometre)
+{
+  const auto& known = StandardObserver::named("2");
+  const auto coarse = msi::WavelengthGrid::uniform(360.0, 830.0, 5.0);
+  Eigen::Matrix3Xd functions(3, coarse.size());
+  for (Eigen::Index i = 0; i < coarse.size(); ++i)
+  {
+    functions.col(i) = known.functions().col(5 * i);
+  }
+  const StandardObserver own("mine", coarse, functions);
+  EXPECT_EQ(own.name(), "mine");
+  EXPECT_EQ(own.wavelengths(), known.wavelengths());
+  EXPECT_LT((own.functions() - known.functions()).cwiseAbs().maxCoeff(), 3e-3);
+  const StandardObserver fine("mine", known.wavelengths(), known.functions());
+  EXPECT_EQ(fine.functions(), known.functions());
+}
+
+TEST(StandardObserver, RefusesWhatIsNoObserver)
+{
+  const msi::WavelengthGrid grid({ 400.0, 401.0 });
+  const auto message = [&grid](const Eigen::Matrix3Xd& functions) -> std::string
+  {
+    try
+    {
+      StandardObserver("mine", grid, functions);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return error.what();
+    }
+    return {};
+  };
+  Eigen::Matrix3Xd functions = Eigen::Matrix3Xd::Ones(3, 2);
+  EXPECT_EQ(message(functions), "");
+  functions(2, 1) = std::nan("");
+  EXPECT_EQ(message(functions), "observer 'mine' has a value that is not finite at 401 nm");
+  functions.setZero();
+  EXPECT_NE(message(functions).find("y-bar"), std::string::npos);
+  EXPECT_EQ(message(Eigen::Matrix3Xd::Ones(3, 3)),
+    "observer 'mine' has 3 values of each function for 2 wavelengths; expected one each");
 }
 
 }

@@ -104,6 +104,14 @@ TEST(TristimulusTransform, MatchesArgyllOnTheSameGrid)
     EXPECT_LT(got.xyz, StatedXYZ);
     EXPECT_LT(got.lab, StatedLab);
   }
+  // At 20 nm, the coarsest that ASTM E308 has weights for.
+  for (const auto& grid :
+    { WavelengthGrid::uniform(400.0, 700.0, 20.0), WavelengthGrid::uniform(380.0, 780.0, 20.0) })
+  {
+    const Deviation got = deviation(grid, grid, InterpolationMethod::CubicLagrange);
+    EXPECT_LT(got.xyz, StatedXYZ);
+    EXPECT_LT(got.lab, StatedLab);
+  }
   // At 5 nm ArgyllCMS interpolates linearly.
   const auto fine = WavelengthGrid::uniform(380.0, 780.0, 5.0);
   const Deviation got = deviation(fine, fine, InterpolationMethod::Linear);
@@ -161,7 +169,11 @@ TEST(TristimulusTransform, WhitePointsHaveThePublishedChromaticities)
     { "FL11", 0.3805, 0.3769, 1e-4 }, { "FL12", 0.4370, 0.4042, 1e-4 },
     { "LED-B1", 0.4560, 0.4078, 1e-4 }, { "LED-B2", 0.4357, 0.4012, 1e-4 },
     { "LED-B3", 0.3756, 0.3723, 1e-4 }, { "LED-B4", 0.3422, 0.3502, 1e-4 },
-    { "LED-B5", 0.3118, 0.3236, 1e-4 } };
+    { "LED-B5", 0.3118, 0.3236, 1e-4 }, { "LED-BH1", 0.4474, 0.4066, 1e-4 },
+    { "LED-RGB1", 0.4557, 0.4211, 1e-4 }, { "LED-V1", 0.4548, 0.4044, 1e-4 },
+    { "LED-V2", 0.3781, 0.3775, 1e-4 }, { "C", 0.31006, 0.31616, 2.5e-5 },
+    { "D55", 0.33243, 0.34744, 2.5e-5 }, { "D75", 0.29903, 0.31488, 2.5e-5 },
+    { "E", 0.3333, 0.3333, 1e-4 } };
   const auto grid = WavelengthGrid::uniform(400.0, 700.0, 10.0);
   for (const auto& one : published)
   {

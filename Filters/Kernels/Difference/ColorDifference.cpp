@@ -3,6 +3,8 @@
 #include "Kernels/Difference/CIE76.h"
 #include "Kernels/Difference/CIEDE2000.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -131,6 +133,30 @@ void requireFactor(const ColorDifferenceFormula& formula, double factor, const c
   }
 }
 
+// "1:1" or "2:1:1"; the hue's factor is 1 where it is left out.
+ColorDifferenceFactors factorsIn(std::string_view text, std::string_view whole)
+{
+  std::vector<double> numbers;
+  bool good = !text.empty();
+  while (good && !text.empty())
+  {
+    const std::string_view word = text.substr(0, text.find(':'));
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    good = error == std::errc() && end == word.data() + word.size();
+    numbers.push_back(value);
+    good = good && (word.size() == text.size() || word.size() + 1 < text.size());
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+  }
+  if (!good || numbers.size() < 2 || numbers.size() > 3)
+  {
+    throw std::invalid_argument("the color difference '" + std::string(whole) +
+      "' has no readable factors; expected lightness : chroma or lightness : chroma : hue, like "
+      "cmc(1:1) or ciede2000(2:1:1)");
+  }
+  return { numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1.0 };
+}
+
 template <typename Scalar>
 void applyFormula(const ColorDifferenceFormula& formula, const ColorDifferenceFactors& factors,
   const CIEDE2000& blocks, const Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>>& lab1,
@@ -181,6 +207,35 @@ const ColorDifferenceFormula& colorDifferenceNamed(std::string_view name)
     message << std::exchange(separator, ", ") << formula.name;
   }
   throw std::invalid_argument(message.str());
+}
+
+ColorDifference ColorDifference::named(std::string_view text)
+{
+  const auto bracket = text.find('(');
+  if (bracket == std::string_view::npos || text.back() != ')')
+  {
+    return ColorDifference(colorDifferenceNamed(text));
+  }
+  const auto inner = text.substr(bracket + 1, text.size() - bracket - 2);
+  return ColorDifference(colorDifferenceNamed(text.substr(0, bracket)), factorsIn(inner, text));
+}
+
+std::string ColorDifference::metric() const
+{
+  const ColorDifferenceFactors& usual = Formula->factors;
+  std::ostringstream text;
+  text << Formula->metric;
+  if (Factors.lightness != usual.lightness || Factors.chroma != usual.chroma ||
+    Factors.hue != usual.hue)
+  {
+    text << '(' << Factors.lightness << ':' << Factors.chroma;
+    if (Factors.hue != 1.0)
+    {
+      text << ':' << Factors.hue;
+    }
+    text << ')';
+  }
+  return text.str();
 }
 
 ColorDifference::ColorDifference(const ColorDifferenceFormula& formula)

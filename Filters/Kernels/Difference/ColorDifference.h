@@ -46,9 +46,9 @@ const ColorDifferenceFormula& colorDifferenceNamed(std::string_view name);
 //
 // Shape:    3 x pairs; a color is a column.
 // NaN:      a pair with a NaN gives NaN for itself and for no other.
-// Bytes:    a pair's value does not depend on which other pairs stand in the block; float blocks are
-//           computed in double and rounded once.
-// Accuracy: CIEDE2000 as in CIEDE2000.h, the others relative error below 1e-11.
+// Bytes:    a pair's value does not depend on which other pairs stand in the block.
+// Accuracy: CIEDE2000 as in CIEDE2000.h; the others relative error below 1e-11, float blocks computed in
+//           double and rounded once.
 // Errors:   the constructor throws std::invalid_argument unless all factors are finite and positive, and
 //           for a factor other than 1 of a formula that has none.
 class ColorDifference
@@ -57,7 +57,15 @@ public:
   explicit ColorDifference(const ColorDifferenceFormula& formula);
   ColorDifference(const ColorDifferenceFormula& formula, const ColorDifferenceFactors& factors);
 
+  // By name, where it has factors with or without them: "cie94", "cmc(1:1)" (lightness : chroma),
+  // "ciede2000(2:1:1)" (lightness : chroma : hue). Throws std::invalid_argument.
+  static ColorDifference named(std::string_view text);
+
   const ColorDifferenceFormula& formula() const noexcept { return *Formula; }
+  const ColorDifferenceFactors& factors() const noexcept { return Factors; }
+  // What a column of such differences is called: the formula's metric, with the factors where they are
+  // not the usual ones: "dE00", "dECMC(1:1)".
+  std::string metric() const;
 
   double operator()(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) const noexcept;
 

@@ -95,4 +95,26 @@ void goodnessOfFit(const Eigen::Ref<const Eigen::MatrixXd>& measured,
   }
 }
 
+// Kahan's formula: 2 atan2(|u - v|, |u + v|) of the unit vectors.
+void spectralAngle(const Eigen::Ref<const Eigen::MatrixXd>& measured,
+  const Eigen::Ref<const Eigen::MatrixXd>& estimated, Eigen::Ref<Eigen::VectorXd> angle) noexcept
+{
+  const auto product = [](const auto& s, const auto& e) { return (s * e).eval(); };
+  const Eigen::Index bands = measured.rows();
+  for (Eigen::Index i = 0; i < angle.size(); ++i)
+  {
+    const double* s = measured.col(i).data();
+    const double* e = estimated.col(i).data();
+    const double perS = 1.0 / std::sqrt(sumOverBands(s, s, bands, product));
+    const double perE = 1.0 / std::sqrt(sumOverBands(e, e, bands, product));
+    const auto apart = [perS, perE](const auto& a, const auto& b)
+    { return (a * perS - b * perE).square().eval(); };
+    const auto together = [perS, perE](const auto& a, const auto& b)
+    { return (a * perS + b * perE).square().eval(); };
+    angle(i) = 2.0 *
+      std::atan2(std::sqrt(sumOverBands(s, e, bands, apart)),
+        std::sqrt(sumOverBands(s, e, bands, together)));
+  }
+}
+
 } // namespace msi

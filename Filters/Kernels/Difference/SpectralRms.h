@@ -31,4 +31,10 @@ void goodnessOfFit(const Eigen::Ref<const Eigen::MatrixXd>& measured,
   const Eigen::Ref<const Eigen::MatrixXd>& estimated,
   Eigen::Ref<Eigen::VectorXd> coefficient) noexcept;
 
+// The spectral angle between both, in radians: 0 for spectra that differ by a positive factor only.
+// Source: Kruse and others, 1993, doi 10.1016/0034-4257(93)90013-N. Computed from the distance of the
+// unit vectors, which keeps small angles exact. NaN where one of the spectra is zero everywhere.
+void spectralAngle(const Eigen::Ref<const Eigen::MatrixXd>& measured,
+  const Eigen::Ref<const Eigen::MatrixXd>& estimated, Eigen::Ref<Eigen::VectorXd> angle) noexcept;
+
 } // namespace msi

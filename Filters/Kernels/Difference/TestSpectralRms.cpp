@@ -1,4 +1,5 @@
 #include "Kernels/Difference/CIE76.h"
+#include "Kernels/Difference/SpectralMetric.h"
 #include "Kernels/Difference/SpectralRms.h"
 
 #include <gtest/gtest.h>
@@ -48,6 +49,26 @@ TEST(SpectralRms, GoodnessOfFitIsTheCosineOfTheSpectra)
   EXPECT_DOUBLE_EQ(got(1), std::sqrt(0.5));
   EXPECT_EQ(got(2), 0.0);
   EXPECT_TRUE(std::isnan(got(3)));
+}
+
+TEST(SpectralRms, TheSpectralAngleIsThatBetweenVectors)
+{
+  MatrixXd measured = MatrixXd::Zero(5, 4);
+  MatrixXd estimated = MatrixXd::Zero(5, 4);
+  measured.col(0) << 0.1, 0.2, 0.3, 0.4, 0.5;
+  estimated.col(0) = 3.0 * measured.col(0);
+  measured(1, 1) = 0.5;
+  estimated.col(1) << 0.0, 0.7, 0.0, 0.7, 0.0; // 45 degrees
+  measured(0, 2) = 1.0;
+  estimated(0, 2) = 1.0;
+  estimated(4, 2) = 1e-9; // arccos of the cosine would give 0
+  VectorXd got(4);
+  msi::findSpectralMetric("sam")->apply(measured, estimated, got);
+  EXPECT_NEAR(got(0), 0.0, 1e-15);
+  EXPECT_NEAR(got(1), std::acos(-1.0) / 4.0, 1e-15);
+  EXPECT_NEAR(got(2), 1e-9, 1e-18);
+  EXPECT_TRUE(std::isnan(got(3)));
+  EXPECT_EQ(msi::findSpectralMetric("rmse"), nullptr);
 }
 
 TEST(SpectralRms, TheSameBytesForEverySplitAndAlignment)

@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 namespace msi
@@ -94,6 +92,7 @@ void leaveTilesToLibtiff()
 
 OpenedImage::OpenedImage(std::string path)
   : Path(std::move(path))
+  , Stamp(Path)
 {
   requireReadableFile(Path);
   leaveTilesToLibtiff();
@@ -148,16 +147,15 @@ void OpenedImage::addPage(OIIO::ImageSpec spec)
 // A header may ask for any size: samples that are not compressed have to be in the file.
 void OpenedImage::requirePossibleSize(const OIIO::ImageSpec& spec, const std::string& page) const
 {
-  std::error_code unknown;
-  const auto held = std::filesystem::file_size(Path, unknown);
+  const auto held = static_cast<double>(Stamp.size());
   const bool plain = std::string(formatName()) == "tiff" &&
     spec.get_string_attribute("compression", "none") == "none";
   const double asked = static_cast<double>(spec.image_bytes(true));
-  if (!unknown && plain && static_cast<double>(held) < asked)
+  if (plain && held < asked)
   {
     throw FormatError(Path,
       page + " is " + pixelsText(spec) + " of " + memoryText(asked) + ", the file holds " +
-        memoryText(static_cast<double>(held)),
+        memoryText(held),
       "a complete image", "the file seems to be cut off or damaged; copy it again");
   }
 }
@@ -191,6 +189,7 @@ void OpenedImage::read(
       : Input->read_scanlines(page, 0, spec.y + y, spec.y + y + step, 0, c0, c1, type, to);
     done = done && !Input->has_error(); // it has been seen to return true with an error
   }
+  Stamp.requireUnchanged(Path);
   if (!done)
   {
     throw FormatError(Path,

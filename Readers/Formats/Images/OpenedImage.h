@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Formats/SampleType.h"
+#include "Formats/Storage/FileStamp.h"
 
 #include <OpenImageIO/imageio.h>
 
@@ -29,7 +30,7 @@ public:
   SampleType sampleType(int page) const { return Types[static_cast<std::size_t>(page)]; }
 
   // Rows [y0, y1), all columns, channels [c0, c1): channels within pixels within rows.
-  // 'bytes' is resized.
+  // 'bytes' is resized. Errors: FormatError, also where the file was written to since it was opened.
   void read(int page, int y0, int y1, int c0, int c1, std::vector<unsigned char>& bytes) const;
 
 private:
@@ -37,6 +38,7 @@ private:
   void requirePossibleSize(const OIIO::ImageSpec& spec, const std::string& page) const;
 
   std::string Path;
+  FileStamp Stamp; // taken before the library opens the file
   std::unique_ptr<OIIO::ImageInput> Input;
   std::vector<OIIO::ImageSpec> Pages;
   std::vector<SampleType> Types;

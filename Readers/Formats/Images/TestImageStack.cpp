@@ -56,6 +56,27 @@ TEST_F(ImageStacks, WavelengthsInFileNamesDecideTheOrder)
   EXPECT_EQ(file->info().notes, (Files{ "wavelengths are those in the file names" }));
 }
 
+TEST_F(ImageStacks, WrittenOverAfterOpening)
+{
+  flat("a.tif", 1, 2);
+  setTime("a.tif", 1000000000);
+  const auto file = openSpectralImage(Files{ path("a.tif") });
+  EXPECT_EQ(valuesOf(*file), (Floats{ 1, 2 }));
+  flat("b.tif", 3, 4);
+  write("a.tif", read("b.tif")); // in place
+  setTime("a.tif", 1000000001);
+  EXPECT_EQ(errorOf([&] { valuesOf(*file); }),
+    "a.tif: was written to while it was read; expected a file that stays as it is; wait until it "
+    "is complete and read it again");
+}
+
+TEST_F(ImageStacks, ReplacedUnderItsNameStaysWhole)
+{
+  const auto file = openSpectralImage(Files{ flat("a.tif", 1, 2) });
+  std::filesystem::rename(flat("b.tif", 3, 4), path("a.tif"));
+  EXPECT_EQ(valuesOf(*file), (Floats{ 1, 2 }));
+}
+
 TEST_F(ImageStacks, NamesWithoutWavelengthsAreInNaturalOrder)
 {
   const auto file =

@@ -12,15 +12,44 @@ FileStamp::FileStamp(int descriptor) noexcept
   struct stat status = {};
   if (::fstat(descriptor, &status) == 0)
   {
-    Size = status.st_size;
-    Seconds = status.st_mtim.tv_sec;
-    Nanoseconds = status.st_mtim.tv_nsec;
+    take(status);
   }
+}
+
+FileStamp::FileStamp(const std::string& path) noexcept
+{
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) == 0)
+  {
+    take(status);
+  }
+}
+
+void FileStamp::take(const struct ::stat& status) noexcept
+{
+  Device = status.st_dev;
+  Inode = status.st_ino;
+  Size = status.st_size;
+  Seconds = status.st_mtim.tv_sec;
+  Nanoseconds = status.st_mtim.tv_nsec;
 }
 
 void FileStamp::requireUnchanged(int descriptor, const std::string& path) const
 {
-  const FileStamp now(descriptor);
+  requireSame(FileStamp(descriptor), path);
+}
+
+void FileStamp::requireUnchanged(const std::string& path) const
+{
+  const FileStamp now(path);
+  if (now.Device == Device && now.Inode == Inode)
+  {
+    requireSame(now, path);
+  }
+}
+
+void FileStamp::requireSame(const FileStamp& now, const std::string& path) const
+{
   if (now.Size < Size)
   {
     throw FormatError(path,

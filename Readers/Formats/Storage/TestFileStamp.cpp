@@ -4,8 +4,6 @@
 
 #include <array>
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace
@@ -18,13 +16,6 @@ protected:
   {
     std::array<char, 4> bytes{};
     return errorOf([&] { file.read(0, bytes.data(), bytes.size()); });
-  }
-
-  // A change in the same tick of the file system's clock would not be seen: set the time by hand.
-  void setTime(const std::string& name, time_t seconds) const
-  {
-    const std::array<timespec, 2> times = { { { seconds, 0 }, { seconds, 0 } } };
-    ASSERT_EQ(::utimensat(AT_FDCWD, path(name).c_str(), times.data(), 0), 0);
   }
 };
 

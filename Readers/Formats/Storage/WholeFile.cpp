@@ -1,6 +1,7 @@
 #include "Formats/Storage/WholeFile.h"
 
 #include "Formats/FormatError.h"
+#include "Formats/Storage/RandomAccessFile.h"
 #include "Formats/Text/TextEncoding.h"
 
 #include <algorithm>
@@ -47,16 +48,9 @@ void requireReadableFile(const std::string& path)
 
 std::string readFileBeginning(const std::string& path, std::size_t count)
 {
-  requireReadableFile(path);
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  std::string bytes(error ? 0 : std::min<std::size_t>(size, count), '\0');
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream)
-  {
-    throwUnreadable(path, "input/output error");
-  }
+  const RandomAccessFile file(path);
+  std::string bytes(std::min(static_cast<std::size_t>(file.size()), count), '\0');
+  file.read(0, bytes.data(), bytes.size());
   return bytes;
 }
 

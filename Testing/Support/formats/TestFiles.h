@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -13,6 +15,8 @@
 #include <sstream>
 #include <string>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace msi::testing
@@ -47,6 +51,13 @@ protected:
     std::filesystem::create_directories((Folder / name).parent_path());
     std::ofstream(path(name), std::ios::binary) << content;
     return path(name);
+  }
+
+  // A change in the same tick of the file system's clock would not be seen: set the time by hand.
+  void setTime(const std::string& name, std::time_t seconds) const
+  {
+    const std::array<timespec, 2> times = { { { seconds, 0 }, { seconds, 0 } } };
+    ASSERT_EQ(::utimensat(AT_FDCWD, path(name).c_str(), times.data(), 0), 0);
   }
 
   std::string read(const std::string& name) const

@@ -2,15 +2,18 @@
 
 #include "SampleColumns.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
-#include "vtkNew.h"
+#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkVariant.h"
 
 #include "Formats/Text/SpectralNames.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <set>
 
 namespace msi
@@ -18,27 +21,38 @@ namespace msi
 
 namespace
 {
-void addMetadata(const MetadataColumn& metadata, vtkTable* table)
+vtkSmartPointer<vtkAbstractArray> columnOf(const MetadataColumn& metadata)
 {
   const auto numbers = metadata.numbers();
   if (!numbers.empty())
   {
-    vtkNew<vtkDoubleArray> column;
-    column->SetName(metadata.name.c_str());
-    for (const double number : numbers)
-    {
-      column->InsertNextValue(number);
-    }
-    table->AddColumn(column);
-    return;
+    auto column = vtkSmartPointer<vtkDoubleArray>::New();
+    column->SetNumberOfValues(static_cast<vtkIdType>(numbers.size()));
+    std::copy(numbers.begin(), numbers.end(), column->GetPointer(0));
+    return column;
   }
-  vtkNew<vtkStringArray> column;
-  column->SetName(metadata.name.c_str());
+  auto column = vtkSmartPointer<vtkStringArray>::New();
   for (const auto& text : metadata.text)
   {
     column->InsertNextValue(text);
   }
-  table->AddColumn(column);
+  return column;
+}
+
+// Named afterwards, as in setSpectra.
+void addMetadata(const std::vector<MetadataColumn>& metadata, vtkTable* table)
+{
+  const vtkIdType first = table->GetNumberOfColumns();
+  table->GetRowData()->AllocateArrays(
+    static_cast<int>(first + static_cast<vtkIdType>(metadata.size())));
+  for (const auto& column : metadata)
+  {
+    table->AddColumn(columnOf(column));
+  }
+  for (std::size_t i = 0; i < metadata.size(); ++i)
+  {
+    table->GetColumn(first + static_cast<vtkIdType>(i))->SetName(metadata[i].name.c_str());
+  }
 }
 
 SpectralAxis channelAxis(const SampleTable& samples)
@@ -74,10 +88,7 @@ std::string cellText(vtkAbstractArray* column, vtkIdType row)
 
 void toVTK(const SampleTable& samples, vtkTable* table)
 {
-  for (const auto& metadata : samples.metadata)
-  {
-    addMetadata(metadata, table);
-  }
+  addMetadata(samples.metadata, table);
   if (samples.hasReflectance())
   {
     setSpectra(

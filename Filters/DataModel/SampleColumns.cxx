@@ -170,14 +170,16 @@ void setNumbers(
 void setSpectra(vtkTable* table, SampleQuantity quantity, const SpectralAxis& axis,
   const Eigen::Ref<const Eigen::MatrixXd>& values)
 {
-  // VTK looks through all columns whenever a named one is added: named afterwards, thousands of them cost no more than
-  // their number.
+  // VTK looks through all columns whenever a named one is added, and moves all of them where there is no room: named
+  // afterwards and with room made before, thousands of them cost no more than their number.
   std::set<std::string> present;
   for (vtkIdType i = 0; i < table->GetNumberOfColumns(); ++i)
   {
     const char* name = table->GetColumnName(i);
     present.insert(name ? name : "");
   }
+  auto* columns = table->GetRowData();
+  columns->AllocateArrays(columns->GetNumberOfArrays() + static_cast<int>(axis.size()));
   std::vector<vtkSmartPointer<vtkDoubleArray>> added;
   for (std::size_t i = 0; i < axis.size(); ++i)
   {

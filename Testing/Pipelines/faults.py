@@ -2,6 +2,7 @@
 
 Arguments: the launcher, a folder for files, and the names of the tests that are to run (all by default)."""
 
+import contextlib
 import hashlib
 import os
 import pathlib
@@ -106,6 +107,58 @@ def stopped_by_the_user(launcher, base):
     expect(not (output / "reflectance.hdr").exists(), "Ctrl-C left a header")
 
 
+def descendants(process):
+    """Of a process: {number: its name}, the youngest last."""
+    parents, names = {}, {}
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit():
+            with contextlib.suppress(OSError):
+                name, _, rest = (entry / "stat").read_text().partition("(")[2].rpartition(")")
+                parents[int(entry.name)], names[int(entry.name)] = int(rest.split()[1]), name
+    found = [process]
+    for parent in found:
+        found += sorted(child for child in parents if parents[child] == parent)
+    return {child: names[child] for child in found[1:]}
+
+
+def a_process_is_lost(launcher, base):
+    """The program, or one rank of it, is killed, as the system does where memory runs out: one line, nothing complete."""
+    for ranks, name in ((1, "python3"), (2, "pvbatch")):
+        output = base / f"lost of {ranks}"
+        process = start(launcher, "scene", "fabric", "--size", "3000x2000", "--ranks", ranks, "--output", output,
+                        start_new_session=True)
+        deadline = time.monotonic() + 60.0
+        while time.monotonic() < deadline and process.poll() is None and not list(output.glob(".*.part*")):
+            time.sleep(0.02)
+        # The first of one, the last of two: the program itself, not its helpers.
+        found = [child for child, kind in descendants(process.pid).items() if kind == name]
+        expect(found, f"no {name} was running")
+        if found:
+            os.kill(found[ranks - 1 if len(found) >= ranks else 0], signal.SIGKILL)
+        try:
+            process.stderr_text = process.communicate(timeout=60)[1]
+            one_line(process, "a process of the command was killed", f"one lost of {ranks}")
+        except subprocess.TimeoutExpired:
+            faults.append(f"one lost of {ranks}: the others went on for 60 s")
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        expect(not (output / "reflectance.hdr").exists(), f"one lost of {ranks}: a header was left")
+
+
+def nowhere_to_speak(launcher, base):
+    """The standard output is full or closed: what is written into files has none of the program's words."""
+    command = [launcher, "scene", "chart24", "--size", "48x32", "--output", base / "silent"]
+    with open("/dev/full", "w", encoding="ascii") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
+    done.stderr_text = done.stderr
+    one_line(done, "the standard output cannot be written: No space left on device", "full standard output")
+    for closed in ">&-", ">&- 2>&-":
+        shutil.rmtree(base / "silent")
+        done = subprocess.run(["sh", "-c", f'exec "$@" {closed}', "sh", *map(str, command)])
+        text = b"".join(path.read_bytes() for path in (base / "silent").iterdir())
+        expect(done.returncode == 0 and b"scene.png and report.html:" not in text, f"{closed}: status {done.returncode}")
+
+
 def names_with_meanings(launcher, base):
     """Names of files and samples are text, whatever is in them."""
     place = base / "-a b'c\"d%20;$(echo x)\n&<i>"
@@ -128,7 +181,8 @@ def main():
     launcher, base = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(base, ignore_errors=True)
     base.mkdir(parents=True)
-    for test in (outputs_over_inputs, killed_and_run_again, stopped_by_the_user, names_with_meanings):
+    for test in (outputs_over_inputs, killed_and_run_again, stopped_by_the_user, a_process_is_lost, nowhere_to_speak,
+                 names_with_meanings):
         if len(sys.argv) < 4 or test.__name__ in sys.argv[3:]:
             test(launcher, base)
     print("\n".join(faults) or "nothing lost, nothing that looks complete and is not")

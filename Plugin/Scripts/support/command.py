@@ -1,6 +1,7 @@
 """The command line of the scripts behind the launcher: arguments, one-line errors, the output folder."""
 
 import argparse
+import contextlib
 import os
 import re
 import resource
@@ -96,7 +97,12 @@ def printable(text):
 
 def say(text):
     if rank() == 0:
-        print(printable(text), flush=True)
+        try:
+            print(printable(text), flush=True)
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            raise Failure(f"the standard output cannot be written: {error.strerror}") from error
 
 
 _GRACE = 3.0  # seconds that the first rank has to say what went wrong
@@ -111,10 +117,11 @@ def leave(message, status):
     place = _place()
     if place > 0 and status != 0:
         time.sleep(_GRACE)
-    if spoken:
-        print(f"multispectral: {spoken}", file=sys.stderr)
-    sys.stdout.flush()
-    sys.stderr.flush()
+    with contextlib.suppress(OSError, ValueError):  # nobody can be told
+        if spoken:
+            print(f"multispectral: {spoken}", file=sys.stderr)
+        sys.stderr.flush()
+        sys.stdout.flush()
     if spoken and _is_parallel():
         time.sleep(0.3)  # MPI forwards what was printed
     os._exit(status)

@@ -170,14 +170,18 @@ def names_are_printed_safely(_):
     expect(said == "caf\\xE9.csv: the name is not UTF-8; rename the file or its folder", f"Latin-1: '{said}'")
 
 
-def ranks_let_the_first_one_speak(_):
-    """MPI kills all ranks as soon as one has failed: the second one waits for the first one's word."""
+def one_rank_speaks(base):
+    """MPI kills all ranks as soon as one has failed: the others wait for the first one's word, and who has it speaks."""
     code = ("import sys; sys.path.insert(0, sys.argv[1]); from support import command; command._GRACE = 0.2; "
             "command.rank = lambda: int(sys.argv[2]); command.leave('it failed', 1)")
-    for rank in "0", "1":
+    word = base / "word"
+    word.touch()
+    for environment, rank, text in (({}, "0", "multispectral: it failed\n"), ({}, "1", "multispectral: it failed\n"),
+                                    ({"MULTISPECTRAL_WORD": str(word)}, "1", "multispectral: it failed\n"),
+                                    ({"MULTISPECTRAL_WORD": str(word)}, "0", ""), ({"MULTISPECTRAL_WORD": str(word)}, "2", "")):
         done = subprocess.run([sys.executable, "-c", code, str(root / "Plugin" / "Scripts"), rank], text=True,
-                              stderr=subprocess.PIPE, env={**os.environ, "OMPI_COMM_WORLD_RANK": rank})
-        expect(done.returncode == 1 and done.stderr == "multispectral: it failed\n", f"rank {rank}: {done}")
+                              stderr=subprocess.PIPE, env={**os.environ, "OMPI_COMM_WORLD_RANK": rank, **environment})
+        expect(done.returncode == 1 and done.stderr == text, f"rank {rank}: {done}")
 
 
 def main():
@@ -185,7 +189,7 @@ def main():
     base.mkdir(parents=True, exist_ok=True)
     for test in (inputs_are_not_written_over, partners_are_inputs, one_run_at_a_time, what_killed_runs_left_goes,
                  old_reports_go_with_the_first_result, incomplete_files_take_no_name, a_full_disk_is_said,
-                 outputs_are_declared, names_are_printed_safely, ranks_let_the_first_one_speak):
+                 outputs_are_declared, names_are_printed_safely, one_rank_speaks):
         test(base)
     print("\n".join(faults) or "inputs stay, outputs are complete or absent")
     sys.exit(1 if faults else 0)

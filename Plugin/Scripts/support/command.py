@@ -111,12 +111,15 @@ _GRACE = 3.0  # seconds that the first rank has to say what went wrong
 def leave(message, status):
     """Ends every rank at once: an exception on one must not leave the others waiting.
 
-    MPI ends all ranks as soon as one has failed, so the others let the first one speak; where it has nothing to say they
-    speak themselves."""
+    MPI ends all ranks as soon as one has failed, so the others let the first one speak; where it has nothing to say one of
+    them speaks."""
     spoken = printable(" ".join(message.split())) if message else ""
     place = _place()
     if place > 0 and status != 0:
         time.sleep(_GRACE)
+    if spoken and not _has_the_word():
+        spoken = ""
+        time.sleep(_GRACE)  # until what the other one said is out
     with contextlib.suppress(OSError, ValueError):  # nobody can be told
         if spoken:
             print(f"multispectral: {spoken}", file=sys.stderr)
@@ -125,6 +128,17 @@ def leave(message, status):
     if spoken and _is_parallel():
         time.sleep(0.3)  # MPI forwards what was printed
     os._exit(status)
+
+
+def _has_the_word():
+    """The launcher gives the ranks of a run one file: who removes it speaks for all."""
+    try:
+        os.remove(os.environ.get("MULTISPECTRAL_WORD", ""))
+    except FileNotFoundError:
+        return "MULTISPECTRAL_WORD" not in os.environ
+    except OSError:
+        pass
+    return True
 
 
 def _place():

@@ -184,9 +184,8 @@ Vector difference(const CIEDE2000Factors& factors, const Colors& lab1, const Col
   return hn::Sqrt(squared);
 }
 
-template <typename Scalar>
-void differences(const CIEDE2000Factors& factors, const Scalar* lab1, const Scalar* lab2,
-  Scalar* result, std::size_t count)
+void differences(const CIEDE2000Factors& factors, const double* lab1, const double* lab2,
+  double* result, std::size_t count)
 {
   const std::size_t lanes = hn::Lanes(Doubles());
   std::size_t first = 0;
@@ -198,9 +197,9 @@ void differences(const CIEDE2000Factors& factors, const Scalar* lab1, const Scal
   if (first < count)
   {
     const std::size_t rest = count - first;
-    std::array<Scalar, 3 * MostLanes> group1{};
-    std::array<Scalar, 3 * MostLanes> group2{};
-    std::array<Scalar, MostLanes> group{};
+    std::array<double, 3 * MostLanes> group1{};
+    std::array<double, 3 * MostLanes> group2{};
+    std::array<double, MostLanes> group{};
     std::copy_n(lab1 + 3 * first, 3 * rest, group1.begin());
     std::copy_n(lab2 + 3 * first, 3 * rest, group2.begin());
     storeValues(
@@ -208,12 +207,6 @@ void differences(const CIEDE2000Factors& factors, const Scalar* lab1, const Scal
     std::copy_n(group.begin(), rest, result + first);
   }
 }
-}
-
-void differencesFloat(const CIEDE2000Factors& factors, const float* lab1, const float* lab2,
-  float* result, std::size_t count)
-{
-  differences(factors, lab1, lab2, result, count);
 }
 
 void differencesDouble(const CIEDE2000Factors& factors, const double* lab1, const double* lab2,
@@ -230,15 +223,7 @@ HWY_AFTER_NAMESPACE();
 namespace msi
 {
 
-HWY_EXPORT(differencesFloat);
 HWY_EXPORT(differencesDouble);
-
-template <>
-void differencesCIEDE2000<float>(const CIEDE2000Factors& factors, const float* lab1,
-  const float* lab2, float* difference, std::size_t count) noexcept
-{
-  HWY_DYNAMIC_DISPATCH(differencesFloat)(factors, lab1, lab2, difference, count);
-}
 
 template <>
 void differencesCIEDE2000<double>(const CIEDE2000Factors& factors, const double* lab1,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -24,6 +25,9 @@ using msi::CIEDE2000;
 
 // The relative accuracy that CIEDE2000.h states.
 constexpr double StatedAccuracy = 2e-12;
+constexpr double StatedFloatAccuracy = 4e-6;
+// Of colors that are closer than single precision tells apart otherwise, the double result is itself off by this.
+constexpr double AccuracyOfCloseColors = 1e-13;
 
 struct Pair
 {
@@ -135,12 +139,16 @@ std::string messageOf(const msi::CIEDE2000Factors& factors)
   return {};
 }
 
-TEST(CIEDE2000, MatchesAllPairsOfSharmaInBothOrders)
+struct SharmaPair
+{
+  Pair colors;
+  double printed;
+};
+
+std::vector<SharmaPair> sharmaPairs()
 {
   std::ifstream file(MULTISPECTRAL_SOURCE_DIR "/Data/Tables/ciede2000_sharma2005_table1.csv");
-  ASSERT_TRUE(file) << "Data/Tables/ciede2000_sharma2005_table1.csv is missing";
-  const CIEDE2000 difference;
-  int pairs = 0;
+  std::vector<SharmaPair> pairs;
   for (std::string line; std::getline(file, line);)
   {
     if (line.empty() || line[0] == '#' || line[0] == 'L')
@@ -149,15 +157,26 @@ TEST(CIEDE2000, MatchesAllPairsOfSharmaInBothOrders)
     }
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream numbers(line);
-    Vector3d x;
-    Vector3d y;
-    double printed = 0.0;
-    ASSERT_TRUE(numbers >> x(0) >> x(1) >> x(2) >> y(0) >> y(1) >> y(2) >> printed) << line;
-    EXPECT_EQ(std::round(difference(x, y) * 1e4), std::round(printed * 1e4)) << line;
-    EXPECT_EQ(difference(y, x), difference(x, y)) << line;
-    ++pairs;
+    SharmaPair pair;
+    Vector3d& x = pair.colors.first;
+    Vector3d& y = pair.colors.second;
+    EXPECT_TRUE(numbers >> x(0) >> x(1) >> x(2) >> y(0) >> y(1) >> y(2) >> pair.printed) << line;
+    pairs.push_back(pair);
   }
-  EXPECT_EQ(pairs, 34);
+  return pairs;
+}
+
+TEST(CIEDE2000, MatchesAllPairsOfSharmaInBothOrders)
+{
+  const CIEDE2000 difference;
+  const auto pairs = sharmaPairs();
+  EXPECT_EQ(pairs.size(), 34U);
+  for (const auto& [colors, printed] : pairs)
+  {
+    const auto& [x, y] = colors;
+    EXPECT_EQ(std::round(difference(x, y) * 1e4), std::round(printed * 1e4)) << x.transpose();
+    EXPECT_EQ(difference(y, x), difference(x, y)) << x.transpose();
+  }
 }
 
 TEST(CIEDE2000, KeepsItsAccuracyOnMillionsOfPairs)
@@ -213,15 +232,114 @@ TEST(CIEDE2000, ParametricFactorsDivideTheirComponents)
   }
 }
 
-TEST(CIEDE2000, FloatBlocksAreTheDoubleResultsRoundedOnce)
+// 10^7 pairs: of every kind, and moved by single units of the last place of single precision.
+TEST(CIEDE2000, FloatBlocksKeepTheirAccuracyOnMillionsOfPairs)
 {
-  const Blocks blocks = randomBlocks(100'003);
+  constexpr Eigen::Index Pairs = 500'000;
+  const Blocks blocks = randomBlocks(Pairs);
+  double worst = 0.0;
+  for (int round = 0; round < 20; ++round)
+  {
+    Eigen::Matrix3Xf first = blocks.first.cast<float>();
+    Eigen::Matrix3Xf second = blocks.second.cast<float>();
+    for (Eigen::Index i = 0; i < Pairs; ++i)
+    {
+      if (round % 4 == 1) // one unit of the last place apart
+      {
+        second.col(i) = first.col(i);
+        second((i + round) % 3, i) = std::nextafter(first((i + round) % 3, i), 1e3F);
+      }
+      else if (round % 4 > 1) // all coordinates apart by up to 10, down to 1e-6 of it
+      {
+        const auto scale = std::ldexp(1.0F, -static_cast<int>((i + round) % 20));
+        second.col(i) = first.col(i) + scale * 0.08F * second.col(i);
+      }
+      if (round / 4 > 0) // other halves of the plane of hues
+      {
+        first.col(i).tail<2>() *= round / 4 % 2 == 0 ? 1.0F : -1.0F;
+        second.col(i).tail<2>() *= round / 4 % 2 == 0 ? 1.0F : -1.0F;
+        std::swap(first(1 + i % 2, i), first(2 - i % 2, i));
+      }
+    }
+    Eigen::VectorXf got(Pairs);
+    CIEDE2000().apply(first, second, got);
+    Eigen::VectorXf back(Pairs);
+    CIEDE2000().apply(second, first, back);
+    ASSERT_EQ(got, back);
+    const Eigen::VectorXd exact = differences({ first.cast<double>(), second.cast<double>() });
+    for (Eigen::Index i = 0; i < Pairs; ++i)
+    {
+      const double error = std::abs(static_cast<double>(got(i)) - exact(i));
+      ASSERT_LE(error, StatedFloatAccuracy * exact(i) + AccuracyOfCloseColors)
+        << "round " << round << ", pair " << i << ": " << first.col(i).transpose() << " and "
+        << second.col(i).transpose() << " differ by " << exact(i);
+      worst = std::max(worst, exact(i) > 1e-6 ? error / exact(i) : 0.0);
+    }
+  }
+  RecordProperty("worst_relative_error", std::to_string(worst * 1e6) + "e-6");
+}
+
+TEST(CIEDE2000, FloatBlocksMatchAllPairsOfSharma)
+{
+  Eigen::Matrix3Xf first(3, 34);
+  Eigen::Matrix3Xf second(3, 34);
+  std::vector<double> printed;
+  for (const SharmaPair& pair : sharmaPairs())
+  {
+    first.col(static_cast<Eigen::Index>(printed.size())) = pair.colors.first.cast<float>();
+    second.col(static_cast<Eigen::Index>(printed.size())) = pair.colors.second.cast<float>();
+    printed.push_back(pair.printed);
+  }
+  ASSERT_EQ(printed.size(), 34U);
+  Eigen::VectorXf forth(34);
+  Eigen::VectorXf back(34);
+  CIEDE2000().apply(first, second, forth);
+  CIEDE2000().apply(second, first, back);
+  EXPECT_EQ(forth, back);
+  for (Eigen::Index i = 0; i < 34; ++i)
+  {
+    // Half a unit of the fourth decimal, and the roundings of the colors themselves.
+    const double exact = printed[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(forth(i), exact, 5.1e-5 + 4e-6 * exact) << i;
+  }
+}
+
+TEST(CIEDE2000, FloatBlocksHaveTheSameBytesForEverySplitAndInstructionSet)
+{
+  const Blocks blocks = randomBlocks(9'999);
   const Eigen::Matrix3Xf first = blocks.first.cast<float>();
-  const Eigen::Matrix3Xf second = blocks.second.cast<float>();
-  Eigen::VectorXf got(first.cols());
-  CIEDE2000().apply(first, second, got);
-  const Eigen::VectorXd exact = differences({ first.cast<double>(), second.cast<double>() });
-  EXPECT_EQ(got, exact.cast<float>());
+  Eigen::Matrix3Xf second = blocks.second.cast<float>();
+  second(1, 17) = std::numeric_limits<float>::quiet_NaN();
+  second(2, 18) = 3e20F;
+  const CIEDE2000 difference;
+  Eigen::VectorXf whole(first.cols());
+  difference.apply(first, second, whole);
+  EXPECT_TRUE(std::isnan(whole(17)));
+  EXPECT_EQ(whole.array().isNaN().count(), 1);
+  EXPECT_TRUE(std::isfinite(whole(18)));
+  const auto same = [&whole](const Eigen::VectorXf& other)
+  { return std::memcmp(whole.data(), other.data(), sizeof(float) * 9'999) == 0; };
+  for (const Eigen::Index size : { 1, 7, 16, 500 })
+  {
+    Eigen::VectorXf pieces(whole.size());
+    for (Eigen::Index at = 0; at < whole.size(); at += size)
+    {
+      const Eigen::Index count = std::min(size, whole.size() - at);
+      difference.apply(
+        first.middleCols(at, count), second.middleCols(at, count), pieces.segment(at, count));
+    }
+    EXPECT_TRUE(same(pieces)) << "pieces of " << size;
+  }
+  for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1)
+  {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    hwy::GetChosenTarget().DeInit();
+    Eigen::VectorXf got(whole.size());
+    difference.apply(first, second, got);
+    EXPECT_TRUE(same(got)) << hwy::TargetName(rest & -rest);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
 }
 
 TEST(CIEDE2000, TheSameBytesForEverySplitAndStride)

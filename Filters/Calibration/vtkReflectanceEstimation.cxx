@@ -184,7 +184,9 @@ void vtkReflectanceEstimation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ResponseArray: " << this->ResponseArray << "\n"
      << indent << "Uncertainty: " << this->Uncertainty << "\n"
      << indent << "QualityMaps: " << this->QualityMaps << "\n"
-     << indent << "OutOfRangeShare: " << this->OutOfRangeShare << "\n";
+     << indent << "TrustResponses: " << this->TrustResponses << "\n"
+     << indent << "OutOfRangeShare: " << this->OutOfRangeShare << "\n"
+     << indent << "MissingShare: " << this->MissingShare << "\n";
 }
 
 int vtkReflectanceEstimation::FillInputPortInformation(int port, vtkInformation* info)
@@ -215,6 +217,7 @@ int vtkReflectanceEstimation::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->OutOfRangeShare = -1.0;
+  this->MissingShare = -1.0;
   return msi::runAlgorithm(this, outputs,
     [&]
     {
@@ -255,8 +258,10 @@ int vtkReflectanceEstimation::RequestData(
         vtkTable::GetData(inputs[1]), static_cast<Eigen::Index>(estimator.channels.size()));
       if (msi::isWhole(inputs[0]->GetInformationObject(0), image))
       {
-        const auto judgement = msi::judgeResponses(responses, estimator.channels, range);
+        const auto judgement =
+          msi::judgeResponses(responses, estimator.channels, range, this->TrustResponses);
         this->OutOfRangeShare = judgement.outside;
+        this->MissingShare = judgement.missing;
         if (!judgement.error.empty())
         {
           throw std::runtime_error(judgement.error);

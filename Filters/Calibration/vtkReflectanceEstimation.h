@@ -6,7 +6,7 @@
  * reflectance transform or transfer model, input 2 (optional) a metamerism transform, as Reflectance
  * Calibration and Metamerism Correction make them.
  *
- * An image gets the point array "Reflectance" in place of its responses, one component a band, with
+ * An image gets the point array "Reflectance" in place of its responses, one component per band, with
  * the wavelengths as field data; a table gets the columns E400, E410, .. . With a transfer model and
  * EstimateUncertainty also "Uncertainty" or U400, U410, ..: one standard deviation of the error.
  * A NaN stays in its pixel. Float images are computed in float, all else in double.
@@ -46,7 +46,7 @@ public:
 
   ///@{
   /**
-   * Add the point array "sRGB" (3 bytes a pixel), the colors that a view shows at first: sRGB under D65 where the
+   * Add the point array "sRGB" (3 bytes per pixel), the colors that a view shows at first: sRGB under D65 where the
    * bands reach over the visible spectrum. Default on.
    */
   vtkSetMacro(Preview, bool);
@@ -67,10 +67,28 @@ public:
 
   ///@{
   /**
+   * Estimate also an image whose responses are so small or so large beside those of the calibration that they look like
+   * raw counts or like frames in each other's place: a warning then, else an error. Default off.
+   */
+  vtkSetMacro(TrustResponses, bool);
+  vtkGetMacro(TrustResponses, bool);
+  vtkBooleanMacro(TrustResponses, bool);
+  ///@}
+
+  ///@{
+  /**
    * Share of the last whole image's pixels whose responses lie outside of the range of the samples that the transform was
    * fitted on by more than a tenth of it; -1 where it is not known.
    */
   vtkGetMacro(OutOfRangeShare, double);
+  ///@}
+
+  ///@{
+  /**
+   * Share of the last whole image's pixels without an estimate, as a response of theirs is not finite (dead, saturated or
+   * missing); -1 where no whole image was estimated.
+   */
+  vtkGetMacro(MissingShare, double);
   ///@}
 
 protected:
@@ -92,7 +110,9 @@ private:
 
   bool Preview = true;
   bool QualityMaps = false;
+  bool TrustResponses = false;
   double OutOfRangeShare = -1.0;
+  double MissingShare = -1.0;
 };
 
 #endif

@@ -24,12 +24,12 @@ constexpr vtkIdType MostPixels = 65536;
 // Times the calibration's largest responses.
 constexpr double DimImage = 0.1;    // its brightest hundredth stays below that
 constexpr double BrightImage = 2.0; // half of it lies above that
-constexpr double CountsImage =
-  10.0; // half of it lies above that: no light makes so much of a chart's white
 constexpr double Margin = 0.1; // of a channel's range, beyond which a response is outside of it
 constexpr double MostOutside = 0.5; // of the pixels
 const char* const Remedy =
   "are they raw counts? Divide the image by a white image first (Flat Field Correction)";
+const char* const Permission =
+  "; where they are right, set Trust Responses (estimate: --trust-responses)";
 
 std::string rounded(double value)
 {
@@ -88,7 +88,8 @@ double quantile(std::vector<double>& values, double share)
 
 // Each pixel's responses as multiples of the calibration's largest ones, mean over the channels; and how many pixels lie
 // outside of its range in some channel.
-ResponseJudgement besideRange(const Eigen::ArrayXXd& pixels, const ResponseRange& range)
+ResponseJudgement besideRange(
+  const Eigen::ArrayXXd& pixels, const ResponseRange& range, bool trusted)
 {
   const Eigen::ArrayXd most = range.col(1).max(1e-300);
   const Eigen::ArrayXd margin = Margin * (range.col(1) - range.col(0));
@@ -104,22 +105,19 @@ ResponseJudgement besideRange(const Eigen::ArrayXXd& pixels, const ResponseRange
   const double share = static_cast<double>(outside) / static_cast<double>(pixels.cols());
   ResponseJudgement judgement;
   judgement.outside = share;
-  if (middle > CountsImage)
+  std::string& unlike = trusted ? judgement.warning : judgement.error;
+  const std::string permission = trusted ? "" : Permission;
+  if (middle > BrightImage)
   {
-    judgement.error =
-      "half of the image's responses exceed the largest ones of the calibration samples " +
-      rounded(middle) + " times; expected responses in the unit of the calibration; " + Remedy;
-  }
-  else if (middle > BrightImage)
-  {
-    judgement.warning =
-      "half of the image's responses exceed the largest ones of the calibration samples " +
-      rounded(middle) + " times; " + Remedy;
+    unlike = "half of the image's responses exceed the largest ones of the calibration samples " +
+      rounded(middle) + " times; expected responses in the unit of the calibration; " + Remedy +
+      permission;
   }
   else if (brightest < DimImage)
   {
-    judgement.warning = "the image's responses reach " + percent(brightest) +
-      " of the largest ones of the calibration samples (99th percentile of the pixels); " + Remedy;
+    unlike = "the image's responses reach " + percent(brightest) +
+      " of the largest ones of the calibration samples (99th percentile of the pixels); " + Remedy +
+      permission;
   }
   else if (share > MostOutside)
   {
@@ -168,8 +166,8 @@ std::optional<ResponseRange> readResponseRange(vtkTable* transform, Eigen::Index
   return range;
 }
 
-ResponseJudgement judgeResponses(
-  vtkDataArray* responses, const SpectralAxis& channels, const std::optional<ResponseRange>& range)
+ResponseJudgement judgeResponses(vtkDataArray* responses, const SpectralAxis& channels,
+  const std::optional<ResponseRange>& range, bool trusted)
 {
   const vtkIdType count = responses->GetNumberOfTuples();
   const vtkIdType step = std::max<vtkIdType>(1, count / MostPixels);
@@ -192,6 +190,7 @@ ResponseJudgement judgeResponses(
              "image, and of the same camera?",
       {} };
   }
+  const double missing = 1.0 - static_cast<double>(kept) / static_cast<double>(pixels.cols());
   pixels.conservativeResize(Eigen::NoChange, kept);
   const Eigen::Array<bool, Eigen::Dynamic, 1> zero = (pixels == 0.0).rowwise().all();
   if (zero.all())
@@ -201,7 +200,8 @@ ResponseJudgement judgeResponses(
              "were read",
       {} };
   }
-  ResponseJudgement judgement = range ? besideRange(pixels, *range) : ResponseJudgement{};
+  ResponseJudgement judgement = range ? besideRange(pixels, *range, trusted) : ResponseJudgement{};
+  judgement.missing = missing;
   const std::string dead = zeroChannels(zero, channels, "every pixel of the image");
   if (!dead.empty())
   {

@@ -31,11 +31,13 @@ struct ResponseJudgement
   std::string warning; // the estimates are doubtful
   // Share of the pixels with responses outside of the range by more than a tenth of it; below 0 where it is not known.
   double outside = -1.0;
+  // Share of the pixels with a response that is not finite.
+  double missing = 0.0;
 };
 
-// Looks at up to 65536 pixels, evenly spread.
-ResponseJudgement judgeResponses(
-  vtkDataArray* responses, const SpectralAxis& channels, const std::optional<ResponseRange>& range);
+// Looks at up to 65536 pixels, evenly spread. trusted: responses that look like raw counts are a warning, no error.
+ResponseJudgement judgeResponses(vtkDataArray* responses, const SpectralAxis& channels,
+  const std::optional<ResponseRange>& range, bool trusted);
 
 // How far a pixel's responses lie outside of the range: the largest excess of a channel, in units of that channel's range.
 // 0 within the range, NaN where a response is NaN.

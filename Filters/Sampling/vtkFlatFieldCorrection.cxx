@@ -284,6 +284,14 @@ int vtkFlatFieldCorrection::RequestData(
       const auto raw = msi::asFloats(rawArray);
       const auto white = frame(inputs[1], NameOfFrame[1], rawImage, raw);
       const auto dark = frame(inputs[2], NameOfFrame[2], rawImage, raw);
+      if (!white.values && !dark.values && this->WhiteLevel == 1.0 &&
+        this->WhiteReflectance == 1.0 && this->ExposureTimes.empty() &&
+        this->SaturationLevel <= 0.0)
+      {
+        throw std::invalid_argument(
+          "neither a white nor a dark image is connected, so the raw values "
+          "would pass unchanged; connect a white image, or set WhiteLevel");
+      }
       const int channels = raw->GetNumberOfComponents();
       const auto factors = exposureFactors(this->ExposureTimes, this->WhiteExposureTimes, channels);
 
@@ -355,12 +363,19 @@ int vtkFlatFieldCorrection::RequestData(
             (white.values ? "are white and dark swapped?"
                           : "set WhiteLevel, or connect a white image"));
         }
-        this->WarnOfUnlikelyFrames(responses);
-        if (!white.values && !dark.values && this->WhiteLevel == 1.0)
+        if (2 * dead > values)
         {
-          vtkWarningMacro(<< "neither a white nor a dark image is connected and WhiteLevel is 1: "
-                             "the raw values are passed "
-                             "on as they are");
+          vtkWarningMacro(
+            << (200 * dead + values) / (2 * values)
+            << " % of the values have no result: the white is not above the dark there; "
+               "are white and dark swapped?");
+        }
+        this->WarnOfUnlikelyFrames(responses);
+        if (dark.values && !white.values && this->WhiteLevel == 1.0)
+        {
+          vtkWarningMacro(
+            << "no white image is connected and WhiteLevel is 1: the responses are not "
+               "relative to white; connect a white image, or set WhiteLevel");
         }
       }
       this->DeadCount = dead;

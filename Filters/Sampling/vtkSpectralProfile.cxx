@@ -24,7 +24,7 @@ vtkStandardNewMacro(vtkSpectralProfile);
 namespace
 {
 // Pixels by their index in the image, x and y, both ends included.
-struct Place
+struct PixelRange
 {
   int first[2];
   int last[2];
@@ -40,7 +40,7 @@ std::string text(double x, double y)
 
 struct vtkSpectralProfile::Sampling : msi::PatchSampling
 {
-  std::vector<Place> places; // none: by labels
+  std::vector<PixelRange> places; // none: by labels
 };
 
 vtkSpectralProfile::vtkSpectralProfile()
@@ -61,6 +61,8 @@ void vtkSpectralProfile::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << text(point[0], point[1]);
   }
   os << "\n"
+     << indent << "Place: " << this->Place << "\n"
+     << indent << "Handle: " << text(this->Handle[0], this->Handle[1]) << "\n"
      << indent << "Region: " << this->Region[0] << ", " << this->Region[1] << ", "
      << this->Region[2] << ", " << this->Region[3] << "\n";
 }
@@ -75,6 +77,13 @@ void vtkSpectralProfile::ClearPoints()
 {
   this->Points.clear();
   this->Modified();
+}
+
+std::vector<std::array<double, 2>> vtkSpectralProfile::PlacesOfPoints() const
+{
+  return this->Place == HANDLE
+    ? std::vector<std::array<double, 2>>{ { this->Handle[0], this->Handle[1] } }
+    : this->Points;
 }
 
 int vtkSpectralProfile::FillInputPortInformation(int port, vtkInformation* info)
@@ -122,7 +131,7 @@ void vtkSpectralProfile::FindPlaces(vtkInformation* image, bool labelled)
   }
   const auto index = [&](std::ptrdiff_t axis, double x)
   { return (x - origin[axis]) / spacing[axis]; };
-  const auto require = [&](const Place& place, const std::string& name)
+  const auto require = [&](const PixelRange& place, const std::string& name)
   {
     for (std::ptrdiff_t axis = 0; axis < 2; ++axis)
     {
@@ -136,16 +145,17 @@ void vtkSpectralProfile::FindPlaces(vtkInformation* image, bool labelled)
     }
     sampling.places.push_back(place);
   };
-  for (const auto& point : this->Points)
+  const auto points = this->PlacesOfPoints();
+  for (const auto& point : points)
   {
     const int x = static_cast<int>(std::lround(index(0, point[0])));
     const int y = static_cast<int>(std::lround(index(1, point[1])));
     require({ { x, y }, { x, y } }, "the point " + text(point[0], point[1]));
   }
-  if (this->Points.empty())
+  if (points.empty())
   {
     const auto& r = this->Region;
-    Place place{ { whole[0], whole[2] }, { whole[1], whole[3] } };
+    PixelRange place{ { whole[0], whole[2] }, { whole[1], whole[3] } };
     if (r[0] != 0.0 || r[1] != 0.0 || r[2] != 0.0 || r[3] != 0.0)
     {
       for (std::ptrdiff_t axis = 0; axis < 2; ++axis)
@@ -247,6 +257,7 @@ void vtkSpectralProfile::WriteTable(vtkInformation* outInfo, bool labelled)
       rows = Eigen::Map<const Eigen::VectorXd>(nm.data(), channels);
     }
     msi::setNumbers(table, axis.wavelengths ? "wavelength" : "channel", rows);
+    const bool isRegion = this->PlacesOfPoints().empty();
     vtkNew<vtkStringArray> names;
     vtkNew<vtkIdTypeArray> counts;
     names->SetName("Profile");
@@ -259,11 +270,11 @@ void vtkSpectralProfile::WriteTable(vtkInformation* outInfo, bool labelled)
       }
       const std::string number = std::to_string(label);
       const std::string name = labelled ? "label " + number
-        : this->Points.empty()          ? "region"
+        : isRegion                      ? "region"
                                         : "point " + number;
       const Eigen::VectorXd mean = statistics.mean(label);
       msi::setNumbers(table, name, mean);
-      if (labelled || this->Points.empty())
+      if (labelled || isRegion)
       {
         const Eigen::VectorXd deviation = statistics.standardDeviation(label);
         msi::setNumbers(table, name + " deviation", deviation);

@@ -49,6 +49,21 @@ public:
 
   ///@{
   /**
+   * Which places count: POINTS_OR_REGION (0, default), or HANDLE (1): the place Handle alone, which a window lets be dragged.
+   */
+  enum PlaceMode
+  {
+    POINTS_OR_REGION = 0,
+    HANDLE = 1
+  };
+  vtkSetClampMacro(Place, int, POINTS_OR_REGION, HANDLE);
+  vtkGetMacro(Place, int);
+  vtkSetVector3Macro(Handle, double);
+  vtkGetVector3Macro(Handle, double);
+  ///@}
+
+  ///@{
+  /**
    * First and last x, first and last y, in the image's coordinates. All zero (default): the whole image.
    */
   vtkSetVector4Macro(Region, double);
@@ -73,12 +88,15 @@ private:
 
   struct Sampling;
 
+  std::vector<std::array<double, 2>> PlacesOfPoints() const;
   void FindPlaces(vtkInformation* image, bool labelled);
   void AddBlock(vtkInformationVector** inputs);
   void WriteTable(vtkInformation* outInfo, bool labelled);
 
   std::string SpectralArray;
   std::vector<std::array<double, 2>> Points;
+  int Place = POINTS_OR_REGION;
+  double Handle[3] = { 0.0, 0.0, 0.0 };
   double Region[4] = { 0.0, 0.0, 0.0, 0.0 };
   std::unique_ptr<Sampling> Current;
 };

@@ -70,7 +70,8 @@ def main():
         kind.write(gap, target)
         sections += kind.sections(gap, target)
         diagnosis.print_summary(gap)
-    report.write(folder, f"Sim-to-real gap: {os.path.basename(os.path.abspath(place))}", sections)
+    report.write(folder, f"Sim-to-real gap: {os.path.basename(os.path.abspath(place))}", sections,
+                 diagnosis.lead(outcomes[0][1]), pipeline.warnings)
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 
 

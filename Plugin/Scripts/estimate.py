@@ -59,6 +59,9 @@ def arguments():
                         help="exposure times of the image: one, or one per channel; with --white-exposure")
     frames.add_argument("--white-exposure", metavar="T", nargs="+", type=number(0.0),
                         help="exposure times of the white reference, in the same unit")
+    frames.add_argument("--trust-responses", action="store_true",
+                        help="estimate also an image whose responses look like raw counts beside the calibration's; "
+                             "else that is an error")
     results = parser.add_argument_group("results")
     results.add_argument("--illuminant", metavar="NAME", nargs="+", choices=ILLUMINANTS, default=["D65", "F2"],
                          help="CIE illuminants of the color differences; the first one also lights the pictures: A, D50, "
@@ -111,10 +114,12 @@ def responses(options, stride=1):
                                  **{name: value for name, value in given.items() if value is not None})
 
 
-def summarize(options, judged, outside):
+def summarize(options, judged, outside, missing):
     """The result in one sentence, and what is known of the pixels' responses."""
     range_text = "It is not known which responses the transform was fitted on." if outside is None else \
         f"{100.0 * outside:.1f} % of the pixels have responses outside of the range of the fitted samples."
+    if missing > 0.0:
+        range_text += f" {100.0 * missing:.1f} % of the pixels have no result (dead, saturated or missing values)."
     means = judged and [estimation.mean_of(judged, *what) for what in (("dE00", options.illuminant[0]), ("rms",))]
     if means is None or command.rank() != 0:
         return f"Estimated with the method {options.method if options.tuning else 'calibration'}; {range_text}", range_text
@@ -159,15 +164,15 @@ def main():
                 tuning = pipeline.port(split, 0)
 
     transforms, summary = estimation.correction(calibration, tuning, methods.NAMES[options.method])
-    judged_image, outside = estimation.require_plausible(
-        responses(options, estimation.stride_of_judgement(image)), transforms)
-    reflectance = estimation.estimate(image, transforms, folder)
+    judged_image, outside, missing = estimation.require_plausible(
+        responses(options, estimation.stride_of_judgement(image)), transforms, options.trust_responses)
+    reflectance = estimation.estimate(image, transforms, folder, options.trust_responses)
     estimation.save_reflectance(reflectance, folder, options.cube)
     view = reflectance, labels
     if stride > 1:
         command.say(f"the pictures show every {stride}th pixel of the image")
         view = (pipeline.create("ReflectanceEstimation", Input=responses(options, stride),
-                                **transforms),
+                                TrustResponses=int(options.trust_responses), **transforms),
                 labels and estimation.read_labels(options.labels, stride))
     illuminant, observer = options.illuminant[0], OBSERVERS[options.observer]
     estimation.save_view(view[0], folder, reflectance, illuminant, observer)
@@ -184,7 +189,7 @@ def main():
         estimation.print_summary("Held-out pixels", judged.summary)
         pages += estimation.report_errors(judged, folder)
     estimation.save_state(os.path.join(folder, "state.pvsm"), view[0], judged)
-    lead, range_text = summarize(options, judged, outside)
+    lead, range_text = summarize(options, judged, outside, missing)
     command.say(range_text)
     report.write(folder, "Spectral reflectance of an image", pages, lead, pipeline.warnings)
     state.finish()

@@ -4,6 +4,7 @@ corrected camera file holds it; captures with parts missing are refused or diagn
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -91,7 +92,10 @@ def check_demo(launcher, folder):
     expect(len(curves) == 74 and curves[0].startswith("wavelength,C1,"), "corrected camera: curves")
     page = (folder / "demo" / "report.html").read_text(encoding="utf-8")
     expect(page.count("data:image/png;base64,") == 6, "report.html: six pictures")
-    expect("src='http" not in page and "filter_shift" in page, "report.html: self-contained")
+    expect("src='http" not in page, "report.html: self-contained")
+    words = re.sub("<[^>]*>", " ", page.partition("</style>")[2])
+    expect("Filter shift" in words and "Gain of one medium (fabric)" in words and "nm)" in words, "report.html: plain names")
+    expect(not re.search(r"filter_shift|medium_gain|session_drift|spectral_shape|\bC\d+\b", words), "report.html: identifiers")
 
     done = run(launcher, DEMO, folder / "without", "--without", "filter_shift", "--without", "session_drift")
     expect(done.returncode == 0, f"--without: status {done.returncode}: {done.stderr}")

@@ -31,19 +31,26 @@ def said(launcher, base):
     """Images that cannot give a result: a warning with the numbers, in the report too, or an error and no result."""
     raw, white, dark = stack(), stack("white"), stack("dark")
     flat = ["--white", *white, "--dark", *dark]
+    dim = "the image's responses reach 4.1 % of the largest ones of the calibration samples"
     cases = (
-        ("raw counts", ["--image", *raw], 0, "reach 4.1 % of the largest ones of the calibration samples"),
+        ("raw counts", ["--image", *raw], 1, dim),
+        ("raw counts, trusted", ["--image", *raw, "--trust-responses"], 0, dim),
+        ("dark alone", ["--image", *raw, "--dark", *dark], 1, "are they raw counts?"),
         ("frames swapped", ["--image", *raw, "--white", *dark, "--dark", *white], 1, "are white and dark swapped?"),
-        ("image and white swapped", ["--image", *white, "--white", *raw, "--dark", *dark], 0, "are the images swapped"),
+        ("image and white swapped", ["--image", *white, "--white", *raw, "--dark", *dark], 1, "are they raw counts?"),
+        ("image and dark swapped", ["--image", *dark, "--white", *white, "--dark", *raw], 1, "are they raw counts?"),
         ("all saturated", ["--image", *raw, *flat, "--saturation", "1e-9"], 1, "no pixel of the image has finite responses"),
+        ("some saturated", ["--image", *raw, *flat, "--saturation", "0.0475"], 0, ""),
         ("in counts of 16 bit", ["--image", *raw, "--white-level", "1e-4"], 1, "are they raw counts?"))
     for name, arguments, status, part in cases:
         shutil.rmtree(base / "said", ignore_errors=True)
-        got, stderr, _, page = estimate(launcher, base / "said", *arguments)
+        got, stderr, stdout, page = estimate(launcher, base / "said", *arguments)
         if got != status or part not in stderr:
             faults.append(f"{name}: expected status {status} and '{part}', got {got} and {stderr.strip()}")
-        if (status == 0) != ("class='warning'" in page):
+        if status == 0 and ("class='warning'" in page) != bool(part) or status != 0 and page:
             faults.append(f"{name}: the report {'does not warn' if status == 0 else 'is there'}")
+        if ("% of the pixels have no result" in stdout) != (name == "some saturated"):
+            faults.append(f"{name}: the pixels without a result: {stdout}")
 
 
 def written(launcher, base):
@@ -88,12 +95,15 @@ def white_reflectance(launcher, base):
     means = []
     flat = ["--image", *stack(), "--white", *stack("white"), "--dark", *stack("dark"), "--cube", "envi"]
     for i, options in enumerate((["--white-reflectance", "0.5"], ["--exposure", "2", "--white-exposure", "1"], [])):
-        output = base / f"white-{i}"
+        output = base / (f"white-{i}" if i < 2 else "written")  # where a run with labels has written
         got, stderr, _, _ = estimate(launcher, output, *flat, *options)
         if got != 0:
             faults.append(f"{options}: status {got}: {stderr}")
             return
         means.append(np.asarray(spectral.open_image(str(output / "reflectance.hdr")).load()))
+    left = sorted(path.name for path in output.iterdir() if path.name.startswith(("error", "patches", "metamerism")))
+    if left:
+        faults.append(f"a run without labels leaves {left} of the run before")
     if not np.allclose(means[0], means[1], atol=1e-5) or np.allclose(means[0], means[2], atol=1e-2):
         faults.append("white reflectance and exposure times do not act as they should")
 

@@ -13,7 +13,7 @@ import sys
 
 root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
 sys.path.insert(0, str(root / "Plugin" / "Scripts"))
-from support import command, outputs  # noqa: E402
+from support import command, outputs, report  # noqa: E402
 
 command.rank = lambda: 0
 os.environ.pop("MULTISPECTRAL_CHECK_OUTPUTS", None)  # which the other pipelines have
@@ -45,6 +45,7 @@ def forget():
     """As a new process would be."""
     outputs._inputs.clear()
     outputs._declared = outputs._old_report = None
+    outputs._written.clear()
     for descriptor in outputs._locks:
         os.close(descriptor)
     outputs._locks.clear()
@@ -113,6 +114,23 @@ def old_reports_go_with_the_first_result(base):
     expect(report.exists(), "the report went before there was anything new")
     outputs.write_text(str(folder / "a.csv"), "new")
     expect(not report.exists(), "the old report stands beside a new result")
+
+
+def old_results_go_with_their_report(base):
+    folder = fresh(base, "results")
+    patterns = ("report.html", "*.png", "cube.img", "cube.hdr")
+    outputs.claim(str(folder), patterns)
+    for name in ("rgb.png", "it's <old>.png", "cube.img"):
+        outputs.write_text(str(folder / name), "old")
+    (folder / "cube.hdr").write_text("written with cube.img", encoding="utf-8")
+    report.write(str(folder), "title", [])
+    for name in ("mine.png", "notes.txt"):
+        (folder / name).write_text("of the user", encoding="utf-8")
+    forget()
+    outputs.claim(str(folder), patterns)
+    outputs.write_text(str(folder / "rgb.png"), "new")
+    left = sorted(path.name for path in folder.iterdir())
+    expect(left == ["mine.png", "notes.txt", "rgb.png"], f"left beside new results: {left}")
 
 
 def incomplete_files_take_no_name(base):
@@ -188,8 +206,8 @@ def main():
     base = pathlib.Path(sys.argv[1])
     base.mkdir(parents=True, exist_ok=True)
     for test in (inputs_are_not_written_over, partners_are_inputs, one_run_at_a_time, what_killed_runs_left_goes,
-                 old_reports_go_with_the_first_result, incomplete_files_take_no_name, a_full_disk_is_said,
-                 outputs_are_declared, names_are_printed_safely, one_rank_speaks):
+                 old_reports_go_with_the_first_result, old_results_go_with_their_report, incomplete_files_take_no_name,
+                 a_full_disk_is_said, outputs_are_declared, names_are_printed_safely, one_rank_speaks):
         test(base)
     print("\n".join(faults) or "inputs stay, outputs are complete or absent")
     sys.exit(1 if faults else 0)

@@ -1,4 +1,4 @@
-"""The commands of README.md, on the demo's own data.
+"""The commands of README.md and of the tutorials, on the demo's own data.
 
 usage: readme.py LAUNCHER OUTPUT
 """
@@ -13,14 +13,21 @@ import sys
 
 launcher, output = sys.argv[1], pathlib.Path(sys.argv[2])
 root = pathlib.Path(launcher).parent
-NEEDS_A_DISPLAY = "multispectral paraview"
+NEEDS_A_DISPLAY = "multispectral paraview"  # which the test Window runs
+PAGES = {"README.md": "## Use\n", "Documentation/Simulator.md": ""}  # page: where its commands begin
 
 
 def commands():
-    text = (root / "README.md").read_text(encoding="utf-8")
-    use = re.search(r"## Use\n+```sh\n(.*?)```", text, re.DOTALL).group(1)
-    lines = [line.split("  #")[0].strip() for line in use.splitlines()]
-    return [line for line in lines if line and line != NEEDS_A_DISPLAY]
+    for page, heading in PAGES.items():
+        text = (root / page).read_text(encoding="utf-8").partition(heading)[2] if heading else \
+            (root / page).read_text(encoding="utf-8")
+        blocks = re.findall(r"```sh\n(.*?)```", text, re.DOTALL)
+        assert blocks, f"{page} has no commands"
+        for block in blocks:
+            for line in block.splitlines():
+                line = line.split("  #")[0].strip()
+                if line and not line.startswith(NEEDS_A_DISPLAY):
+                    yield page, line
 
 
 def lay_out(folder):
@@ -33,25 +40,28 @@ def lay_out(folder):
     rows = (samples / "demo-fabric.csv").read_text(encoding="utf-8").splitlines(keepends=True)
     (folder / "swatches.csv").write_text("".join(rows[:17]), encoding="utf-8")
     shutil.copytree(root / "Data" / "Captures" / "demo-warm-camera", folder / "capture")
+    page = (root / "Documentation" / "Simulator.md").read_text(encoding="utf-8")
+    (folder / "effects.json").write_text(re.search(r"```json\n(.*?)```", page, re.DOTALL).group(1), encoding="utf-8")
 
 
 def main():
     lay_out(output)
     ran = 0
-    for line in commands():
+    for page, line in commands():
         name, command, *arguments = line.split()
         assert name == "multispectral", line
         arguments = [file for word in arguments
                      for file in (sorted(glob.glob(word, root_dir=output)) if "*" in word else [word])]
         run = subprocess.run([launcher, command, *arguments], cwd=output, capture_output=True, text=True)
         if run.returncode != 0:
-            sys.exit(f"{line}\nexit status {run.returncode}\n{run.stdout}{run.stderr}")
-        if not os.listdir(output / "output" / command):
-            sys.exit(f"{line}\nwrote nothing")
+            sys.exit(f"{page}: {line}\nexit status {run.returncode}\n{run.stdout}{run.stderr}")
+        written = arguments[arguments.index("--output") + 1] if "--output" in arguments else f"output/{command}"
+        if not os.listdir(output / written):
+            sys.exit(f"{page}: {line}\nwrote nothing")
         ran += 1
-    print(f"{ran} commands of README.md ran")
-    if ran < 4:
-        sys.exit("README.md has fewer commands than expected")
+    print(f"{ran} commands of {' and '.join(PAGES)} ran")
+    if ran < 7:
+        sys.exit("the pages have fewer commands than expected")
 
 
 main()

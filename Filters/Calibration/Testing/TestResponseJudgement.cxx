@@ -96,14 +96,39 @@ TEST_F(Judgement, RawCounts)
     << bright;
   EXPECT_NE(bright.find("are they raw counts?"), std::string::npos) << bright;
   // Integers of 16 bits are divided by 65535, whatever the camera's own largest count.
-  const auto dim = this->warning([](Eigen::MatrixXd& pixels) { pixels *= 0.05; });
+  const auto dim = this->error([](Eigen::MatrixXd& pixels) { pixels *= 0.05; });
   EXPECT_NE(dim.find("are they raw counts?"), std::string::npos) << dim;
+  EXPECT_NE(dim.find("set Trust Responses"), std::string::npos) << dim;
+}
+
+TEST_F(Judgement, ResponsesThatTheUserTrustsAreOnlyRemarkedOn)
+{
+  this->Estimation->TrustResponsesOn();
+  for (const double factor : { 0.05, 40.0 })
+  {
+    const auto text = this->warning([factor](Eigen::MatrixXd& pixels) { pixels *= factor; });
+    EXPECT_NE(text.find("are they raw counts?"), std::string::npos) << text;
+    EXPECT_EQ(text.find("Trust Responses"), std::string::npos) << text;
+  }
+}
+
+TEST_F(Judgement, PixelsWithoutAnEstimateAreCounted)
+{
+  this->look(
+    [](Eigen::MatrixXd& pixels)
+    {
+      pixels.conservativeResize(Eigen::NoChange, 4);
+      pixels(0, 1) = std::numeric_limits<double>::quiet_NaN();
+    });
+  this->Estimation->Update();
+  EXPECT_EQ(this->Estimation->GetMissingShare(), 0.25);
 }
 
 TEST_F(Judgement, MostPixelsOutsideOfTheCalibration)
 {
-  const auto text = this->warning([](Eigen::MatrixXd& pixels) { pixels *= -0.7; });
-  EXPECT_NE(text, "");
+  const auto text = this->warning(
+    [](Eigen::MatrixXd& pixels) { pixels.row(0).array() += pixels.row(0).maxCoeff(); });
+  EXPECT_NE(text.find("their reflectance is extrapolated"), std::string::npos) << text;
 }
 
 TEST_F(Judgement, QualityMapsTellHowFarPixelsLieOutside)

@@ -58,6 +58,7 @@ TEST(FlatFieldCorrection, TakesTheOutputsNameAndAxis)
   vtkNew<vtkFlatFieldCorrection> correction;
   correction->SetInputData(0, raw);
   correction->SetPreview(false);
+  correction->SetWhiteLevel(2.0);
   ASSERT_EQ(errorOf(correction), "");
   auto* output = correction->GetOutput();
   EXPECT_EQ(output->GetPointData()->GetNumberOfArrays(), 1);
@@ -110,8 +111,9 @@ TEST(FlatFieldCorrection, TakesTheOnlyArrayWhereNoneIsActive)
   ASSERT_EQ(raw->GetPointData()->GetScalars(), nullptr);
   vtkNew<vtkFlatFieldCorrection> correction;
   correction->SetInputData(0, raw);
+  correction->SetWhiteLevel(2.0);
   ASSERT_EQ(errorOf(correction), "");
-  EXPECT_EQ(responses(correction), row({ 1.0 }, { 2.0 }));
+  EXPECT_EQ(responses(correction), row({ 0.5 }, { 1.0 }));
   EXPECT_EQ(correction->GetOutput()->GetPointData()->GetArray("counts"), nullptr);
 }
 
@@ -123,6 +125,7 @@ TEST(FlatFieldCorrection, NamesTheSizesThatDiffer)
     {
       vtkNew<vtkFlatFieldCorrection> correction;
       correction->SetInputData(0, newImage(3, 2, "raw", patternValues(2, 6), FrameGrid));
+      correction->SetWhiteLevel(2.0);
       ASSERT_EQ(errorOf(correction), "");
       correction->SetInputData(
         port, newImage(width, 2, "frame", patternValues(2, 2 * width), FrameGrid));

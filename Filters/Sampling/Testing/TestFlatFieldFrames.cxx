@@ -76,9 +76,16 @@ TEST_F(Frames, RawAndWhiteSwapped)
 TEST_F(Frames, Missing)
 {
   this->Correction->SetInputData(0, flat(0.5));
+  EXPECT_EQ(this->error(),
+    "neither a white nor a dark image is connected, so the raw values would pass unchanged; "
+    "connect a white image, or set WhiteLevel");
+  this->Correction->SetWhiteLevel(2.0);
+  EXPECT_EQ(this->warning(), "");
+  this->Correction->SetWhiteLevel(1.0);
+  this->Correction->SetInputData(2, flat(0.1));
   EXPECT_EQ(this->warning(),
-    "neither a white nor a dark image is connected and WhiteLevel is 1: the raw values are passed "
-    "on as they are");
+    "no white image is connected and WhiteLevel is 1: the responses are not relative to white; "
+    "connect a white image, or set WhiteLevel");
   this->Correction->SetInputData(2, flat(100.0));
   EXPECT_EQ(this->error(),
     "the WhiteLevel is above the dark image in no pixel and no channel; expected the white to be "

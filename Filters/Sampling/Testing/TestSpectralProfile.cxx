@@ -100,6 +100,22 @@ TEST(SpectralProfile, NamesAPointOutsideAndAnEmptyLabelImage)
   EXPECT_EQ(errorOf(profile), "the label image is 0 everywhere; expected labels 1, 2, ..");
 }
 
+TEST(SpectralProfile, GivesTheSpectrumOfTheHandle)
+{
+  vtkNew<vtkSpectralProfile> profile;
+  profile->SetInputData(0, image());
+  profile->AddPoint(0.0, 1.0);
+  profile->SetHandle(2.3, 0.4, 7.0);
+  profile->SetPlace(vtkSpectralProfile::HANDLE);
+  ASSERT_EQ(errorOf(profile), "");
+  EXPECT_EQ(
+    columnNames(profile->GetOutput()), (std::vector<std::string>{ "wavelength", "point 1" }));
+  EXPECT_EQ(cell(profile->GetOutput(), 1, "point 1"), 30.0);
+  profile->SetHandle(0.0, 5.0, 0.0);
+  EXPECT_EQ(
+    errorOf(profile), "the point (0, 5) is not in the image, which reaches from (0, 0) to (2, 1)");
+}
+
 TEST(SpectralProfile, PrintsItself)
 {
   vtkNew<vtkSpectralProfile> profile;

@@ -1,6 +1,7 @@
 """Diagnosing a capture: its files, and the report's sections in words."""
 
 import os
+import re
 
 from . import command, gap_pictures, pipeline, report
 
@@ -34,6 +35,9 @@ AXES = {
 }
 
 
+_LEAST_NM = 100  # a channel with such a number is named by its wavelength
+
+
 class Diagnosis:
     """The outputs of a diagnosis by name; those that it does not have are empty.
 
@@ -45,6 +49,7 @@ class Diagnosis:
         self.held = held
         self.axes = {**AXES, **(axes or {})}
         self._known = {}
+        self._names = None
 
     def port(self, name):
         return pipeline.port(self.proxy, self.ports[name])
@@ -55,6 +60,20 @@ class Diagnosis:
             names, rows = pipeline.table(self.port(name)) if name in self.ports else ([], [])
             self._known[name] = [dict(zip(names, row)) for row in rows]
         return self._known[name]
+
+    def words(self, text):
+        """Names of effects, axes and channels in a text as words: 'medium_gain' as 'Gain of one medium', 'C400' as '400 nm', 'C3' as
+        'channel 3 (450 nm)' where the camera's curves tell."""
+        if self._names is None:
+            self._names = {row["effect"]: row["title"][:1].lower() + row["title"][1:]
+                           for row in self.records("candidates") + self.records("causes")}
+            self._names.update({axis: axis.replace("_", " ") for axis in self.axes})
+            curves = self.records("camera")
+            for name in curves[0] if curves else ():
+                if re.fullmatch(r"C\d+", name) and "wavelength" in curves[0]:
+                    peak = max(curves, key=lambda row: row[name])["wavelength"]
+                    self._names[name] = f"{name[1:]} nm" if int(name[1:]) >= _LEAST_NM else f"channel {name[1:]} ({peak:g} nm)"
+        return re.sub(r"\b[A-Za-z]\w*\b", lambda found: self._names.get(found[0], found[0]), text)
 
     def summary(self):
         found = self.records("summary")
@@ -104,9 +123,9 @@ def print_summary(gap):
     command.say(f"Verdict: {figures['verdict']}")
     command.say(f"  {far(figures, gap.held)}")
     for cause in causes:
-        command.say(f"  {cause_line(cause)}")
+        command.say(f"  {cause_line(cause, gap)}")
     if figures["next_capture"]:
-        command.say(f"  Next capture: {figures['next_capture']} (separates {figures['separates']})")
+        command.say(f"  Next capture: {gap.words(figures['next_capture'])} (separates {gap.words(figures['separates'])})")
 
 
 def first_rows(rows):
@@ -130,12 +149,30 @@ def percent(share):
     return f"{100 * share:.0f} %" if share >= 0.005 else "under 1 %"
 
 
-def cause_line(cause):
-    medium = f" of {cause['medium']}" if cause["medium"] else ""
-    text = f"{cause['effect']}{medium}: {percent(cause['share'])} of the gap"
+def cause_line(cause, gap):
+    text = f"{title_of(cause)}: {percent(cause['share'])} of the gap"
     if cause["equivalent"]:
-        text += f"; cannot be told from {cause['equivalent']}"
+        text += f"; the data cannot distinguish it from {gap.words(cause['equivalent'])}"
     return text
+
+
+def title_of(cause):
+    return cause["title"] + (f" ({cause['medium']})" if cause["medium"] else "")
+
+
+def lead(gap):
+    """The result in one sentence."""
+    figures, rows = gap.summary(), gap.records("causes")
+    if not figures or figures["verdict"] == "no gap":
+        return "The simulated and the real camera agree within noise." if figures else ""
+    found = []
+    for cause in first_rows(rows):
+        parameters = [row for row in rows if row["rank"] == cause["rank"] and row["parameter"]]
+        value = f" {cause['value']:.3g}{'' if cause['unit'] in ('', '1') else ' ' + cause['unit']}" if len(parameters) == 1 else ""
+        found.append(f"{title_of(cause)}{value} ({percent(cause['share'])} of the gap)")
+    causes = "; ".join(found) if found else "no known effect accounts for it"
+    return (f"The simulated and the real camera differ by rms {figures['rms_before']:.4f}, {figures['rms_after']:.4f} after "
+            f"correction: {causes}.")
 
 
 def sections(gap, folder):
@@ -146,13 +183,13 @@ def sections(gap, folder):
         return []
     drawn = gap_pictures.drawn(folder)
     pages = [
-        verdict_section(figures, first_rows(tables["causes"]), gap.held),
-        *where_sections(tables["where"], figures, drawn, folder, gap.axes),
-        *which_sections(tables["causes"], figures, drawn, folder, gap.held),
+        verdict_section(figures, first_rows(tables["causes"]), gap),
+        *where_sections(tables["where"], figures, drawn, folder, gap),
+        *which_sections(tables["causes"], figures, drawn, folder, gap),
         report.pictures("How far it shrinks", folder, {
             "how-far.png": f"The gap before and after the causes are simulated, on {gap.held} that took no "
                            "part in finding them, against what noise alone makes"}),
-        undecided_section(figures, first_rows(tables["causes"]), notes)]
+        undecided_section(first_rows(tables["causes"]), notes, gap)]
     if "camera" in gap.ports:
         pages.append(corrected_section(tables["causes"]))
     return pages
@@ -168,31 +205,31 @@ def corrected_section(causes):
         "to put back. report.json holds this page as data.")
 
 
-def uncredited_lines(figures):
+def uncredited_lines(figures, gap):
     """What no cause is given: what is left of the gap, and what shrinks but may be another's."""
     share, left = figures["unexplained_share"], 1.0 - max(figures["shrink"], 0.0)
     if share < 0.005:
         return []
-    where = figures["unexplained_where"]
+    where = gap.words(figures["unexplained_where"])
     place = "" if not where else f" ({where})" if where.startswith("no ") else f", most of it at {where}"
     if share <= left + 0.02:
         return [f"Left over: {100 * share:.0f} % of the gap{place}."]
-    return [f"No cause is given {100 * share:.0f} % of the gap: {100 * left:.0f} % is left over{place}; the rest shrinks, but "
-            "the shares are cautious. They leave out what causes undo of one another, and what is left over may hide under "
-            "the causes by as much as its own size."]
+    return [f"No cause accounts for {100 * share:.0f} % of the gap: {100 * left:.0f} % remains after the correction{place}. The "
+            "correction removes the rest, but the shares are conservative: they leave out what two causes cancel of each other, "
+            "and the causes may hide as much again as what remains."]
 
 
-def verdict_section(figures, causes, held):
-    lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures, held)}."]
-    lines += [f"Cause {number}: {cause_line(cause)}." for number, cause in enumerate(causes, 1)]
+def verdict_section(figures, causes, gap):
+    lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures, gap.held)}."]
+    lines += [f"Cause {number}: {cause_line(cause, gap)}." for number, cause in enumerate(causes, 1)]
     if causes:
-        lines += uncredited_lines(figures)
+        lines += uncredited_lines(figures, gap)
     if figures["next_capture"]:
-        lines.append(f"Capture next: {figures['next_capture']}. It separates {figures['separates']}.")
+        lines.append(f"Next capture: {gap.words(figures['next_capture'])}. It separates {gap.words(figures['separates'])}.")
     return report.text(f"Verdict: {figures['verdict']}", *lines)
 
 
-def where_sections(where, figures, drawn, folder, meanings):
+def where_sections(where, figures, drawn, folder, gap):
     if figures["verdict"] == "no gap":
         words = ["There is no gap beyond noise; the pictures show how evenly what is left is spread."]
     else:
@@ -200,11 +237,12 @@ def where_sections(where, figures, drawn, folder, meanings):
         words = []
         for axis in axes:
             cells = [row for row in where if row["axis"] == axis["axis"] and row["cell"]][:3]
-            worst = ", ".join(f"{row['cell']} ({100 * row['share']:.0f} %)" for row in cells)
-            words.append(f"{axis['axis']}: {100 * axis['share']:.0f} % of the gap's energy: "
-                         f"{meanings.get(axis['axis'], '')}."
-                         + (f" Most of the energy is in {worst}." if worst else ""))
-        words = words or ["No axis stands out: the gap is spread over everything alike."]
+            worst = ", ".join(f"{gap.words(row['cell'])}: {100 * row['share']:.0f} %" for row in cells)
+            name = axis["axis"].replace("_", " ")
+            words.append(f"{name[:1].upper()}{name[1:]}, {100 * axis['share']:.0f} % of the gap's energy: "
+                         f"{gap.axes.get(axis['axis'], '')}."
+                         + (f" Largest parts: {worst}." if worst else ""))
+        words = words or ["No axis stands out: the gap is spread evenly."]
     captions = {
         "axes.png": "How much of the gap's energy each axis predicts on what was held out; what two axes "
                     "have in common is shared between them",
@@ -222,34 +260,34 @@ def where_sections(where, figures, drawn, folder, meanings):
                             {name: text for name, text in captions.items() if name in drawn})]
 
 
-def which_sections(causes, figures, drawn, folder, held):
+def which_sections(causes, figures, drawn, folder, gap):
     parts = []
     for cause in first_rows(causes):
-        medium = f" ({cause['medium']})" if cause["medium"] else ""
         words = [cause["meaning"], f"As simulated: {cause['formula']}.",
-                 f"It makes {percent(cause['share'])} of the gap; simulated alone it shrinks the gap "
-                 f"by {100 * cause['shrink']:.0f} %."]
+                 f"Adding this effect to the simulation accounts for {percent(cause['share'])} of the gap; alone it would remove "
+                 f"{100 * cause['shrink']:.0f} %."]
         if cause["equivalent"]:
-            words.append(f"These data cannot tell it from {cause['equivalent']}: any of them does as well "
-                         f"on {held} held out. A capture that tells: {cause['next_capture']}.")
-        parts.append(report.text(f"Cause {cause['rank']}: {cause['title']}{medium}", *words))
+            words.append(f"These data cannot distinguish it from {gap.words(cause['equivalent'])}: each of them fits the {gap.held} "
+                         f"held out equally well. A capture that separates them: {gap.words(cause['next_capture'])}.")
+        parts.append(report.text(f"Cause {cause['rank']}: {title_of(cause)}", *words))
     if not parts:
         parts = [report.text("Which effects cause it",
                              "None." if figures["verdict"] == "no gap" else
                              "None of the known effects: naming one would be a guess.")]
     columns = ["parameter", "value", "standard_error", "unit", "parameter_meaning"]
-    rows = [[row["effect"], *(row[name] for name in columns)] for row in causes if row["parameter"]]
-    parts.append(report.table("Parameters of the causes", ["effect", *columns], rows))
+    rows = [[title_of(row), *(row[name] for name in columns)] for row in causes if row["parameter"]]
+    parts.append(report.table("Parameters of the causes", ["cause", "parameter", "value", "standard error", "unit", "meaning"],
+                              rows))
     if "which.png" in drawn:
         parts.append(report.pictures("Which effects were tried", folder, {
             "which.png": "The causes found, each with the effects that the data cannot tell from it; and "
-                         f"what each effect alone would do, with the 95 % interval over {held}"}))
+                         f"what each effect alone would do, with the 95 % interval over {gap.held}"}))
     return parts
 
 
-def undecided_section(figures, causes, notes):
-    words = [f"{cause['effect']} or {cause['equivalent']}: {cause['next_capture']} would tell."
+def undecided_section(causes, notes, gap):
+    words = [f"{title_of(cause)}, or {gap.words(cause['equivalent'])}: a capture of {gap.words(cause['next_capture'])} would tell."
              for cause in causes if cause["equivalent"]]
-    words += notes
+    words += [gap.words(note) for note in notes]
     return report.text("What these data cannot decide, and why",
-                       *(words or ["Nothing stood in the way of the diagnosis."]))
+                       *(words or ["Nothing limits the diagnosis."]))

@@ -3,7 +3,7 @@
 import collections
 import os
 
-from . import command, outputs, pictures, pipeline, report, state
+from . import command, pictures, pipeline, report, state
 
 DEFAULT_ILLUMINANTS = ("D65", "F2")
 DEFAULT_OBSERVER = "CIE 1931 2 degree"
@@ -71,23 +71,24 @@ def correction(calibration, tuning, method):
              "MetamerismTransform": pipeline.port(fit, 1)}, pipeline.port(fit, 2))
 
 
-def estimate(image, transforms, folder):
-    """The reflectance image, which nothing has computed yet; its transforms are written."""
+def estimate(image, transforms, folder, trust=False):
+    """The reflectance image, which nothing has computed yet; its transforms are written. trust: the user vouches for
+    responses that look like raw counts."""
     for name, source in transforms.items():
         words = "".join("-" + c.lower() if c.isupper() else c for c in name).lstrip("-")
         pipeline.save_table(source, os.path.join(folder, f"{words}.csv"))
-    return pipeline.create("ReflectanceEstimation", Input=image, Preview=0, **transforms)
+    return pipeline.create("ReflectanceEstimation", Input=image, Preview=0, TrustResponses=int(trust), **transforms)
 
 
-def require_plausible(image, transforms):
+def require_plausible(image, transforms, trust=False):
     """The filter's judgement of responses, which it gives of whole images only: before a large one is worked through in
-    pieces. image: every n-th pixel of it. Returns the estimate with its quality maps, and the share of the pixels whose
-    responses lie outside of the range of the fitted samples, None where it is not known."""
-    estimated = pipeline.create("ReflectanceEstimation", Input=image, QualityMaps=1, **transforms)
+    pieces. image: every n-th pixel of it. Returns the estimate with its quality maps, the share of the pixels whose
+    responses lie outside of the range of the fitted samples, None where it is not known, and the share without a result."""
+    estimated = pipeline.create("ReflectanceEstimation", Input=image, QualityMaps=1, TrustResponses=int(trust), **transforms)
     pipeline.whole(estimated)
     estimated.UpdatePropertyInformation()
-    share = float(estimated.GetProperty("OutOfRangeShare").GetData())
-    return estimated, share if share >= 0.0 else None
+    outside, missing = (float(estimated.GetProperty(name).GetData()) for name in ("OutOfRangeShare", "MissingShare"))
+    return estimated, outside if outside >= 0.0 else None, missing
 
 
 QUALITY_MAPS = {"OutOfRange": ("out-of-range.png", "How far the responses lie outside of the range of the fitted samples "
@@ -105,8 +106,6 @@ def save_quality(estimated, folder):
         if arrays.GetArray(array) is not None:
             pictures.image(estimated, array, path)
             captions[name] = caption
-        elif command.rank() == 0:
-            outputs.remove(path)
     return report.pictures("How far to trust each pixel", folder, captions) if captions else ""
 
 
@@ -120,15 +119,12 @@ def save_view(reflectance, folder, whole=None, illuminant="D65", observer=DEFAUL
         pictures.srgb(pipeline.create("SpectralToColor", Input=whole, **options), os.path.join(folder, "srgb.png"))
 
 
-CUBES = {"exr": ("reflectance.exr",), "envi": ("reflectance.img", "reflectance.hdr")}
+CUBES = {"exr": "reflectance.exr", "envi": "reflectance.img"}
 
 
 def save_reflectance(reflectance, folder, cube="exr"):
     """Block by block: the image never stands in memory whole."""
-    pipeline.save_image(reflectance, os.path.join(folder, CUBES[cube][0]))
-    for name in (name for other, names in CUBES.items() if other != cube for name in names):
-        if command.rank() == 0:
-            outputs.remove(os.path.join(folder, name))  # of an earlier run
+    pipeline.save_image(reflectance, os.path.join(folder, CUBES[cube]))
 
 
 def error_maps(reflectance, labels, held_out, conditions):

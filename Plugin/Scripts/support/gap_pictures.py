@@ -216,8 +216,9 @@ def _trend(rows):
 def _which(causes, candidates, summary):
     """Above: the causes, each with what the data cannot tell from it. Below: each effect alone."""
     causes = list({row["rank"]: row for row in causes}.values())
-    found = [entry for row in causes for entry in
-             [(row, row["effect"])] + [(None, name) for name in row["equivalent"].split(", ") if name]]
+    titles = {row["effect"]: row["title"] for row in [*candidates, *causes]}
+    found = [entry for row in causes for entry in [(row, "")] + [
+        (None, titles.get(name, name.replace("_", " "))) for name in row["equivalent"].split(", ") if name]]
     candidates = candidates[:_MOST_LABELS]
     if not found and not candidates:
         return None
@@ -234,7 +235,7 @@ def _which(causes, candidates, summary):
 
 
 def _label(row):
-    return row["effect"] + (f" ({row['medium']})" if row["medium"] else "")
+    return row["title"] + (f" ({row['medium']})" if row["medium"] else "")
 
 
 def _causes(plot, found, left):

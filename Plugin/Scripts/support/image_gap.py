@@ -55,13 +55,13 @@ def pair(folder):
     if not any(found[kind] for kind in _KINDS.values()):
         return None
     if not found["real"]:
-        raise Failure(f"{place}: there is no real image; expected real*: a file, one file a channel, or a folder of "
+        raise Failure(f"{place}: there is no real image; expected real*: a file, one file per channel, or a folder of "
                       "such files")
     if not found["simulated"]:
         missing = [name for name, kind in (("images/labels.png", "labels"), ("images/patches.csv", "patches"),
                                            ("camera.csv", "camera")) if not found[kind]]
         if missing:
-            raise Failure(f"{place}: there is no simulated image; expected sim*: a file, one file a channel, or a folder "
+            raise Failure(f"{place}: there is no simulated image; expected sim*: a file, one file per channel, or a folder "
                           f"of such files; or a chart to simulate, for which {' and '.join(missing)} "
                           f"{'is' if len(missing) == 1 else 'are'} missing")
     return found

@@ -3,7 +3,9 @@
 import contextlib
 import fcntl
 import fnmatch
+import html
 import itertools
+import json
 import os
 import re
 import socket
@@ -17,6 +19,8 @@ _PARTNERS = ({".hdr", ".img", ".dat", ".raw", ".bil", ".bsq", ".bip", ".bin", ".
 _inputs = {}  # (device, inode): the name that the user gave
 _declared = None  # the folder, and the patterns of what is written into it
 _old_report = None  # until the first result of this run
+_written = {}  # what this run wrote, in order
+_LIST = re.compile(r"<meta name='multispectral-files' content='([^']*)'>")
 _numbers = itertools.count()
 _locks = []  # folders that this run holds, until it ends
 
@@ -54,6 +58,7 @@ def claim(folder, patterns):
         _lock(folder)
         for place in {os.path.dirname(pattern) for pattern in patterns}:
             _remove_stale_parts(os.path.join(folder, place))
+    _written.clear()
     _old_report = os.path.join(folder, "report.html") if "report.html" in patterns else None
     return folder
 
@@ -141,21 +146,47 @@ def check(path):
     _require_declared(path)
     for file in _files_of(path):
         _refuse_input(file)
-    _remove_old_report()
+    _remove_old_results()
+    _written[path] = None
     return path
 
 
-def _remove_old_report():
-    """With the first result: the report of an earlier run must not stand beside newer results."""
+def _remove_old_results():
+    """With the first result: the report of an earlier run, and what it says that the run wrote, must not stand beside newer
+    results."""
     global _old_report
     if _old_report is not None and command.rank() == 0:
         path, _old_report = _old_report, None
+        folder, patterns = _declared
+        for name in _listed_in(path):
+            place, base = os.path.split(name)
+            if any(place == os.path.dirname(pattern) and fnmatch.fnmatchcase(base, os.path.basename(pattern))
+                   for pattern in patterns):
+                old = os.path.join(folder, name)
+                _refuse_input(old)
+                _remove(old)
         _remove(path)
+
+
+def list_of_written():
+    """What this run has written, for its report: the next run into the same folder removes it."""
+    files = [file for path in _written for file in _files_of(path) if file == path or os.path.isfile(file)]
+    names = [os.path.relpath(file, _declared[0]) for file in files] if _declared else []
+    return f"<meta name='multispectral-files' content='{html.escape(json.dumps(names), quote=True)}'>"
+
+
+def _listed_in(report):
+    with contextlib.suppress(OSError, ValueError), open(report, encoding="utf-8", errors="replace") as file:
+        found = _LIST.search(file.read(1 << 16))
+        names = json.loads(html.unescape(found[1])) if found else []
+        return [name for name in names if isinstance(name, str)]
+    return []
 
 
 def remove(path):
     """An output of an earlier run that this one does not have."""
     check(path)
+    _written.pop(path, None)
     _remove(path)
 
 

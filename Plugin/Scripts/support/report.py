@@ -73,7 +73,7 @@ def write(folder, title, sections, lead="", warnings=()):
     if command.rank() != 0:
         return
     page = (f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'>"
-            f"<meta name='viewport' content='width=device-width'>"
+            f"<meta name='viewport' content='width=device-width'>{outputs.list_of_written()}"
             f"<title>{html.escape(title)}</title><style>{_STYLE}</style></head><body>"
             f"<h1>{html.escape(title)}</h1>"
             + (f"<p class='lead'>{html.escape(lead)}</p>" if lead else "")

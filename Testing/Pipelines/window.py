@@ -1,7 +1,9 @@
-"""ParaView's window, driven by mouse and keys as a user does: the main job, the spectra of pixels, File > Open.
+"""ParaView's window, driven by mouse and keys as a user does: the main job and its faults, spectra of pixels and regions, bands, files
+that are written and opened, a chart whose corners are dragged.
 
 Arguments: a folder for screenshots and logs."""
 
+import csv
 import json
 import os
 import pathlib
@@ -24,7 +26,7 @@ class Failed(Exception):
 
 class Window:
     def __init__(self, folder):
-        self.folder, self.clicks = folder, 0
+        self.folder, self.clicks, self.faults_end = folder, 0, 0
         self.state_file = folder / "state.json"
         self.processes = []
         self.environment = dict(
@@ -51,7 +53,7 @@ class Window:
                  stderr=subprocess.STDOUT)
         self.wait("the panel and the toolbar", lambda s: "MultispectralMainJob" in s["named"])
         self.xdotool("search", "--onlyvisible", "--name", "ParaView 5", "windowmove", "0", "0", "windowsize", "1400", "880")
-        self.wait("the larger window", lambda s: s["frames"] and s["frames"][0][2] > 500)
+        self.wait("the larger window", lambda s: s["frames"] and (len(s["frames"]) > 1 or s["frames"][0][2] > 500))
         self.settle()
 
     def run(self, command, **options):
@@ -100,6 +102,16 @@ class Window:
         self.xdotool("click", 1)
         self.clicks += 1
 
+    def drag(self, start, end):
+        self.xdotool("mousemove", *start)
+        time.sleep(0.3)
+        self.xdotool("mousedown", 1)
+        for part in (0.3, 0.7, 1.0):
+            time.sleep(0.2)
+            self.xdotool("mousemove", *(int(a + part * (b - a)) for a, b in zip(start, end)))
+        time.sleep(0.3)
+        self.xdotool("mouseup", 1)
+
     def type(self, text):
         self.xdotool("type", "--delay", "5", text)
 
@@ -112,19 +124,47 @@ class Window:
         subprocess.run(["import", "-window", "root", str(self.folder / f"{name}.png")], env=self.environment, check=False,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
+    def load_chart(self):
+        """The synthetic chart that the watching script makes, selected and shown."""
+        (self.folder / "load-chart").write_text(str(self.folder / "chart-reference.csv"), encoding="utf-8")
+        return self.wait("the chart's image", lambda s: "chart image" in s["sources"] and not s["dialogs"])
+
     def errors(self):
-        text = (self.folder / "paraview.log").read_text(encoding="utf-8", errors="replace")
+        """Of the steps that are no fault."""
+        text = (self.folder / "paraview.log").read_text(encoding="utf-8", errors="replace")[self.faults_end:]
         return [line for line in text.splitlines() if "ERR|" in line or "Traceback" in line or "WARN|" in line]
 
 
-def main_job(window):
+def one_message(window):
+    """A scene of raw counts is refused: one message with the numbers, and nothing half made stays."""
+    folder = window.folder / "raw counts"
+    folder.mkdir()
+    for path in SCENE.glob("channel_*.tif"):
+        shutil.copy(path, folder)
+    ask_main_job(window, folder)
+    said = window.wait("the message", lambda s: s["messages"])["messages"]
+    if len(said) != 1 or "reach 4.1 % of the largest ones of the calibration samples" not in said[0]:
+        raise Failed(f"raw counts: {said}")
+    window.picture("one_message")
+    window.key("Return")
+    state = window.wait("the message closed", lambda s: not s["messages"])
+    if state["sources"] or state["output"]:
+        raise Failed(f"raw counts leave {state['sources']} and the messages {state['output']}")
+    window.clicks, window.faults_end = 0, len((window.folder / "paraview.log").read_text(encoding="utf-8", errors="replace"))
+
+
+def ask_main_job(window, scene):
     window.click(window.state()["named"]["MultispectralMainJob"])
     state = window.wait("the dialog", lambda s: "MultispectralScene" in s["named"])
     window.click(state["named"]["MultispectralScene"])
-    for path in (SCENE, SAMPLES / "demo-chart.csv", SAMPLES / "demo-fabric.csv"):
+    for path in (scene, SAMPLES / "demo-chart.csv", SAMPLES / "demo-fabric.csv"):
         window.type(path)
         window.key("Tab", "Tab")
     window.click(window.state()["named"]["MultispectralRun"])
+
+
+def main_job(window):
+    ask_main_job(window, SCENE)
     state = window.wait("four views", lambda s: len(s["frames"]) == 4 and
                         sum(len(view["texts"]) for view in s["views"].values()) == 4 and not s["dialogs"])
     if window.clicks > MOST_CLICKS:
@@ -156,6 +196,69 @@ def spectra(window):
             f"({pin['column']}, {pin['row']}) measured: {pin['measured']}" for pin in pins))
 
 
+def region_and_files(window):
+    """The mean of a rectangle that is dragged; the kept spectra as files; a band and back to the colors."""
+    state = window.state()
+    left, top, _, height = state["frames"][1]
+    view = next(view for view in state["views"].values() if "Corrected by swatches" in view["texts"])
+    (x0, y0), (x1, y1) = view["places"][0], view["places"][1]
+    window.click(state["named"]["MultispectralRegion"])
+    window.drag([left + x0, top + height - y0], [left + x1, top + height - y1])
+    pin = window.wait("the mean of a region", lambda s: len(s["pins"]) == 6)["pins"][-1]
+    if not (pin["count"] > 100 and pin["deviation"] and len(pin["values"]) == 31):
+        raise Failed(f"the region is {pin}")
+    window.click(state["named"]["MultispectralRegion"])
+    for name, file in (("Csv", "kept.csv"), ("Png", "kept.png")):
+        window.click(window.state()["named"][f"Multispectral{name}"])
+        window.wait("the dialog for a file", lambda s: s["dialogs"])
+        window.key("ctrl+a")
+        window.type(window.folder / pathlib.Path(file).stem)  # its extension is added
+        window.key("Return")
+        window.wait("the dialog closed", lambda s: not s["dialogs"])
+        if not (window.folder / file).is_file():
+            raise Failed(f"{file} was not written")
+    with open(window.folder / "kept.csv", newline="", encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    if len(rows) != 6 or rows[5]["count"] != str(pin["count"]) or abs(float(rows[5]["E550"]) - pin["values"][15]) > 1e-5:
+        raise Failed(f"kept.csv: {rows}")
+    window.click(window.state()["named"]["MultispectralBand"])
+    state = window.wait("a band", lambda s: s["band"].endswith(" nm"))
+    window.picture("band")
+    window.key("Home")
+    window.wait("the colors", lambda s: s["band"] == "colors")
+
+
+def chart(window):
+    """A chart is found; a corner that is dragged moves its patches; the table is written."""
+    state = window.load_chart()
+    window.click(state["named"]["MultispectralFindChart"])
+    state = window.wait("the dialog of the chart", lambda s: "MultispectralChartReference" in s["named"])
+    window.click(state["named"]["MultispectralChartReference"])
+    window.type(window.folder / "chart-reference.csv")
+    window.click(state["named"]["MultispectralChartFind"])
+    state = window.wait("the chart", lambda s: len(s["corners"]) == 4 and "24 patches" in s["status"])
+    first = state["corners"]
+    window.picture("chart")
+    window.drag(first[2], [first[2][0] - 60, first[2][1] - 40])
+    moved = window.wait("a corner moved", lambda s: s["corners"] and s["corners"][2] != first[2] and "spots" in s["status"])["corners"]
+    if moved[:2] != first[:2] or moved[3] != first[3]:
+        raise Failed(f"more than one corner moved: {first} to {moved}")
+    window.drag(moved[2], first[2])
+    window.wait("the corner back", lambda s: s["corners"] and s["status"].startswith("24 patches") and "spots" not in s["status"])
+    window.click(window.state()["named"]["MultispectralChartSave"])
+    window.wait("the dialog for a file", lambda s: any("Save" in title for title in s["dialogs"]))
+    window.key("ctrl+a")
+    window.type(window.folder / "chart")
+    window.key("Return")
+    window.wait("the table", lambda s: s["status"].startswith("Saved"))
+    with open(window.folder / "chart.csv", newline="", encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    if len(rows) != 24 or "R400" not in rows[0]:
+        raise Failed(f"chart.csv has {len(rows)} rows and the columns {list(rows[0])[:9]}")
+    window.click(window.state()["named"]["MultispectralChartClose"])
+    window.wait("the dialog closed", lambda s: not s["dialogs"])
+
+
 def help_page(window):
     """'?' shows the page of the selected filter, with its mathematics."""
     window.click(window.state()["named"]["Help"])
@@ -168,8 +271,12 @@ def help_page(window):
 
 
 def open_files(window):
-    """No question comes, and the right reader is taken."""
-    for path, name, reader in ((SCENE / "channel_400nm.tif", "channel_400nm.tif", "SpectralImageReader"),
+    """No question comes, and the right reader is taken; a plain picture may be wanted as one, there the reader is selected."""
+    shutil.copy(SAMPLES / "demo-fabric.csv", window.folder / "measured.csv")
+    shutil.copy(ROOT / "Data" / "Captures" / "demo-warm-camera" / "camera.csv", window.folder / "curves.csv")
+    for path, name, reader in (
+                               (window.folder / "measured.csv", "measured.csv", "SampleTableReader"),
+                               (window.folder / "curves.csv", "curves.csv", "CameraReader"),(SCENE / "channel_400nm.tif", "channel_400nm.tif", "SpectralImageReader"),
                                (SCENE / "labels.png", "labels.png", "LabelImageReader"),
                                (SAMPLES / "demo-chart.csv", "demo-chart.csv", "SampleTableReader")):
         window.key("ctrl+o")
@@ -195,7 +302,7 @@ def main():
     window, fault = Window(folder), None
     try:
         window.start()
-        for step in (main_job, spectra, help_page, open_files):
+        for step in (one_message, main_job, spectra, region_and_files, help_page, open_files, chart):
             step(window)
             window.picture(step.__name__)
         if window.errors():
@@ -208,4 +315,5 @@ def main():
     sys.exit(1 if fault else 0)
 
 
-main()
+if __name__ == "__main__":
+    main()

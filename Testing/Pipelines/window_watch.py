@@ -3,7 +3,7 @@
 import json
 import os
 
-from paraview import simple
+from paraview import servermanager, simple
 from PyQt5 import QtCore, QtWidgets
 
 
@@ -24,6 +24,34 @@ def _places(view):
         renderer.WorldToDisplay()
         places.append(list(renderer.GetDisplayPoint()[:2]))
     return places
+
+
+def _load_chart():
+    """On the test's word: a synthetic chart in a view of its own."""
+    word = os.path.join(os.path.dirname(os.environ["MULTISPECTRAL_WINDOW_STATE"]), "load-chart")
+    if not os.path.exists(word):
+        return
+    with open(word, encoding="utf-8") as file:
+        path = file.read()
+    os.remove(word)
+    scene = simple.SyntheticScene(registrationName="chart image", Subject="Chart of 24 Patches", Size=[240, 160])
+    writer = servermanager.writers.SampleTableWriter(Input=servermanager.OutputPort(scene, 1), FileName=path)
+    writer.UpdatePipeline()
+    layout, view = simple.CreateLayout(name="chart"), simple.CreateView("RenderView")
+    layout.AssignView(0, view)
+    simple.Show(scene, view)
+    view.InteractionMode = "2D"
+    simple.ResetCamera(view)
+    simple.SetActiveView(view)
+    simple.SetActiveSource(scene)
+    simple.Render(view)
+
+
+def _corners(placement, frame):
+    """Of the chart, on the screen."""
+    if placement is None or not placement.isVisible() or placement.view is None:
+        return []
+    return [[int(frame[0] + x), int(frame[1] + frame[3] - y)] for x, y in map(placement.on_screen, placement.corners)]
 
 
 def _state():
@@ -55,20 +83,29 @@ def _state():
     # Where the views are on the screen, as their widgets stand: the upper left first.
     frames = [w for w in main.findChildren(QtWidgets.QWidget)
               if w.metaObject().className() == "pqQVTKWidget" and w.isVisible()]
+    frames = sorted([[w.mapToGlobal(QtCore.QPoint(0, 0)).x(), w.mapToGlobal(QtCore.QPoint(0, 0)).y(), w.width(), w.height()]
+                     for w in frames], key=lambda f: (f[1] // 50, f[0]))
+    placement = main.findChild(QtWidgets.QDialog, "MultispectralChartDialog")
+    tree = main.findChild(QtWidgets.QDockWidget, "outputWidgetDock").findChild(QtWidgets.QTreeView)
     return {
+        "messages": [w.text() for w in windows if isinstance(w, QtWidgets.QMessageBox)],
+        "output": [tree.model().index(row, 0).data() for row in range(tree.model().rowCount())],
+        "band": panel.band_text.text(),
+        "corners": _corners(placement, frames[0]) if frames else [],
+        "status": placement.status.text() if placement is not None else "",
         "named": named,
         "dialogs": [w.windowTitle() for w in windows if isinstance(w, QtWidgets.QDialog)],
         "help": pages.text.toPlainText()[:2000] if pages is not None and pages.isVisible() else "",
         "views": views,
-        "frames": sorted([[w.mapToGlobal(QtCore.QPoint(0, 0)).x(), w.mapToGlobal(QtCore.QPoint(0, 0)).y(),
-                           w.width(), w.height()] for w in frames], key=lambda f: (f[1] // 50, f[0])),
+        "frames": frames,
         "sources": {name: s.SMProxy.GetXMLName() for (name, _), s in simple.GetSources().items()},
         "pins": [{"name": p.name, "column": p.column, "row": p.row, "values": p.values, "errors": p.errors,
-                  "measured": p.measured is not None, "deviation": p.deviation is not None} for p in panel.pins],
+                  "count": p.count, "measured": p.measured is not None, "deviation": p.deviation is not None} for p in panel.pins],
         "live": panel.live is not None}
 
 
 def _write():
+    _load_chart()
     state = _state()
     if state is not None:
         path = os.environ["MULTISPECTRAL_WINDOW_STATE"]

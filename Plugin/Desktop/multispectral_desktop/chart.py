@@ -114,7 +114,8 @@ class SpectrumChart(QtWidgets.QWidget):
             painter.setPen(pen)
             painter.drawLine(QtCore.QPointF(plot.left() + 8, y - 4), QtCore.QPointF(plot.left() + 30, y - 4))
             painter.setPen(_TEXT)
-            painter.drawText(QtCore.QPointF(plot.left() + 36, y), curve.label)
+            painter.drawText(QtCore.QPointF(plot.left() + 36, y), painter.fontMetrics().elidedText(
+                curve.label, QtCore.Qt.ElideRight, int(plot.width()) - 40))
 
 
 def _steps(low, high, most):

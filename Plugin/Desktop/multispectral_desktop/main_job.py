@@ -6,8 +6,14 @@ import os
 
 from paraview import servermanager, simple
 
+from . import messages
+
 METHOD = "Transfer"
 _MOST_PIXELS_WITH_UNCERTAINTY = 1_000_000
+_BESIDE_LEGEND = 0.08  # of the image's width: as far all views are moved, so that the legends have their place
+
+
+warnings = []  # of the filters of the last job, to be shown with its result
 
 
 class Missing(Exception):
@@ -17,24 +23,34 @@ class Missing(Exception):
 def open_scene(folder):
     """The folder as one source, named after it."""
     name = os.path.basename(os.path.normpath(folder))
-    scene = simple.SceneReader(registrationName=name, FileName=folder)
-    scene.UpdatePipeline()
-    _require_data(scene, 0, f"{folder}: the scene could not be opened; the messages say why")
-    return name, scene
+    return name, _make(lambda: simple.SceneReader(registrationName=name, FileName=folder), 0, "The scene could not be opened")
 
 
 def build(folder, chart=None, swatches=None, method=METHOD):
-    """chart, swatches: files; None: those of the scene. Returns the views."""
+    """chart, swatches: files; None: those of the scene. Returns the views; where a part fails, nothing of the job stays."""
+    warnings.clear()
+    known = set(simple.GetSources())
+    try:
+        return _build(folder, chart, swatches, method)
+    except Missing:
+        made = [source for key, source in simple.GetSources().items() if key not in known]
+        for source in sorted(made, key=lambda source: -source.SMProxy.GetGlobalID()):
+            simple.Delete(source)
+        raise
+
+
+def _build(folder, chart, swatches, method):
     name, scene = open_scene(folder)
     calibration = _table(scene, 3, chart, f"{name}: chart",
                          "the chart's samples (reflectance and camera responses) are missing; name their file, or put "
                          "chart.csv into the scene's folder")
     tuning = _table(scene, 4, swatches, f"{name}: swatches", None)
-    jobs = [("chart alone", simple.ReflectanceCalibration(registrationName=f"{name}: chart alone, fit",
-                                                          Input=calibration, Method="Pseudoinverse"), None)]
+    fit = _make(lambda: simple.ReflectanceCalibration(registrationName=f"{name}: chart alone, fit", Input=calibration,
+                                                      Method="Pseudoinverse"), 0, "The chart's calibration failed")
+    jobs = [("chart alone", fit, None)]
     if tuning is not None:
-        fit = simple.MetamerismCorrection(registrationName=f"{name}: corrected, fit", Calibration=calibration,
-                                          Tuning=tuning, Method=method)
+        fit = _make(lambda: simple.MetamerismCorrection(registrationName=f"{name}: corrected, fit", Calibration=calibration,
+                                                        Tuning=tuning, Method=method), 0, "The correction by swatches failed")
         jobs.append(("corrected by swatches", fit, 1))
     reference = _reference(name, scene)
     rows = [_row(name, scene, title, fit, second, reference) for title, fit, second in jobs]
@@ -46,18 +62,22 @@ def _has_data(source, port):
     return information.GetNumberOfPoints() > 0 or information.GetNumberOfRows() > 0
 
 
-def _require_data(source, port, text):
-    if not _has_data(source, port):
-        raise Missing(text)
+def _make(create, port, text):
+    """A source, run; its fault is one message, and the source goes. Of a server's sources ParaView's message window says more."""
+    with messages.heard() as said:
+        source = create()
+        source.UpdatePipeline()
+    if said.errors or not _has_data(source, port):
+        simple.Delete(source)
+        raise Missing(f"{text}: {said.errors[0]}" if said.errors else f"{text}; the message window may say why")
+    warnings.extend(said.warnings)
+    return source
 
 
 def _table(scene, port, path, name, missing):
     """The table of a file, or of the scene; None where there is none and that is no fault."""
     if path:
-        table = simple.SampleTableReader(registrationName=name, FileName=path)
-        table.UpdatePipeline()
-        _require_data(table, 0, f"{path}: no samples could be read; the messages say why")
-        return table
+        return _make(lambda: simple.SampleTableReader(registrationName=name, FileName=path), 0, "No samples could be read")
     if _has_data(scene, port):
         return scene[port]
     if missing:
@@ -68,10 +88,8 @@ def _table(scene, port, path, name, missing):
 def _reference(name, scene):
     if not (_has_data(scene, 1) and _has_data(scene, 2)):
         return None
-    reference = simple.PatchReferenceImage(registrationName=f"{name}: measured patches", Input=scene[1],
-                                           PatchTable=scene[2])
-    reference.UpdatePipeline()
-    return reference
+    return _make(lambda: simple.PatchReferenceImage(registrationName=f"{name}: measured patches", Input=scene[1],
+                                                    PatchTable=scene[2]), 0, "The measured patches could not be placed")
 
 
 def _row(name, scene, title, fit, second, reference):
@@ -80,16 +98,13 @@ def _row(name, scene, title, fit, second, reference):
     if second is not None:
         transforms["MetamerismTransform"] = fit[second]
     points = scene.GetDataInformation(0).GetNumberOfPoints()
-    estimate = simple.ReflectanceEstimation(
+    estimate = _make(lambda: simple.ReflectanceEstimation(
         registrationName=f"{name}: {title}", Input=scene[0], **transforms,
-        Uncertainty="On" if points <= _MOST_PIXELS_WITH_UNCERTAINTY else "Automatic")
-    estimate.UpdatePipeline()
-    _require_data(estimate, 0, f"{title}: nothing was estimated; the messages say why")
+        Uncertainty="On" if points <= _MOST_PIXELS_WITH_UNCERTAINTY else "Automatic"), 0, f"{title}: nothing was estimated")
     errors = None
     if reference is not None:
-        errors = simple.CIEDE2000Evaluator(registrationName=f"{name}: errors, {title}", Input=estimate,
-                                           Reference=reference)
-        errors.UpdatePipeline()
+        errors = _make(lambda: simple.CIEDE2000Evaluator(registrationName=f"{name}: errors, {title}", Input=estimate,
+                                                         Reference=reference), 0, f"{title}: no color difference was computed")
     return title, estimate, errors
 
 
@@ -157,4 +172,8 @@ def _view(layout, cell, source, title):
     shown.FontSize = 16
     simple.ResetCamera(view)
     view.CameraParallelScale *= 0.9
+    bounds = source.GetDataInformation(getattr(source, "Port", 0)).GetBounds()
+    beside = _BESIDE_LEGEND * (bounds[1] - bounds[0])
+    view.CameraFocalPoint[0] += beside
+    view.CameraPosition[0] += beside
     return view

@@ -1,12 +1,14 @@
 """The panel that follows the cursor: the spectrum of the pixel below it; a click keeps it."""
 
 import csv
+import os
 
 from PyQt5 import QtCore, QtGui, QtWidgets
 from paraview import simple
 
-from . import pixel
+from . import pixel, profile_chart
 from .chart import Curve, SpectrumChart
+from .marks import Marks, rectangle
 
 # Okabe and Ito: told apart with any color vision.
 _COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#999999", "#F0E442")
@@ -20,6 +22,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         super().__init__("Spectrum", parent)
         self.setObjectName("MultispectralSpectrum")
         self.live, self.pins, self._watched, self._pressed = None, [], {}, None
+        self._marks, self._marked = Marks(), {}
         self.chart = SpectrumChart()
         self.text = QtWidgets.QLabel("Move the cursor over an image; click to keep a spectrum.")
         self.text.setWordWrap(True)
@@ -40,6 +43,12 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         bands.addWidget(self.band_text)
         layout.addLayout(bands)
         buttons = QtWidgets.QHBoxLayout()
+        self.buttons = []  # which act on the kept spectra
+        self.region = QtWidgets.QPushButton("Region")
+        self.region.setObjectName("MultispectralRegion")
+        self.region.setCheckable(True)
+        self.region.setToolTip("Drag a rectangle over an image: the mean spectrum of its pixels")
+        buttons.addWidget(self.region)
         for name, label, tip, action in (
                 ("Clear", "Clear", "Forget the kept spectra", self.clear),
                 ("Csv", "Save CSV\u2026", "Save the kept spectra as a table", self._ask_csv),
@@ -49,6 +58,8 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             button.setToolTip(tip)
             button.clicked.connect(action)
             buttons.addWidget(button)
+            self.buttons.append(button)
+            button.setEnabled(False)
         layout.addLayout(buttons)
         self.setWidget(content)
         # Views come and go; what moves the cursor in them is watched as soon as they are there.
@@ -63,35 +74,78 @@ class SpectrumPanel(QtWidgets.QDockWidget):
                 self._watched[view.SMProxy.GetGlobalID()] = interactor
                 for event, act in (("MouseMoveEvent", self._moved), ("LeftButtonPressEvent", self._press),
                                    ("LeftButtonReleaseEvent", self._release)):
-                    interactor.AddObserver(event, lambda who, _, act=act, view=view: act(view, who), 10.0)
+                    self._observe(view, interactor, event, act)
         self._adapt_band()
+        profile_chart.adapt_views()
+
+    @staticmethod
+    def _observe(view, interactor, event, act):
+        """act returns True where ParaView is not to see the event."""
+        def observer(who, _):
+            if act(view, who):
+                who.GetCommand(tag).SetAbortFlag(1)
+        tag = interactor.AddObserver(event, observer, 10.0)
 
     def _moved(self, view, interactor):
+        if self._pressed and self.region.isChecked():
+            ends = [pixel.world_point(view, *place) for place in (self._pressed, interactor.GetEventPosition())]
+            if None not in ends:
+                self._mark(view, [(rectangle(*ends), _LIVE)])
+            return True
         if self.isVisible():
             self.live = pixel.at(view, *interactor.GetEventPosition())
             self._draw()
+        return False
 
     def _press(self, _view, interactor):
         self._pressed = interactor.GetEventPosition()
+        return self.region.isChecked()
 
     def _release(self, view, interactor):
         position, pressed = interactor.GetEventPosition(), self._pressed
         self._pressed = None
-        if pressed and self.isVisible() and max(abs(a - b) for a, b in zip(position, pressed)) <= _MOST_MOTION:
+        if not pressed or not self.isVisible():
+            return False
+        dragged = max(abs(a - b) for a, b in zip(position, pressed)) > _MOST_MOTION
+        found = None
+        if not dragged:
             found = pixel.at(view, *position)
-            if found is not None:
-                self.pins.append(found)
-                self.live = None
-                self._draw()
+        elif self.region.isChecked():
+            found = pixel.region(view, pressed, position)
+        if found is not None:
+            self.pins.append(found)
+            self.live = None
+            self._draw()
+        if found is not None or self.region.isChecked():
+            self._mark(view)
+        return self.region.isChecked()
+
+    def _mark(self, view, also=()):
+        """The places of the kept spectra, in this view and in those that had marks before."""
+        points = [(pin.point, self._color(i)) for i, pin in enumerate(self.pins) if pin.region is None]
+        lines = [(rectangle(*pin.region), self._color(i)) for i, pin in enumerate(self.pins) if pin.region is not None]
+        known = {other.SMProxy.GetGlobalID() for other in simple.GetRenderViews()}
+        self._marked = {key: other for key, other in self._marked.items() if key in known}
+        self._marked[view.SMProxy.GetGlobalID()] = view
+        for other in self._marked.values():
+            self._marks.show(other, points, [*lines, *also])
+
+    @staticmethod
+    def _color(i):
+        return _COLORS[i % len(_COLORS)]
 
     def clear(self):
         self.pins = []
         self._draw()
+        for view in list(self._marked.values())[:1]:
+            self._mark(view)
 
     def _draw(self):
+        for button in self.buttons:
+            button.setEnabled(bool(self.pins))
         curves = []
         for i, pin in enumerate(self.pins):
-            curves += curves_of(pin, _COLORS[i % len(_COLORS)])
+            curves += curves_of(pin, self._color(i))
         if self.live is not None:
             curves += curves_of(self.live, _LIVE)
         shown = self.live or (self.pins[-1] if self.pins else None)
@@ -116,13 +170,33 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         return None
 
     def _adapt_band(self):
+        """The slider says what the active view shows."""
         shown = self._shown_image()
         self.band.setEnabled(shown is not None)
-        if shown is not None and self.band.maximum() != shown[4]:
+        if shown is None or self.band.isSliderDown():
+            return
+        source, port, display, name, count = shown
+        number = 0
+        if list(display.ColorArrayName) == ["POINTS", name]:
+            colors = simple.GetColorTransferFunction(name)
+            number = colors.VectorComponent + 1 if colors.VectorMode == "Component" else 0
+        if (self.band.maximum(), self.band.value()) != (count, number):
             self.band.blockSignals(True)
-            self.band.setRange(0, shown[4])
-            self.band.setValue(0)
+            self.band.setRange(0, count)
+            self.band.setValue(number)
             self.band.blockSignals(False)
+            self._say_band(source, port, name, number)
+
+    def _say_band(self, source, port, name, number):
+        if number == 0:
+            self.band_text.setText("colors")
+            self.chart.show_band(None)
+            return
+        array = source.PointData[name] if port == 0 else simple.OutputPort(source, port).PointData[name]
+        data = pixel.data_of(source, port)
+        known = pixel.wavelengths_of(data, data.GetPointData().GetArray(name)) if data is not None else None
+        self.band_text.setText(f"{known[number - 1]:g} nm" if known else array.GetComponentName(number - 1))
+        self.chart.show_band(known[number - 1] if known else number)
 
     def _show_band(self, number):
         shown = self._shown_image()
@@ -131,25 +205,19 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         source, port, display, name, _ = shown
         if number == 0:
             simple.ColorBy(display, ("POINTS", "sRGB"))
-            self.band_text.setText("colors")
-            self.chart.show_band(None)
         else:
             array = source.PointData[name] if port == 0 else simple.OutputPort(source, port).PointData[name]
-            component = array.GetComponentName(number - 1)
-            simple.ColorBy(display, ("POINTS", name, component))
+            simple.ColorBy(display, ("POINTS", name, array.GetComponentName(number - 1)))
             colors = simple.GetColorTransferFunction(name)
             colors.VectorMode, colors.VectorComponent = "Component", number - 1
             colors.ApplyPreset("Grayscale", True)
             low, high = array.GetRange(number - 1)
             colors.RescaleTransferFunction(min(0.0, low), max(1e-6, high))
-            data = pixel.data_of(source, port)
-            known = pixel.wavelengths_of(data, data.GetPointData().GetArray(name)) if data is not None else None
-            self.band_text.setText(f"{known[number - 1]:g} nm" if known else component)
-            self.chart.show_band(known[number - 1] if known else number)
+        self._say_band(source, port, name, number)
         simple.Render(simple.GetActiveView())
 
     def _ask_csv(self):
-        path, _ = QtWidgets.QFileDialog.getSaveFileName(self, "Save the kept spectra", "spectra.csv", "CSV (*.csv)")
+        path = self._ask("Save the kept spectra", "spectra.csv", "CSV (*.csv)")
         if path:
             try:
                 self.save_csv(path)
@@ -157,9 +225,16 @@ class SpectrumPanel(QtWidgets.QDockWidget):
                 QtWidgets.QMessageBox.warning(self, "Spectrum", f"{path}: {error.strerror}")
 
     def _ask_png(self):
-        path, _ = QtWidgets.QFileDialog.getSaveFileName(self, "Save the chart", "spectra.png", "PNG (*.png)")
+        path = self._ask("Save the chart", "spectra.png", "PNG (*.png)")
         if path and not self.chart.grab().save(path, "PNG"):
             QtWidgets.QMessageBox.warning(self, "Spectrum", f"{path}: cannot be written; check the folder")
+
+    def _ask(self, title, name, kind):
+        """The file to write, with its extension; empty: none."""
+        path, _ = QtWidgets.QFileDialog.getSaveFileName(self, title, name, kind,
+                                                        options=QtWidgets.QFileDialog.DontUseNativeDialog)
+        extension = os.path.splitext(name)[1]
+        return path + extension if path and not os.path.splitext(path)[1] else path
 
     def save_csv(self, path):
         """One spectrum a row, as a sample table: R400 measured, E400 estimated, U400 its uncertainty, C400 response."""
@@ -173,31 +248,37 @@ class SpectrumPanel(QtWidgets.QDockWidget):
 
 def curves_of(pin, color):
     across = pin.wavelengths or list(range(1, len(pin.values) + 1))
-    label = f"({pin.column}, {pin.row}) {pin.name.rpartition(': ')[2]}"
+    label = f"{place_of(pin)} {pin.name.rpartition(': ')[2]}"
     curves = [Curve(across, pin.values, label, color, pin.deviation)]
     if pin.measured is not None:
         curves.append(Curve(*pin.measured, "measured", color, dashed=True, width=1.5))
     return curves
 
 
+def place_of(pin):
+    return f"({pin.column}, {pin.row})" if pin.region is None else f"mean of {pin.count} pixels"
+
+
 def describe(pin):
-    parts = [f"{pin.name}, column {pin.column}, row {pin.row}"]
+    parts = [f"{pin.name}, column {pin.column}, row {pin.row}" if pin.region is None else
+             f"{pin.name}, mean of {pin.count} pixels around column {pin.column}, row {pin.row}"]
     parts += [f"\u0394E00 {value:.2f} ({name[5:]})" for name, value in pin.errors.items()]
     if pin.deviation:
-        parts.append("band: \u00b12 standard deviations")
+        parts.append("band: \u00b12 standard deviations" + (" of the pixels" if pin.region is not None else ""))
     if pin.measured:
         parts.append("dashed: measured")
     return "; ".join(parts)
 
 
 def row_of(pin):
-    row = {"sample": f"{pin.name} ({pin.column}, {pin.row})", "x": pin.column, "y": pin.row}
+    row = {"sample": f"{pin.name} {place_of(pin)}", "x": pin.column, "y": pin.row, "count": pin.count}
     row.update({name.replace(" ", "_"): f"{value:.4f}" for name, value in pin.errors.items()})
     known = pin.wavelengths or range(1, len(pin.values) + 1)
     letter = "E" if pin.kind == "Reflectance" else "C"
     row.update({f"{letter}{x:g}": f"{y:.6g}" for x, y in zip(known, pin.values)})
     if pin.deviation:
-        row.update({f"U{x:g}": f"{y:.6g}" for x, y in zip(known, pin.deviation)})
+        name = "U{:g}" if pin.region is None else f"deviation {letter}{{:g}}"  # as Patch Sampler names it
+        row.update({name.format(x): f"{y:.6g}" for x, y in zip(known, pin.deviation)})
     if pin.measured:
         row.update({f"R{x:g}": f"{y:.6g}" for x, y in zip(*pin.measured)})
     return row

@@ -8,8 +8,10 @@ from paraview import servermanager, simple
 SPECTRA = ("Reflectance", "Responses")
 
 # values: the spectrum; deviation: its standard uncertainty, or None; measured: the reference at the pixel, or None;
-# errors: {"dE00 D65": 1.2, ..}
-Pixel = collections.namedtuple("Pixel", "name column row point kind wavelengths values deviation measured errors")
+# errors: {"dE00 D65": 1.2, ..}; region: None for one pixel, else two opposite corners, of whose pixels values are the mean and
+# deviation is the standard deviation; count: the pixels of the region
+Pixel = collections.namedtuple("Pixel", "name column row point kind wavelengths values deviation measured errors region count",
+                               defaults=(None, 1))
 
 
 def world_point(view, x, y):
@@ -133,18 +135,73 @@ def _local(source, data, point):
     return Pixel(name_of(source), column, top, point, array.GetName(), wavelengths, values, deviation, measured, errors)
 
 
+def region(view, start, end):
+    """The mean spectrum of the pixels between two places of a view, or None; also where the data are with a server."""
+    ends = [world_point(view, *place) for place in (start, end)]
+    if None in ends:
+        return None
+    for source, port, _ in visible_images(view):
+        if source.SMProxy.GetXMLName() == "CIEDE2000Evaluator" and getattr(source, "Input", None) is not None:
+            source, port = source.Input, source.Input.Port
+        found = _mean(source, port, ends)
+        if found is not None:
+            return found
+    return None
+
+
+def _mean(source, port, ends):
+    extent, origin, spacing = grid(source, port)
+    if extent is None:
+        return None
+    first, last = ([origin[i] + spacing[i] * extent[2 * i + end] for i in range(2)] for end in range(2))
+    low, high = ([min(max(choose(place[i] for place in ends), first[i]), last[i]) for i in range(2)] for choose in (min, max))
+    if any(low[i] >= high[i] for i in range(2)):
+        return None
+    profile = _profile(source, port, Points=[], Region=[low[0], high[0], low[1], high[1]])
+    if profile is None:
+        return None
+    measured = None
+    for (_, _), other in simple.GetSources().items():
+        if other.SMProxy.GetXMLName() == "PatchReferenceImage" and profile.kind == "Reflectance" and \
+                grid(other, 0)[0] == extent:
+            reference = _profile(other, 0, Points=[], Region=[low[0], high[0], low[1], high[1]])
+            if reference is not None and reference.count == profile.count:  # all of its pixels were measured
+                measured = reference.across, reference.values
+    place = [(low[i] + high[i]) / 2 for i in range(2)]
+    column, up = (math.floor((place[i] - origin[i]) / spacing[i] + 0.5) for i in range(2))
+    return Pixel(name_of(source), column, extent[3] - up, place, profile.kind, profile.across, profile.values,
+                 profile.deviation, measured, {}, (low, high), profile.count)
+
+
+def grid(source, port):
+    """Extent, origin and spacing of an image; (None, None, None) where there is none."""
+    information = source.GetDataInformation(port).DataInformation
+    extent = list(information.GetExtent())
+    if information.GetDataSetTypeAsString() != "vtkImageData" or extent[0] > extent[1]:
+        return None, None, None
+    bounds = information.GetBounds()
+    spacing = [(bounds[2 * i + 1] - bounds[2 * i]) / max(1, extent[2 * i + 1] - extent[2 * i]) or 1.0 for i in range(2)]
+    return extent, [bounds[2 * i] - spacing[i] * extent[2 * i] for i in range(2)], spacing
+
+
 _profiles = {}
+_Profile = collections.namedtuple("_Profile", "kind across values deviation count")
 
 
-def _remote(source, port, point):
-    """The data are with a server: its filter Spectral Profile gives one row a wavelength."""
+def _profile(source, port, **places):
+    """What the filter Spectral Profile gives of a place: one row per wavelength; None where there is no spectrum."""
+    arrays = source.GetDataInformation(port).DataInformation.GetPointDataInformation()
+    kind = next((name for name in SPECTRA if arrays.GetArrayInformation(name) is not None), None)
+    if kind is None:
+        return None
     key = source.SMProxy.GetGlobalID(), port
     try:
         if key not in _profiles:
             _profiles[key] = servermanager.filters.SpectralProfile(
-                Input=servermanager.OutputPort(source, port))
+                Input=servermanager.OutputPort(source, port), SpectralArray=kind)
         profile = _profiles[key]
-        profile.Points = point
+        for name, value in places.items():
+            setattr(profile, name, value)
         profile.UpdatePipeline()
         table = servermanager.Fetch(profile)
     except RuntimeError:
@@ -152,11 +209,17 @@ def _remote(source, port, point):
     names = [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())] if table else []
     if len(names) < 2 or table.GetNumberOfRows() == 0:
         return None
-    rows = range(table.GetNumberOfRows())
-    across = [table.GetColumn(0).GetValue(row) for row in rows]
-    values = [table.GetColumn(1).GetValue(row) for row in rows]
-    return Pixel(name_of(source), round(point[0]), round(point[1]), point, "Reflectance",
-                 across if names[0].lower().startswith("wavelength") else None, values, None, None, {})
+    columns = [[table.GetColumn(i).GetValue(row) for row in range(table.GetNumberOfRows())] for i in range(min(3, len(names)))]
+    counts = table.GetFieldData().GetAbstractArray("Count")
+    return _Profile(kind, columns[0] if names[0] == "wavelength" else None, columns[1],
+                    columns[2] if len(columns) > 2 else None, counts.GetValue(0) if counts is not None else 1)
+
+
+def _remote(source, port, point):
+    """The data are with a server."""
+    profile = _profile(source, port, Points=point[:2])
+    return profile and Pixel(name_of(source), round(point[0]), round(point[1]), point, profile.kind, profile.across,
+                             profile.values, None, None, {})
 
 
 def name_of(source):

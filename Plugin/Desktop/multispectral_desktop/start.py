@@ -8,7 +8,19 @@ import traceback
 _kept = []
 
 
+_told = set()
+
+
+def _tell(kind, error, trace):
+    """Qt for Python ends the program at an exception that nobody caught: ParaView with all that the user has in it."""
+    text = "".join(traceback.format_exception(kind, error, trace))
+    if text not in _told:
+        _told.add(text)
+        print(text, file=sys.stderr)
+
+
 def start():
+    sys.excepthook = _tell
     try:
         from PyQt5 import QtCore, QtWidgets
     except ImportError:

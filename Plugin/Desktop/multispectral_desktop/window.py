@@ -6,8 +6,12 @@ import traceback
 from PyQt5 import QtCore, QtWidgets
 from paraview import simple
 
-from . import help, main_job
+from . import help, main_job, message_window, reader_choice
+from .chart_placement import Placement
 from .panel import SpectrumPanel
+
+
+_MARGIN = 40  # pixels from the corner of the window
 
 
 def install(window):
@@ -19,13 +23,14 @@ def install(window):
     for name, label, tip, act in (
             ("OpenScene", "Open scene", "Open the folder of an image with its white and dark frames", open_scene),
             ("MainJob", "Main job", "Estimate an image with a chart, correct it by swatches, see where it is wrong",
-             run_main_job)):
+             run_main_job),
+            ("FindChart", "Find chart", "Find a color chart in the selected image and save its samples as a table", place_chart)):
         action = toolbar.addAction(label)
         action.setObjectName(f"Multispectral{name}")
         action.setToolTip(tip)
         action.triggered.connect(lambda _checked, act=act: _guarded(window, act))
     window.addToolBar(toolbar)
-    return panel, toolbar, help.install(window)
+    return panel, toolbar, help.install(window), message_window.install(window), reader_choice.ReaderChoice(window)
 
 
 def _guarded(window, act):
@@ -65,6 +70,15 @@ def run_main_job(window):
             main_job.build(dialog.scene.text(), dialog.chart.text() or None, dialog.swatches.text() or None)
         finally:
             QtWidgets.QApplication.restoreOverrideCursor()
+        if main_job.warnings:
+            QtWidgets.QMessageBox.warning(window, "Multispectral", "\n".join(dict.fromkeys(main_job.warnings)))
+
+
+def place_chart(window):
+    dialog = window.findChild(QtWidgets.QDialog, "MultispectralChartDialog") or Placement(window)
+    dialog.show()
+    dialog.move(window.mapToGlobal(window.rect().topRight()) - QtCore.QPoint(dialog.width() + _MARGIN, -_MARGIN))  # beside the view
+    dialog.raise_()
 
 
 class MainJobDialog(QtWidgets.QDialog):

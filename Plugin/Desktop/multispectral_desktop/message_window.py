@@ -1,0 +1,47 @@
+"""ParaView's message window, where one mistake is one message.
+
+A filter that fails is asked again by every view and by the filters behind it, and each time VTK adds its own remark to the filter's
+message: the window would show a dozen lines for one fault."""
+
+import time
+
+from PyQt5 import QtCore, QtGui, QtWidgets
+
+_REMARKS = ("returned failure for request", "Attempted to ShallowCopy from null")
+_SAME = 3.0  # seconds within which the same text tells of the same fault
+
+
+class Tidy(QtCore.QObject):
+    def __init__(self, parent, model):
+        super().__init__(parent)
+        self._model, self._seen = model, {}
+        self._timer = QtCore.QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self._clean)
+        model.rowsInserted.connect(lambda *_: self._timer.start(0))
+        self._known = 0
+
+    def _clean(self):
+        now, row = time.monotonic(), min(self._known, self._model.rowCount())
+        while row < self._model.rowCount():
+            text = self._text(row)
+            last = self._seen.get(text)
+            remark = any(part in text for part in _REMARKS) and any(now - then < _SAME for then in self._seen.values())
+            if not remark:
+                self._seen[text] = now
+            if remark or (last is not None and now - last < _SAME):
+                self._model.removeRow(row)
+            else:
+                row += 1
+        self._known = self._model.rowCount()
+
+    def _text(self, row):
+        return str(self._model.index(row, 0).data()).strip()
+
+
+def install(window):
+    """Returns what must be kept, or None where ParaView has no such window."""
+    dock = window.findChild(QtWidgets.QDockWidget, "outputWidgetDock")
+    tree = dock and dock.findChild(QtWidgets.QTreeView, "treeView")
+    model = tree and tree.model()
+    return Tidy(window, model) if isinstance(model, QtGui.QStandardItemModel) else None

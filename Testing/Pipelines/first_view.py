@@ -89,6 +89,18 @@ def main():
     display.SetScalarBarVisibility(view, True)
     check("the legend has no title", "E00 D65" in simple.GetScalarBar(colors, view).Title)
 
+    # What the window does with the chart of a profile.
+    sys.path.insert(0, str(root / "Plugin" / "Desktop"))
+    from multispectral_desktop import profile_chart
+    profile = pipeline.create("SpectralProfile", Input=estimate)
+    chart_view = simple.CreateView("XYChartView")
+    curves = simple.Show(profile, chart_view)
+    profile_chart.adapt_views()
+    shown = curves.UseIndexForXAxis, curves.XArrayName, list(curves.SeriesVisibility), chart_view.BottomAxisTitle, \
+        chart_view.LeftAxisTitle
+    check(f"the chart of a profile shows {shown}",
+          shown == (0, "wavelength", ["region"], "Wavelength (nm)", "Reflectance factor"))
+
     print("\n".join(faults) or "every first view is right")
     sys.stdout.flush()
     os._exit(1 if faults else 0)

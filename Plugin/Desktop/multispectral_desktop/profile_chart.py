@@ -19,14 +19,15 @@ def adapt_views():
 
 
 def _adapt(view, display, source):
-    columns = source.RowData.keys()
-    across = columns[0] if columns else ""
+    rows = source.GetDataInformation(source.Port).DataInformation.GetRowDataInformation()
+    columns = [rows.GetArrayInformation(i).GetName() for i in range(rows.GetNumberOfArrays())]
+    across = "wavelength" if "wavelength" in columns else "channel"
     image = source.Input
     kind = "Reflectance" if image is not None and image.PointData.GetArray("Reflectance") else "Responses"
     display.UseIndexForXAxis = 0
     display.XArrayName = across
     hidden = ("deviation", "-s", "+s")
-    display.SeriesVisibility = [name for name in columns[1:] if not name.endswith(hidden)]
+    display.SeriesVisibility = [name for name in columns if name != across and not name.endswith(hidden)]
     view.BottomAxisTitle = "Wavelength (nm)" if across == "wavelength" else "Channel"
     view.LeftAxisTitle = "Reflectance factor" if kind == "Reflectance" else "Response (1 = white)"
     simple.Render(view)

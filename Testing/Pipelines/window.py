@@ -271,21 +271,20 @@ def help_page(window):
 
 
 def open_files(window):
-    """No question comes, and the right reader is taken; a plain picture may be wanted as one, there the reader is selected."""
+    """No question stays, and the right reader is taken, also where only the content tells."""
     shutil.copy(SAMPLES / "demo-fabric.csv", window.folder / "measured.csv")
     shutil.copy(ROOT / "Data" / "Captures" / "demo-warm-camera" / "camera.csv", window.folder / "curves.csv")
-    for path, name, reader in (
-                               (window.folder / "measured.csv", "measured.csv", "SampleTableReader"),
-                               (window.folder / "curves.csv", "curves.csv", "CameraReader"),(SCENE / "channel_400nm.tif", "channel_400nm.tif", "SpectralImageReader"),
-                               (SCENE / "labels.png", "labels.png", "LabelImageReader"),
-                               (SAMPLES / "demo-chart.csv", "demo-chart.csv", "SampleTableReader")):
+    for path, reader in ((window.folder / "measured.csv", "SampleTableReader"), (window.folder / "curves.csv", "CameraReader"),
+                         (SCENE / "channel_400nm.tif", "SpectralImageReader"), (SCENE / "labels.png", "LabelImageReader"),
+                         (SAMPLES / "demo-chart.csv", "SampleTableReader")):
+        name = path.name
         window.key("ctrl+o")
         window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
         window.type(path)
         window.key("Return")
-        state = window.wait(f"the reader of {name}", lambda s, name=name: any(key.startswith(name) for key in s["sources"])
-                            or any("Open Data" in title for title in s["dialogs"]))
-        found = next((kind for key, kind in state["sources"].items() if key.startswith(name)), state["dialogs"])
+        # A question that is answered by itself may be seen for a moment.
+        state = window.wait(f"the reader of {name}", lambda s, name=name: any(key.startswith(name) for key in s["sources"]))
+        found = next(kind for key, kind in state["sources"].items() if key.startswith(name))
         if found != reader:
             window.picture("failed")
             raise Failed(f"File > Open took {found} for {name}")

@@ -27,6 +27,11 @@ def fabric():
     main_job.build(_data("Images", "demo-fabric"), _data("Samples", "demo-chart.csv"), _data("Samples", "demo-fabric.csv"))
 
 
+# Of the diagnosis, what a user looks for first.
+_SUMMARY = ("verdict", "rms_before", "rms_after", "noise_floor", "shrink")
+_CAUSES = ("title", "medium", "share", "parameter", "value", "standard_error", "unit")
+
+
 def capture():
     """Why a simulated and a real camera disagree."""
     reader = simple.CaptureReader(registrationName="warm camera", FileName=_data("Captures", "demo-warm-camera",
@@ -36,10 +41,13 @@ def capture():
     gap.UpdatePipeline()
     layout = simple.CreateLayout(name="warm camera: gap")
     top = layout.SplitVertical(0, 0.4)
-    for cell, port in ((top, 0), (top + 1, 2)):  # the summary, the causes
+    for cell, port, columns in ((top, 0, _SUMMARY), (top + 1, 2, _CAUSES)):
         view = simple.CreateView("SpreadSheetView")
         layout.AssignView(cell, view)
         simple.Show(simple.OutputPort(gap, port), view)
+        rows = gap.GetDataInformation(port).DataInformation.GetRowDataInformation()
+        names = [rows.GetArrayInformation(i).GetName() for i in range(rows.GetNumberOfArrays())]
+        view.HiddenColumnLabels = ["Row ID", *(name for name in names if name not in columns)]
         simple.Render(view)
     simple.SetActiveSource(gap)
 

@@ -12,9 +12,12 @@ _told = set()
 
 
 def _tell(kind, error, trace):
-    """Qt for Python ends the program at an exception that nobody caught: ParaView with all that the user has in it."""
+    """Qt for Python ends the program at an exception that nobody caught: ParaView with all that the user has in it. One of ours may
+    come again at every tick of a timer, and is told once."""
     text = "".join(traceback.format_exception(kind, error, trace))
-    if text not in _told:
+    if os.path.dirname(__file__) not in text:
+        sys.__excepthook__(kind, error, trace)
+    elif text not in _told:
         _told.add(text)
         print(text, file=sys.stderr)
 

@@ -3,7 +3,6 @@
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"
 
-#include "Kernels/Difference/CIEDE2000.h"
 #include "Kernels/Difference/ErrorSummary.h"
 
 #include <cmath>
@@ -23,14 +22,15 @@ Figures figuresOf(const Eigen::VectorXd& errors)
 }
 
 HeldOutJudge::HeldOutJudge(const WavelengthGrid& bands, const std::vector<std::string>& illuminants,
-  const std::string& observer, const Eigen::MatrixXd& target)
+  const ViewingConditions& conditions, const std::string& difference, const Eigen::MatrixXd& target)
   : Target(target)
-  , Metrics(errorNames(illuminants))
+  , Difference(ColorDifference::named(difference))
+  , Metrics(errorNames(illuminants, { Difference.metric() }))
 {
   for (const auto& name : illuminants)
   {
     const TristimulusTransform tristimulus(
-      bands, Illuminant::named(name), StandardObserver::named(observer));
+      bands, conditions.illuminant(name), conditions.observer());
     Eigen::Matrix3Xd lab = tristimulus(target);
     const CIELAB space(tristimulus.whitePoint());
     space.fromXYZ(lab, lab);
@@ -49,7 +49,7 @@ std::vector<Figures> HeldOutJudge::operator()(
     color.space.fromXYZ(lab, lab);
     Eigen::VectorXd difference(lab.cols());
     const Eigen::Matrix3Xd reference = color.targetLab(Eigen::all, heldOut);
-    CIEDE2000().apply(reference, lab, difference);
+    Difference.apply(reference, lab, difference);
     figures.push_back(figuresOf(difference));
   }
   Figures coverage;

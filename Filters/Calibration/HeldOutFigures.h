@@ -3,9 +3,11 @@
 #define HeldOutFigures_h
 
 #include "NameList.h"
+#include "ViewingConditions.h"
 
 #include "Kernels/Colorimetry/CIELAB.h"
 #include "Kernels/Colorimetry/TristimulusTransform.h"
+#include "Kernels/Difference/ColorDifference.h"
 #include "Kernels/Estimation/MethodComparison.h"
 
 #include <Eigen/Core>
@@ -24,15 +26,16 @@ namespace msi
 constexpr std::size_t FigureCount = 4;
 using Figures = std::array<double, FigureCount>;
 
-// Immutable. The constructor throws std::invalid_argument for an illuminant or observer not known.
+// Immutable. The constructor throws std::invalid_argument for an illuminant or color difference not known.
 class HeldOutJudge
 {
 public:
   // 'target' is the measured reflectance of all samples, bands x samples.
   HeldOutJudge(const WavelengthGrid& bands, const std::vector<std::string>& illuminants,
-    const std::string& observer, const Eigen::MatrixXd& target);
+    const ViewingConditions& conditions, const std::string& difference,
+    const Eigen::MatrixXd& target);
 
-  // rms, dE00 of each illuminant, coverage95.
+  // rms, the color difference of each illuminant, coverage95.
   const std::vector<ErrorName>& metrics() const { return Metrics; }
 
   // In the order of metrics(); coverage is NaN for a method that does not know its uncertainty.
@@ -48,6 +51,7 @@ private:
   };
 
   Eigen::MatrixXd Target;
+  ColorDifference Difference;
   std::vector<Color> Colors;
   std::vector<ErrorName> Metrics;
 };

@@ -195,7 +195,7 @@ void writeSpectra(const msi::WavelengthGrid& bands, msi::ComparisonDraw draw,
 
 vtkMethodComparison::vtkMethodComparison()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(4);
   this->SetNumberOfOutputPorts(4);
 }
 
@@ -206,13 +206,18 @@ void vtkMethodComparison::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "TuningSamples: " << this->TuningSamples << "\n"
      << indent << "Draws: " << this->Draws << "\n"
      << indent << "Seed: " << this->Seed << "\n"
+     << indent << "Difference: " << this->Difference << "\n"
      << indent << "Illuminants: " << this->Illuminants << "\n"
      << indent << "Observer: " << this->Observer << "\n";
 }
 
-int vtkMethodComparison::FillInputPortInformation(int, vtkInformation* info)
+int vtkMethodComparison::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+  if (port > 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
   return 1;
 }
 
@@ -226,8 +231,10 @@ int vtkMethodComparison::RequestInformation(
 int vtkMethodComparison::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  msi::requestWhole(inputs, 0);
-  msi::requestWhole(inputs, 1);
+  for (int port = 0; port < 4; ++port)
+  {
+    msi::requestWhole(inputs, port);
+  }
   return 1;
 }
 
@@ -266,8 +273,10 @@ int vtkMethodComparison::RequestData(
         comparisons.emplace_back(chart.samples, medium.samples, options);
       }
       const auto& target = medium.samples.reflectance;
-      const msi::HeldOutJudge judge(
-        *chart.bands.wavelengths, msi::namesIn(this->Illuminants), this->Observer, target);
+      const msi::ViewingConditions conditions(
+        vtkTable::GetData(inputs[2]), vtkTable::GetData(inputs[3]), this->Observer);
+      const msi::HeldOutJudge judge(*chart.bands.wavelengths, msi::namesIn(this->Illuminants),
+        conditions, this->Difference, target);
       const auto draws = static_cast<std::size_t>(this->Draws);
       msi::FigureStore store(counts.size(), draws, options.methods.size(), judge.metrics().size());
 

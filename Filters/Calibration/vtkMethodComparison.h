@@ -3,12 +3,13 @@
  * @brief   How well each estimation method does on a target medium, on samples held out
  *
  * Input 0 is the calibration table (a chart), input 1 the table of the target medium, both with measured
- * reflectance and responses. For every number of tuning samples, and for each of Draws random choices of
+ * reflectance and responses. Inputs 2 and 3, optional: tables of illuminants and of an observer, as CIEDE2000 Evaluator
+ * takes them. For every number of tuning samples, and for each of Draws random choices of
  * that many samples of the target, every method is fitted and judged on the target samples left over.
  *
  * Output 0, results: method, channels, tuning, metric, illuminant, mean, median, p95, max; each figure is
- * the mean over draws of that statistic over the held-out samples. Metrics: rms (reflectance factor), dE00
- * per illuminant, and coverage95 of methods that know their uncertainty (the share of held-out values
+ * the mean over draws of that statistic over the held-out samples. Metrics: rms (reflectance factor), dE00 (or
+ * the color difference asked for) per illuminant, and coverage95 of methods that know their uncertainty (the share of held-out values
  * within 1.96 standard deviations; in mean).
  * Output 1, draws: the same per draw. Output 2, spectra: wavelength, measured and one column per method,
  * for a typical held-out sample (median rms of the first method) of draw 1; with "transfer -2s" and
@@ -71,7 +72,17 @@ public:
 
   ///@{
   /**
-   * CIE illuminants of the color difference, separated by commas or spaces; default "D65, F2".
+   * The color difference: ciede2000 (default), cie94, cie94-textiles, cmc, din99, cie76 or hyab, with other factors like
+   * "cmc(1:1)"; the measured color is the standard.
+   */
+  vtkSetStdStringFromCharMacro(Difference);
+  vtkGetCharFromStdStringMacro(Difference);
+  ///@}
+
+  ///@{
+  /**
+   * Illuminants of the color difference by name or of the table at input 2, separated by commas or spaces; default
+   * "D65, F2".
    */
   vtkSetStdStringFromCharMacro(Illuminants);
   vtkGetCharFromStdStringMacro(Illuminants);
@@ -105,6 +116,7 @@ private:
   std::string TuningSamples = "16";
   int Draws = 10;
   int Seed = 1;
+  std::string Difference = "ciede2000";
   std::string Illuminants = "D65, F2";
   std::string Observer = "CIE 1931 2 degree";
 };

@@ -4,43 +4,157 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace msi
 {
 
-ErrorMetrics::ErrorMetrics(const SpectralAxis& bands, const std::vector<std::string>& illuminants,
-  const std::string& observer, const CIEDE2000Factors& factors)
+namespace
+{
+std::string knownMetrics()
+{
+  std::string known;
+  for (const ColorDifferenceFormula& formula : colorDifferences())
+  {
+    known += std::string(formula.name) + ", ";
+  }
+  for (const SpectralMetric& metric : spectralMetrics())
+  {
+    known += std::string(metric.name) + ", ";
+  }
+  return known + MetamerismMetric;
+}
+
+// The metrics that were asked for, by kind.
+struct AskedMetrics
+{
+  std::vector<const SpectralMetric*> spectral;
+  std::vector<std::string> differences;
+  bool metamerism = false;
+};
+
+AskedMetrics sorted(const std::vector<std::string>& metrics)
+{
+  AskedMetrics asked;
+  const auto& formulas = colorDifferences();
+  for (const auto& name : metrics)
+  {
+    const std::string plain = name.substr(0, name.find('('));
+    if (const auto* metric = findSpectralMetric(name))
+    {
+      asked.spectral.push_back(metric);
+    }
+    else if (name == MetamerismMetric)
+    {
+      asked.metamerism = true;
+    }
+    else if (std::any_of(formulas.begin(), formulas.end(),
+               [&plain](const auto& formula) { return formula.name == plain; }))
+    {
+      asked.differences.push_back(name);
+    }
+    else if (name != "rms")
+    {
+      throw std::invalid_argument(
+        "there is no metric '" + name + "'; expected some of rms, " + knownMetrics());
+    }
+  }
+  return asked;
+}
+}
+
+std::vector<ErrorName> ErrorMetrics::namesOf(
+  const std::vector<std::string>& metrics, const std::vector<std::string>& illuminants)
+{
+  const AskedMetrics asked = sorted(metrics);
+  std::vector<ErrorName> names{ { "rms", "" } };
+  for (const auto* metric : asked.spectral)
+  {
+    names.push_back({ std::string(metric->name), "" });
+  }
+  for (const auto& difference : asked.differences)
+  {
+    const std::string metric = ColorDifference::named(difference).metric();
+    for (const auto& illuminant : illuminants)
+    {
+      names.push_back({ metric, illuminant });
+    }
+  }
+  if (asked.metamerism && illuminants.size() < 2)
+  {
+    throw std::invalid_argument("the metric metamerism compares illuminants, and there is " +
+      std::to_string(illuminants.size()) +
+      "; expected the reference illuminant and at least one other one, like D65, A");
+  }
+  for (std::size_t i = 1; asked.metamerism && i < illuminants.size(); ++i)
+  {
+    names.push_back({ MetamerismMetric, illuminants[i] });
+  }
+  return names;
+}
+
+ErrorMetrics::ErrorMetrics(const SpectralAxis& bands, const std::vector<std::string>& metrics,
+  const std::vector<std::string>& illuminants, const ViewingConditions& conditions,
+  const ColorDifferenceFactors& factors)
   : Bands(static_cast<Eigen::Index>(bands.size()))
-  , Difference(factors)
+  , Names(namesOf(metrics, illuminants))
 {
   if (!bands.wavelengths)
   {
     throw std::invalid_argument("the estimate has no wavelengths (field data 'Wavelength'); color "
                                 "difference needs reflectance whose wavelengths are known");
   }
+  AskedMetrics asked = sorted(metrics);
+  Spectral = std::move(asked.spectral);
+  const ColorDifferenceFormula& ciede2000 = colorDifferences().front();
+  for (const auto& name : asked.differences)
+  {
+    Differences.push_back(
+      name == ciede2000.name ? ColorDifference(ciede2000, factors) : ColorDifference::named(name));
+  }
   for (const auto& name : illuminants)
   {
     TristimulusTransform tristimulus(
-      *bands.wavelengths, Illuminant::named(name), StandardObserver::named(observer));
+      *bands.wavelengths, conditions.illuminant(name), conditions.observer());
     const CIELAB lab(tristimulus.whitePoint());
     Colors.push_back({ std::move(tristimulus), lab });
+  }
+  for (std::size_t i = 1; asked.metamerism && i < illuminants.size(); ++i)
+  {
+    Metamerism.emplace_back(*bands.wavelengths, conditions.illuminant(illuminants[0]),
+      conditions.illuminant(illuminants[i]), conditions.observer());
   }
 }
 
 std::vector<Eigen::VectorXd> ErrorMetrics::operator()(
   const Eigen::MatrixXd& estimate, const Eigen::MatrixXd& reference) const
 {
-  std::vector<Eigen::VectorXd> errors(1 + Colors.size(), Eigen::VectorXd(estimate.cols()));
-  spectralRms(reference, estimate, errors[0]);
-  for (std::size_t i = 0; i < Colors.size(); ++i)
+  std::vector<Eigen::VectorXd> errors(Names.size(), Eigen::VectorXd(estimate.cols()));
+  auto error = errors.begin();
+  spectralRms(reference, estimate, *error++);
+  for (const auto* metric : Spectral)
   {
-    Eigen::Matrix3Xd lab[2];
+    metric->apply(reference, estimate, *error++);
+  }
+  std::vector<Eigen::Matrix3Xd> labs[2];
+  for (const Color& color : Colors)
+  {
     for (int side = 0; side < 2; ++side)
     {
-      lab[side] = Colors[i].tristimulus(side == 0 ? estimate : reference);
-      Colors[i].lab.fromXYZ(lab[side], lab[side]);
+      auto& lab = labs[side].emplace_back(color.tristimulus(side == 0 ? reference : estimate));
+      color.lab.fromXYZ(lab, lab);
     }
-    Difference.apply(lab[0], lab[1], errors[i + 1]);
+  }
+  for (const ColorDifference& difference : Differences)
+  {
+    for (std::size_t i = 0; i < Colors.size(); ++i)
+    {
+      difference.apply(labs[0][i], labs[1][i], *error++);
+    }
+  }
+  for (const MetamerismIndex& index : Metamerism)
+  {
+    index.apply(reference, estimate, *error++);
   }
   return errors;
 }
@@ -50,13 +164,30 @@ void ErrorMetrics::apply(const float* estimate, const float* reference, Eigen::I
 {
   constexpr Eigen::Index Block = 256;
   Eigen::Matrix<float, 3, Block> labs[2];
+  Eigen::MatrixXd doubles[2];
+  Eigen::VectorXd values(Block);
   for (Eigen::Index at = 0; at < pixels; at += Block)
   {
     const auto count = std::min(Block, pixels - at);
     using Spectra = Eigen::Map<const Eigen::MatrixXf>;
-    const Spectra blocks[] = { Spectra(estimate + at * Bands, Bands, count),
-      Spectra(reference + at * Bands, Bands, count) };
-    spectralRms(blocks[1], blocks[0], Eigen::Map<Eigen::VectorXf>(errors[0] + at, count));
+    const Spectra blocks[] = { Spectra(reference + at * Bands, Bands, count),
+      Spectra(estimate + at * Bands, Bands, count) };
+    const auto out = [&](std::size_t error)
+    { return Eigen::Map<Eigen::VectorXf>(errors[error] + at, count); };
+    std::size_t error = 0;
+    spectralRms(blocks[0], blocks[1], out(error++));
+    if (!Spectral.empty() || !Metamerism.empty())
+    {
+      for (int side = 0; side < 2; ++side)
+      {
+        doubles[side] = blocks[side].cast<double>();
+      }
+    }
+    for (const auto* metric : Spectral)
+    {
+      metric->apply(doubles[0], doubles[1], values.head(count));
+      out(error++) = values.head(count).cast<float>();
+    }
     for (std::size_t i = 0; i < Colors.size(); ++i)
     {
       for (int side = 0; side < 2; ++side)
@@ -65,8 +196,17 @@ void ErrorMetrics::apply(const float* estimate, const float* reference, Eigen::I
         Colors[i].tristimulus.apply(blocks[side], lab);
         Colors[i].lab.fromXYZ(lab, lab);
       }
-      Difference.apply(labs[0].leftCols(count), labs[1].leftCols(count),
-        Eigen::Map<Eigen::VectorXf>(errors[i + 1] + at, count));
+      for (std::size_t d = 0; d < Differences.size(); ++d)
+      {
+        Differences[d].apply(
+          labs[0].leftCols(count), labs[1].leftCols(count), out(error + d * Colors.size() + i));
+      }
+    }
+    error += Differences.size() * Colors.size();
+    for (const MetamerismIndex& index : Metamerism)
+    {
+      index.apply(doubles[0], doubles[1], values.head(count));
+      out(error++) = values.head(count).cast<float>();
     }
   }
 }

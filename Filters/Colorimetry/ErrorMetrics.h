@@ -1,12 +1,16 @@
-// The errors of estimated spectra: spectral rms, then CIEDE2000 under each illuminant.
+// The errors of estimated spectra: as spectra, and as colors under each illuminant.
 #ifndef ErrorMetrics_h
 #define ErrorMetrics_h
 
+#include "NameList.h"
 #include "SpectralAxis.h"
+#include "ViewingConditions.h"
 
 #include "Kernels/Colorimetry/CIELAB.h"
 #include "Kernels/Colorimetry/TristimulusTransform.h"
-#include "Kernels/Difference/CIEDE2000.h"
+#include "Kernels/Difference/ColorDifference.h"
+#include "Kernels/Difference/MetamerismIndex.h"
+#include "Kernels/Difference/SpectralMetric.h"
 
 #include <Eigen/Core>
 
@@ -21,10 +25,19 @@ namespace msi
 class ErrorMetrics
 {
 public:
-  ErrorMetrics(const SpectralAxis& bands, const std::vector<std::string>& illuminants,
-    const std::string& observer, const CIEDE2000Factors& factors);
+  // metrics: names of color differences (Kernels/Difference/ColorDifference.h) and of spectral metrics
+  // (SpectralMetric.h), and "metamerism": from the first illuminant to each other one. rms always comes first.
+  // 'factors' are those of CIEDE2000 where its name has none.
+  ErrorMetrics(const SpectralAxis& bands, const std::vector<std::string>& metrics,
+    const std::vector<std::string>& illuminants, const ViewingConditions& conditions,
+    const ColorDifferenceFactors& factors);
 
-  // bands x samples each; the errors in the order of errorNames().
+  // What metrics and illuminants ask for, in order: rms, the spectral metrics, the color differences under each
+  // illuminant, metamerism. Throws as the constructor does.
+  static std::vector<ErrorName> namesOf(
+    const std::vector<std::string>& metrics, const std::vector<std::string>& illuminants);
+
+  // bands x samples each; the errors in the order of namesOf().
   std::vector<Eigen::VectorXd> operator()(
     const Eigen::MatrixXd& estimate, const Eigen::MatrixXd& reference) const;
 
@@ -40,8 +53,11 @@ private:
   };
 
   Eigen::Index Bands;
+  std::vector<ErrorName> Names;
+  std::vector<const SpectralMetric*> Spectral;
+  std::vector<ColorDifference> Differences;
   std::vector<Color> Colors;
-  CIEDE2000 Difference;
+  std::vector<MetamerismIndex> Metamerism;
 };
 
 } // namespace msi

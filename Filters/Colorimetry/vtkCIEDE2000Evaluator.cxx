@@ -87,14 +87,15 @@ vtkSmartPointer<vtkFloatArray> ownedValues(
 
 vtkCIEDE2000Evaluator::vtkCIEDE2000Evaluator()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(4);
   this->SetNumberOfOutputPorts(2);
 }
 
 void vtkCIEDE2000Evaluator::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Illuminants: " << this->Illuminants << "\n"
+  os << indent << "Metrics: " << this->Metrics << "\n"
+     << indent << "Illuminants: " << this->Illuminants << "\n"
      << indent << "Observer: " << this->Observer << "\n"
      << indent << "EstimateArray: " << this->EstimateArray << "\n"
      << indent << "ReferenceArray: " << this->ReferenceArray << "\n"
@@ -106,9 +107,12 @@ void vtkCIEDE2000Evaluator::PrintSelf(ostream& os, vtkIndent indent)
 int vtkCIEDE2000Evaluator::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  if (port < 2)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  }
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
-  if (port == 1)
+  if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
@@ -159,7 +163,7 @@ int vtkCIEDE2000Evaluator::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   // Tables are needed whole; images piece by piece.
-  for (int port = 0; port < 2; ++port)
+  for (int port = 0; port < 4; ++port)
   {
     if (vtkTable::GetData(inputs[port]))
     {
@@ -175,9 +179,16 @@ int vtkCIEDE2000Evaluator::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      const msi::CIEDE2000Factors factors{ this->KL, this->KC, this->KH };
+      const msi::ViewingConditions conditions(
+        vtkTable::GetData(inputs[2]), vtkTable::GetData(inputs[3]), this->Observer);
+      const auto metricNames = msi::namesIn(this->Metrics);
       const auto illuminants = msi::namesIn(this->Illuminants);
-      const auto names = msi::errorNames(illuminants);
+      const auto names = msi::ErrorMetrics::namesOf(metricNames, illuminants);
+      const auto metricsOf = [&](const msi::SpectralAxis& bands)
+      {
+        return msi::ErrorMetrics(
+          bands, metricNames, illuminants, conditions, { this->KL, this->KC, this->KH });
+      };
       if (auto* table = vtkTable::GetData(inputs[0]))
       {
         auto* second = vtkTable::GetData(inputs[1]);
@@ -200,7 +211,7 @@ int vtkCIEDE2000Evaluator::RequestData(
         }
         auto* output = vtkTable::GetData(outputs, 0);
         output->ShallowCopy(table);
-        const msi::ErrorMetrics metrics(estimate.axis, illuminants, this->Observer, factors);
+        const msi::ErrorMetrics metrics = metricsOf(estimate.axis);
         msi::ErrorSummaryTable summary(vtkTable::GetData(outputs, 1));
         const auto errors = metrics(estimate.values, reference.values);
         for (std::size_t i = 0; i < errors.size(); ++i)
@@ -242,8 +253,7 @@ int vtkCIEDE2000Evaluator::RequestData(
           {
             throw std::invalid_argument("the reference shows another region than the estimate");
           }
-          evaluateImage(this, msi::ErrorMetrics(bands, illuminants, this->Observer, factors),
-            estimate, reference, errors);
+          evaluateImage(this, metricsOf(bands), estimate, reference, errors);
         });
       output->ShallowCopy(image);
       msi::removePicture(output);

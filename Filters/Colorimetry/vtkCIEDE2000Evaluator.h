@@ -5,11 +5,13 @@
  * Input 0 is the estimate: a spectral image, or a sample table with E400, E410, .. . Input 1 is the
  * reference: a spectral image of the same extent and bands (NaN where nothing is known), or a table
  * with R400, R410, .. and as many rows; it may be left out where the first table has the measured
- * reflectance (R400, ..) too.
+ * reflectance (R400, ..) too. Input 2, optional: a table of illuminants, "wavelength" and one column each, whose
+ * names Illuminants may hold. Input 3, optional: a table of an observer, "wavelength", x-bar, y-bar and z-bar, in the
+ * place of Observer.
  *
  * Output 0 is input 0 with the arrays or columns "rms" (sqrt of the mean squared difference over
- * bands, in reflectance factor) and "dE00 D65", "dE00 F2", .. (one per illuminant). Output 1 is the
- * summary table: metric, illuminant, mean, median, p95, max, count, left_out (not finite).
+ * bands, in reflectance factor) and "dE00 D65", "dE00 F2", .. (one per illuminant), or the others that Metrics asks
+ * for. Output 1 is the summary table: metric, illuminant, mean, median, p95, max, count, left_out (not finite).
  *
  * Where ranks hold pieces of the image, the summary covers the whole, with the same bytes for any
  * number of ranks.
@@ -34,7 +36,20 @@ public:
 
   ///@{
   /**
-   * CIE illuminants by name, separated by commas or spaces; default "D65, F2".
+   * What is computed beside rms, separated by commas or spaces; default "ciede2000". Color differences under each
+   * illuminant, the reference being the standard: ciede2000, cie94, cie94-textiles, cmc (2 : 1), din99, cie76, hyab, with
+   * other factors like "cmc(1:1)" and "cie94(2:1:1)". Measures between spectra: mae, gfc, sam. And metamerism, the
+   * special metamerism index from the first illuminant to each other one. The columns are "dE94 D65", "gfc",
+   * "metamerism A".
+   */
+  vtkSetStdStringFromCharMacro(Metrics);
+  vtkGetCharFromStdStringMacro(Metrics);
+  ///@}
+
+  ///@{
+  /**
+   * Illuminants by name (Kernels/Colorimetry/Illuminant.h) or of the table at input 2, separated by commas or spaces;
+   * default "D65, F2".
    */
   vtkSetStdStringFromCharMacro(Illuminants);
   vtkGetCharFromStdStringMacro(Illuminants);
@@ -60,7 +75,7 @@ public:
 
   ///@{
   /**
-   * Parametric factors of CIEDE2000; each positive, default 1. Textile work often sets KL to 2.
+   * Parametric factors of ciede2000 where Metrics gives none; each positive, default 1. Textile work often sets KL to 2.
    */
   vtkSetMacro(KL, double);
   vtkGetMacro(KL, double);
@@ -89,6 +104,7 @@ private:
   vtkCIEDE2000Evaluator(const vtkCIEDE2000Evaluator&) = delete;
   void operator=(const vtkCIEDE2000Evaluator&) = delete;
 
+  std::string Metrics = "ciede2000";
   std::string Illuminants = "D65, F2";
   std::string Observer = "CIE 1931 2 degree";
   std::string EstimateArray;

@@ -32,23 +32,6 @@ struct ErrorMap
   int component;
 };
 
-// "rms" and "dE00 D65"; nothing for any other name.
-bool parse(const std::string& text, msi::ErrorName& name)
-{
-  const std::string difference = "dE00 ";
-  if (text == "rms")
-  {
-    name = { text, "" };
-    return true;
-  }
-  if (text.size() > difference.size() && text.compare(0, difference.size(), difference) == 0)
-  {
-    name = { "dE00", text.substr(difference.size()) };
-    return true;
-  }
-  return false;
-}
-
 std::vector<ErrorMap> errorMapsOf(vtkImageData* image)
 {
   std::vector<ErrorMap> maps;
@@ -61,10 +44,9 @@ std::vector<ErrorMap> errorMapsOf(vtkImageData* image)
       const char* text = array->GetNumberOfComponents() == 1 && !array->HasAComponentName()
         ? array->GetName()
         : array->GetComponentName(c);
-      ErrorMap map{ {}, array, c };
-      if (text && parse(text, map.name))
+      if (const auto name = msi::errorNameIn(text ? text : ""))
       {
-        maps.push_back(map);
+        maps.push_back({ *name, array, c });
       }
     }
   }

@@ -2,8 +2,10 @@
 
 #include "AlgorithmSupport.h"
 #include "ImagePicture.h"
+#include "NameList.h"
 #include "SampleColumns.h"
 #include "SpectralImage.h"
+#include "ViewingConditions.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -15,31 +17,23 @@
 #include "vtkUnsignedCharArray.h"
 
 #include "Kernels/Colorimetry/CIELAB.h"
+#include "Kernels/Colorimetry/ColorQuantity.h"
 #include "Kernels/Colorimetry/SRGB.h"
 #include "Kernels/Colorimetry/TristimulusTransform.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkSpectralToColor);
 
 namespace
 {
-struct Colorimetry
-{
-  msi::TristimulusTransform tristimulus;
-  msi::CIELAB lab;
-  msi::SRGB srgb;
-
-  Colorimetry(
-    const msi::WavelengthGrid& bands, const std::string& illuminant, const std::string& observer)
-    : tristimulus(bands, msi::Illuminant::named(illuminant), msi::StandardObserver::named(observer))
-    , lab(tristimulus.whitePoint())
-    , srgb(tristimulus.whitePoint())
-  {
-  }
-};
+// What an image's arrays of quantities are made of.
+constexpr int QuantityComponents = 2;
 
 const msi::WavelengthGrid& requireWavelengths(const msi::SpectralAxis& axis)
 {
@@ -52,11 +46,12 @@ const msi::WavelengthGrid& requireWavelengths(const msi::SpectralAxis& axis)
   return *axis.wavelengths;
 }
 
-vtkSmartPointer<vtkFloatArray> addVectors(vtkImageData* image, const char* name, vtkIdType tuples)
+vtkSmartPointer<vtkFloatArray> addVectors(
+  vtkImageData* image, const char* name, vtkIdType tuples, int components = 3)
 {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetName(name);
-  array->SetNumberOfComponents(3);
+  array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(tuples);
   image->GetPointData()->AddArray(array);
   return array;
@@ -78,9 +73,51 @@ void addColumns(vtkTable* table, const std::string& prefix, const char* const (&
 }
 }
 
+// All that a color is computed with.
+struct vtkSpectralToColor::Colorimetry
+{
+  msi::TristimulusTransform tristimulus;
+  msi::CIELAB lab;
+  msi::SRGB srgb;
+  msi::ColorConditions white;
+  std::vector<const msi::ColorQuantity*> quantities;
+
+  Colorimetry(const vtkSpectralToColor& self, const msi::WavelengthGrid& bands,
+    const msi::ViewingConditions& conditions)
+    : tristimulus(bands, conditions.illuminant(self.Illuminant), conditions.observer())
+    , lab(tristimulus.whitePoint())
+    , srgb(tristimulus.whitePoint(), msi::displaySpaceNamed(self.Display),
+        msi::chromaticAdaptationNamed(self.Adaptation))
+    , white{ tristimulus.whitePoint(),
+      conditions.observer().name() == msi::StandardObserver::cie1964TenDegree().name() }
+  {
+    for (const auto& name : msi::namesIn(self.Quantities))
+    {
+      quantities.push_back(&msi::colorQuantityNamed(name));
+      requireDefined(
+        *quantities.back(), conditions.illuminant(self.Illuminant), conditions.observer());
+    }
+  }
+
+  static void requireDefined(const msi::ColorQuantity& quantity, const msi::Illuminant& illuminant,
+    const msi::StandardObserver& observer)
+  {
+    const auto illuminants = { "C", "D50", "D65" };
+    const auto observers = msi::StandardObserver::names();
+    if (quantity.daylightOnly &&
+      (std::find(illuminants.begin(), illuminants.end(), illuminant.name()) == illuminants.end() ||
+        std::find(observers.begin(), observers.end(), observer.name()) == observers.end()))
+    {
+      throw std::invalid_argument("the quantity " + std::string(quantity.name) +
+        " is not defined under '" + illuminant.name() + "' for the observer '" + observer.name() +
+        "'; expected the illuminant D65, D50 or C and an observer of the CIE");
+    }
+  }
+};
+
 vtkSpectralToColor::vtkSpectralToColor()
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(1);
 }
 
@@ -92,15 +129,34 @@ void vtkSpectralToColor::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "SpectralArray: " << this->SpectralArray << "\n"
      << indent << "ComputeXYZ: " << this->ComputeXYZ << "\n"
      << indent << "ComputeLab: " << this->ComputeLab << "\n"
+     << indent << "Quantities: " << this->Quantities << "\n"
+     << indent << "Display: " << this->Display << "\n"
+     << indent << "Adaptation: " << this->Adaptation << "\n"
+     << indent << "GamutMask: " << this->GamutMask << "\n"
      << indent << "ClippedCount: " << this->ClippedCount << "\n";
 }
 
-int vtkSpectralToColor::FillInputPortInformation(int, vtkInformation* info)
+int vtkSpectralToColor::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  if (port == 0)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  }
+  else
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
   return 1;
+}
+
+int vtkSpectralToColor::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  msi::requestWhole(inputs, 1);
+  msi::requestWhole(inputs, 2);
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
 }
 
 int vtkSpectralToColor::RequestData(
@@ -110,9 +166,11 @@ int vtkSpectralToColor::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
+      const msi::ViewingConditions conditions(
+        vtkTable::GetData(inputs[1]), vtkTable::GetData(inputs[2]), this->Observer);
       if (auto* table = vtkTable::GetData(inputs[0]))
       {
-        this->ClippedCount = this->ColorTable(table, vtkTable::GetData(outputs, 0));
+        this->ClippedCount = this->ColorTable(table, conditions, vtkTable::GetData(outputs, 0));
         return;
       }
       auto* image = vtkImageData::GetData(inputs[0]);
@@ -120,11 +178,12 @@ int vtkSpectralToColor::RequestData(
       {
         throw std::invalid_argument("the input is neither a spectral image nor a sample table");
       }
-      this->ClippedCount = this->ColorImage(image, vtkImageData::GetData(outputs, 0));
+      this->ClippedCount = this->ColorImage(image, conditions, vtkImageData::GetData(outputs, 0));
     });
 }
 
-vtkIdType vtkSpectralToColor::ColorTable(vtkTable* table, vtkTable* output)
+vtkIdType vtkSpectralToColor::ColorTable(
+  vtkTable* table, const msi::ViewingConditions& conditions, vtkTable* output)
 {
   vtkIdType clipped = 0;
   output->ShallowCopy(table);
@@ -137,7 +196,7 @@ vtkIdType vtkSpectralToColor::ColorTable(vtkTable* table, vtkTable* output)
       continue;
     }
     any = true;
-    const Colorimetry color(*spectra->axis.wavelengths, this->Illuminant, this->Observer);
+    const Colorimetry color(*this, *spectra->axis.wavelengths, conditions);
     const auto xyz = color.tristimulus(spectra->values);
     Eigen::Matrix3Xd lab(3, xyz.cols());
     color.lab.fromXYZ(xyz, lab);
@@ -148,6 +207,28 @@ vtkIdType vtkSpectralToColor::ColorTable(vtkTable* table, vtkTable* output)
     addColumns(output, prefix, { "X", "Y", "Z" }, xyz);
     addColumns(output, prefix, { "L", "a", "b" }, lab);
     addColumns(output, prefix, { "red", "green", "blue" }, rgb);
+    for (const auto* coordinates : color.quantities)
+    {
+      Eigen::Matrix2Xd values(2, xyz.cols());
+      for (Eigen::Index i = 0; i < xyz.cols(); ++i)
+      {
+        values.col(i) = coordinates->of(color.white, xyz.col(i));
+      }
+      for (Eigen::Index i = 0; i < QuantityComponents; ++i)
+      {
+        msi::setNumbers(output, prefix + coordinates->components[static_cast<std::size_t>(i)],
+          values.row(i).transpose());
+      }
+    }
+    if (this->GamutMask)
+    {
+      Eigen::VectorXd outside(xyz.cols());
+      for (Eigen::Index i = 0; i < xyz.cols(); ++i)
+      {
+        outside(i) = color.srgb.isOutOfGamut(xyz.col(i)) ? 1.0 : 0.0;
+      }
+      msi::setNumbers(output, prefix + "out_of_gamut", outside);
+    }
   }
   if (!any)
   {
@@ -157,19 +238,40 @@ vtkIdType vtkSpectralToColor::ColorTable(vtkTable* table, vtkTable* output)
   return clipped;
 }
 
-vtkIdType vtkSpectralToColor::ColorImage(vtkImageData* image, vtkImageData* output)
+vtkIdType vtkSpectralToColor::ColorImage(
+  vtkImageData* image, const msi::ViewingConditions& conditions, vtkImageData* output)
 {
   auto* array = msi::requireSpectralArray(image, "the image", this->SpectralArray.c_str());
   const auto axis = msi::axisOf(image, array);
-  const Colorimetry color(requireWavelengths(axis), this->Illuminant, this->Observer);
+  const Colorimetry color(*this, requireWavelengths(axis), conditions);
   const auto spectra = msi::asFloats(array);
   const auto bands = static_cast<Eigen::Index>(axis.size());
   const vtkIdType pixels = spectra->GetNumberOfTuples();
   output->ShallowCopy(image);
   const auto xyzArray = this->ComputeXYZ ? addVectors(output, "XYZ", pixels) : nullptr;
   const auto labArray = this->ComputeLab ? addVectors(output, "Lab", pixels) : nullptr;
+  std::vector<float*> quantitiesOut;
+  for (const auto* quantity : color.quantities)
+  {
+    const auto values =
+      addVectors(output, std::string(quantity->name).c_str(), pixels, QuantityComponents);
+    for (int i = 0; i < QuantityComponents; ++i)
+    {
+      values->SetComponentName(i, quantity->components[static_cast<std::size_t>(i)].c_str());
+    }
+    quantitiesOut.push_back(values->GetPointer(0));
+  }
+  unsigned char* maskOut = nullptr;
+  if (this->GamutMask)
+  {
+    vtkNew<vtkUnsignedCharArray> mask;
+    mask->SetName("OutOfGamut");
+    mask->SetNumberOfTuples(pixels);
+    output->GetPointData()->AddArray(mask);
+    maskOut = mask->GetPointer(0);
+  }
   vtkNew<vtkUnsignedCharArray> srgb;
-  srgb->SetName(msi::PictureArray);
+  srgb->SetName(this->Display == "sRGB" ? msi::PictureArray : this->Display.c_str());
   srgb->SetNumberOfComponents(3);
   srgb->SetNumberOfTuples(pixels);
 
@@ -198,6 +300,19 @@ vtkIdType vtkSpectralToColor::ColorImage(vtkImageData* image, vtkImageData* outp
         if (labOut)
         {
           color.lab.fromXYZ(xyz, Eigen::Map<Eigen::Matrix3Xf>(labOut + 3 * at, 3, count));
+        }
+        for (vtkIdType i = 0; (maskOut || !quantitiesOut.empty()) && i < count; ++i)
+        {
+          const Eigen::Vector3d one = xyz.col(i).cast<double>();
+          for (std::size_t q = 0; q < quantitiesOut.size(); ++q)
+          {
+            Eigen::Map<Eigen::Vector2f>(quantitiesOut[q] + QuantityComponents * (at + i)) =
+              color.quantities[q]->of(color.white, one).cast<float>();
+          }
+          if (maskOut)
+          {
+            maskOut[at + i] = color.srgb.isOutOfGamut(one) ? 1 : 0;
+          }
         }
         auto rgb = block.leftCols(count);
         clippedHere += color.srgb.apply(xyz, rgb).outOfGamut;

@@ -1,5 +1,8 @@
 #include "NameList.h"
 
+#include "Kernels/Difference/ColorDifference.h"
+#include "Kernels/Difference/SpectralMetric.h"
+
 #include <algorithm>
 #include <sstream>
 
@@ -19,14 +22,37 @@ std::vector<std::string> namesIn(const std::string& list)
   return names;
 }
 
-std::vector<ErrorName> errorNames(const std::vector<std::string>& illuminants)
+std::vector<ErrorName> errorNames(
+  const std::vector<std::string>& illuminants, const std::vector<std::string>& colorMetrics)
 {
   std::vector<ErrorName> names{ { "rms", "" } };
-  for (const auto& illuminant : illuminants)
+  for (const auto& metric : colorMetrics)
   {
-    names.push_back({ "dE00", illuminant });
+    for (const auto& illuminant : illuminants)
+    {
+      names.push_back({ metric, illuminant });
+    }
   }
   return names;
+}
+
+std::optional<ErrorName> errorNameIn(const std::string& text)
+{
+  const auto blank = text.find(' ');
+  const std::string metric = text.substr(0, blank);
+  if (blank == std::string::npos)
+  {
+    return metric == "rms" || findSpectralMetric(metric) ? std::optional(ErrorName{ metric, "" })
+                                                         : std::nullopt;
+  }
+  const auto& formulas = colorDifferences();
+  const std::string plain = metric.substr(0, metric.find('('));
+  const bool known = plain == MetamerismMetric ||
+    std::any_of(formulas.begin(), formulas.end(),
+      [&plain](const auto& formula) { return formula.metric == plain; });
+  return known && blank + 1 < text.size()
+    ? std::optional(ErrorName{ metric, text.substr(blank + 1) })
+    : std::nullopt;
 }
 
 } // namespace msi

@@ -2,6 +2,7 @@
 #ifndef NameList_h
 #define NameList_h
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace msi
 // The names in a list that commas or spaces separate.
 std::vector<std::string> namesIn(const std::string& list);
 
-// What an error is called: metric "rms" or "dE00", and the illuminant of the latter.
+// What an error is called: a metric of spectra ("rms", "gfc") or of colors ("dE00"), with the illuminant of the latter.
 struct ErrorName
 {
   std::string metric;
@@ -20,8 +21,15 @@ struct ErrorName
   std::string text() const { return illuminant.empty() ? metric : metric + " " + illuminant; }
 };
 
-// "rms", then "dE00" under each illuminant.
-std::vector<ErrorName> errorNames(const std::vector<std::string>& illuminants);
+// The metric of the special metamerism index; its illuminant is the one that light changes to.
+inline constexpr const char* MetamerismMetric = "metamerism";
+
+// "rms", then each metric of colors under each illuminant.
+std::vector<ErrorName> errorNames(
+  const std::vector<std::string>& illuminants, const std::vector<std::string>& colorMetrics);
+
+// The name of an error from its text; nothing where it begins with no known metric.
+std::optional<ErrorName> errorNameIn(const std::string& text);
 
 } // namespace msi
 

@@ -6,11 +6,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command, methods  # noqa: E402
-
-ILLUMINANTS = ("A", "D50", "D65", *(f"F{i}" for i in range(1, 13)), *(f"FL{i}" for i in range(1, 13)),
-               *(f"LED-B{i}" for i in range(1, 6)))
-OBSERVERS = {"2": "CIE 1931 2 degree", "10": "CIE 1964 10 degree"}
+from support import colors, command, methods  # noqa: E402
 
 
 def number(least, most=math.inf):
@@ -63,11 +59,7 @@ def arguments():
                         help="estimate also an image whose responses look like raw counts beside the calibration's; "
                              "else that is an error")
     results = parser.add_argument_group("results")
-    results.add_argument("--illuminant", metavar="NAME", nargs="+", choices=ILLUMINANTS, default=["D65", "F2"],
-                         help="CIE illuminants of the color differences; the first one also lights the pictures: A, D50, "
-                              "D65, F1 to F12, LED-B1 to LED-B5 (default: D65 F2)")
-    results.add_argument("--observer", choices=list(OBSERVERS), default="2",
-                         help="CIE standard observer, degrees (default: %(default)s)")
+    colors.add_options(results, lights_pictures=True)
     results.add_argument("--cube", choices=("exr", "envi"), default="exr",
                          help="format of the reflectance image (default: %(default)s)")
     options = parser.parse_args()
@@ -92,7 +84,7 @@ from support import estimation, pipeline, report, state  # noqa: E402
 def require_inputs(options):
     lists = [options.image, options.white or [], options.dark or []]
     singles = [options.calibration, options.tuning, options.labels, options.patches]
-    command.require_files(*[path for paths in lists for path in paths], *singles)
+    command.require_files(*[path for paths in lists for path in paths], *singles, *colors.files(options))
 
 
 def read_tables(options):
@@ -114,17 +106,17 @@ def responses(options, stride=1):
                                  **{name: value for name, value in given.items() if value is not None})
 
 
-def summarize(options, judged, outside, missing):
+def summarize(options, viewed, judged, outside, missing):
     """The result in one sentence, and what is known of the pixels' responses."""
     range_text = "It is not known which responses the transform was fitted on." if outside is None else \
         f"{100.0 * outside:.1f} % of the pixels have responses outside of the range of the fitted samples."
     if missing > 0.0:
         range_text += f" {100.0 * missing:.1f} % of the pixels have no result (dead, saturated or missing values)."
-    means = judged and [estimation.mean_of(judged, *what) for what in (("dE00", options.illuminant[0]), ("rms",))]
+    means = judged and [estimation.mean_of(judged, *what) for what in ((viewed.metric, viewed.illuminants[0]), ("rms",))]
     if means is None or command.rank() != 0:
         return f"Estimated with the method {options.method if options.tuning else 'calibration'}; {range_text}", range_text
     (mean, largest, count), (rms, _, _) = means
-    return (f"{count} held-out patches: mean \u0394E00 {mean:.2f}, largest {largest:.2f} ({options.illuminant[0]}); "
+    return (f"{count} held-out patches: mean {viewed.label} {mean:.2f}, largest {largest:.2f} ({viewed.illuminants[0]}); "
             f"spectral rms {rms:.4f}. {range_text}"), range_text
 
 
@@ -132,7 +124,7 @@ def summarize(options, judged, outside, missing):
 WRITES = (
     "reflectance-transform.csv", "metamerism-transform.csv", "reflectance.exr", "reflectance.img", "reflectance.hdr",
     "rgb.png", "srgb.png", "out-of-range.png", "uncertainty.png", "error-rms.png",
-    "error-dE00-*.png", "error-maps.img", "error-maps.hdr", "errors-of-pixels.csv", "errors-of-patches.csv",
+    "error-dE*.png", "error-maps.img", "error-maps.hdr", "errors-of-pixels.csv", "errors-of-patches.csv",
     "patches.csv", "state.pvsm", "report.html")
 
 
@@ -141,6 +133,7 @@ def main():
     require_inputs(options)
     folder = command.make_folder(options.output, WRITES)
     pipeline.load_plugin()
+    viewed = colors.Colors(options)
 
     image = responses(options)
     stride = estimation.stride_of_pictures(image)
@@ -174,22 +167,20 @@ def main():
         view = (pipeline.create("ReflectanceEstimation", Input=responses(options, stride),
                                 TrustResponses=int(options.trust_responses), **transforms),
                 labels and estimation.read_labels(options.labels, stride))
-    illuminant, observer = options.illuminant[0], OBSERVERS[options.observer]
-    estimation.save_view(view[0], folder, reflectance, illuminant, observer)
+    estimation.save_view(view[0], folder, reflectance, viewed)
     pages = [report.pictures("Reflectance", folder, {
-                 "rgb.png": f"The colors under {illuminant}; srgb.png has them at the image's own size"}),
+                 "rgb.png": f"The colors under {viewed.illuminants[0]}; srgb.png has them at the image's own size"}),
              estimation.save_quality(judged_image, folder),
              report.table("The fit", *pipeline.table(summary))]
     judged = None
     if labels is not None:
-        judged = estimation.judge(reflectance, labels, held_out, folder, view=view, illuminants=options.illuminant,
-                                  observer=observer)
+        judged = estimation.judge(reflectance, labels, held_out, folder, view=view, colors=viewed)
         estimation.print_summary("Held-out patches, mean spectrum of each",
                                  pipeline.port(judged.patches, 1))
         estimation.print_summary("Held-out pixels", judged.summary)
         pages += estimation.report_errors(judged, folder)
     estimation.save_state(os.path.join(folder, "state.pvsm"), view[0], judged)
-    lead, range_text = summarize(options, judged, outside, missing)
+    lead, range_text = summarize(options, viewed, judged, outside, missing)
     command.say(range_text)
     report.write(folder, "Spectral reflectance of an image", pages, lead, pipeline.warnings)
     state.finish()

@@ -4,7 +4,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command, methods  # noqa: E402
+from support import colors, command, methods  # noqa: E402
 
 
 def arguments():
@@ -27,6 +27,7 @@ def arguments():
     parser.add_argument("--methods", metavar="LIST", default=",".join(methods.COMPARED),
                         help="methods, separated by commas, or all; known: " + ", ".join(methods.NAMES) +
                              " (default: %(default)s)")
+    colors.add_options(parser)
     return parser.parse_args()
 
 
@@ -43,25 +44,26 @@ WRITES = (
 
 def main():
     options = OPTIONS
-    command.require_files(options.calibration, options.target)
+    command.require_files(options.calibration, options.target, *colors.files(options))
     folder = command.make_folder(options.output, WRITES)
     chosen = methods.chosen(options.methods)
     command.say(f"{len(chosen)} methods, {options.draws} draws of {options.tuning} tuning samples, the rest held out")
     pipeline.load_plugin()
+    judged = colors.Colors(options)
     tables = [pipeline.create("SampleTableReader", FileName=path)
               for path in (options.calibration, options.target)]
     pipeline.update(*tables)
     tables = [comparison.select_channels(table, options.channels) for table in tables]
     names, rows = comparison.compare(*tables, folder=folder, methods=",".join(chosen), tuning=options.tuning,
-                                     draws=options.draws, seed=options.seed)
+                                     draws=options.draws, seed=options.seed, colors=judged)
     report.write(folder, "Methods compared", [
         report.table("Errors of the held-out samples", *comparison.condensed(names, rows),
                      note=f"Mean / median / largest over the held-out samples, mean over {options.draws} draws of "
-                          f"{options.tuning} tuning samples; rms of reflectance factor, CIEDE2000."),
+                          f"{options.tuning} tuning samples; rms of reflectance factor, {judged.label}."),
         report.pictures("In pictures", folder, {
             "spectra.png": "A typical held-out sample", "rms-against-tuning.png": "Error against the number of tuning samples",
             "ab-distribution.png": "Where the three sets lie in a*b*"})],
-        comparison.best(names, rows), pipeline.warnings)
+        comparison.best(names, rows, judged), pipeline.warnings)
     command.say(f"report, results, draws and pictures: {os.path.join(folder, 'report.html')}")
 
 

@@ -89,6 +89,40 @@ def written(launcher, base):
         faults.append("the share of pixels outside of the range is not told")
 
 
+def own_lamp(launcher, base):
+    """A lamp and an observer from files, and another color difference; files that are none of these."""
+    lamp, observer = base / "gallery lamp.csv", base / "observer.csv"
+    tables = root / "Data" / "Tables"
+    lamp.write_text((tables / "illuminant_A.csv").read_text())
+    observer.write_text((tables / "observer_CIE1964_10deg.csv").read_text())
+    common = ["--image", *stack(), "--white", *stack("white"), "--dark", *stack("dark"), "--tuning",
+              root / "Data" / "Samples" / "demo-fabric.csv", "--labels", FOLDER / "labels.png", "--patches",
+              FOLDER / "patches.csv", "--difference", "cie76"]
+    errors = []
+    for i, options in enumerate((["--illuminant", "A", "--observer", "10"], ["--illuminant", lamp, "--observer", observer])):
+        got, stderr, _, page = estimate(launcher, base / f"lamp-{i}", *common, *options)
+        if got != 0 or "mean \u0394E*ab" not in page:
+            faults.append(f"{options}: status {got}: {stderr}")
+            return
+        rows = (base / f"lamp-{i}" / "errors-of-patches.csv").read_text().splitlines()
+        errors.append([row.split(",")[2:] for row in rows if "dEab" in row])
+    # The table of A is the same, so are the errors.
+    if len(errors[0]) != 1 or not np.allclose(*(np.array(rows, float) for rows in errors), rtol=1e-6):
+        faults.append(f"a lamp from a file gives other errors: {errors}")
+    if not (base / "lamp-1" / "error-dEab-gallery-lamp.png").is_file():
+        faults.append("the error map under a lamp from a file is not there")
+    negative, text = base / "negative.csv", base / "text.csv"
+    negative.write_text("wavelength,power\n380,1\n560,-1\n780,1\n")
+    text.write_text("wavelength,power\n380,1\n560,many\n780,1\n")
+    for options, part in ((["--illuminant", negative], "has the power -1 at 560 nm; expected"),
+                          (["--illuminant", text], "text.csv:3:5: "), (["--observer", lamp], "1 curve beside the wavelength"),
+                          (["--illuminant", base / "none.csv"], "none.csv: no such file"),
+                          (["--illuminant", "F13"], "'F13' is no illuminant; expected A, C, D50")):
+        got, stderr, _, _ = estimate(launcher, base / "bad-lamp", *common, *options)
+        if got == 0 or part not in stderr or stderr.count("\n") != 1:
+            faults.append(f"{options}: status {got}, expected '{part}': {stderr}")
+
+
 def white_reflectance(launcher, base):
     """Half the white's reflectance is half the image's responses: exposures do the same."""
     import spectral
@@ -112,7 +146,7 @@ def main():
     launcher, base = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(base, ignore_errors=True)
     base.mkdir(parents=True)
-    for test in (said, written, white_reflectance):
+    for test in (said, written, own_lamp, white_reflectance):
         test(launcher, base)
     print("\n".join(faults) or "what is wrong is said, what is written is right")
     sys.exit(1 if faults else 0)

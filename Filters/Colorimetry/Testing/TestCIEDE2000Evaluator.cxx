@@ -1,4 +1,5 @@
 #include "vtkCIEDE2000Evaluator.h"
+#include "vtkErrorSummary.h"
 
 #include "GraySpectra.h"
 #include "Support/vtk/PieceSource.h"
@@ -115,6 +116,45 @@ TEST(CIEDE2000Evaluator, EvaluatesATableThatHasBoth)
   EXPECT_TRUE(std::isnan(cell(output, 2, "dE00 A")));
   EXPECT_EQ(cell(summaryOf(evaluator), 1, "left_out"), 1.0);
   EXPECT_NEAR(cell(summaryOf(evaluator), 0, "max"), 0.1, 1e-12);
+}
+
+// Grays differ in lightness alone, and their spectra by a factor: each metric is known.
+TEST(CIEDE2000Evaluator, ComputesTheMetricsAskedFor)
+{
+  const std::vector<double> estimated = { 0.2, 0.5, 0.9 };
+  const std::vector<double> measured = { 0.25, 0.5, 0.8 };
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, grayImage(estimated));
+  evaluator->SetInputData(1, grayImage(measured));
+  evaluator->SetMetrics("cie76, cie94(2:1), mae gfc, sam, metamerism");
+  evaluator->SetIlluminants("D65, TL84");
+  ASSERT_EQ(errorOf(evaluator), "");
+  const auto errors = [&](const char* name, Eigen::Index pixel)
+  { return valuesOf(errorsOf(evaluator), name)(0, pixel); };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const auto pixel = static_cast<Eigen::Index>(i);
+    const double lightness = std::abs(lightnessOf(estimated[i]) - lightnessOf(measured[i]));
+    for (const std::string illuminant : { "D65", "TL84" })
+    {
+      EXPECT_NEAR(errors(("dEab " + illuminant).c_str(), pixel), lightness, 5e-4);
+      EXPECT_NEAR(errors(("dE94(2:1) " + illuminant).c_str(), pixel), lightness / 2.0, 5e-4);
+    }
+    EXPECT_NEAR(errors("mae", pixel), std::abs(estimated[i] - measured[i]), 1e-7);
+    EXPECT_NEAR(errors("gfc", pixel), 1.0, 1e-7);
+    EXPECT_NEAR(errors("sam", pixel), 0.0, 1e-7);
+    EXPECT_NEAR(errors("metamerism TL84", pixel), 0.0, 1e-4);
+  }
+  auto* summary = summaryOf(evaluator);
+  ASSERT_EQ(summary->GetNumberOfRows(), 9);
+  EXPECT_EQ(textCell(summary, 1, "metric"), "mae");
+  EXPECT_EQ(textCell(summary, 8, "metric"), "metamerism");
+  EXPECT_EQ(textCell(summary, 8, "illuminant"), "TL84");
+  // Error Summary knows all of them again.
+  vtkNew<vtkErrorSummary> again;
+  again->SetInputData(errorsOf(evaluator));
+  ASSERT_EQ(errorOf(again), "");
+  EXPECT_EQ(vtkTable::SafeDownCast(again->GetOutputDataObject(0))->GetNumberOfRows(), 9);
 }
 
 TEST(CIEDE2000Evaluator, TakesTheReferenceFromASecondTable)

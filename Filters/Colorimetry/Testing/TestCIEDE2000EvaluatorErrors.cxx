@@ -120,6 +120,60 @@ TEST(CIEDE2000EvaluatorErrors, RefuseFactorsThatAreNotPositive)
   evaluator->SetInputData(0, grayImage({ 0.5 }));
   evaluator->SetInputData(1, grayImage({ 0.5 }));
   evaluator->SetKC(0.0);
-  EXPECT_NE(errorOf(evaluator).find("kC"), std::string::npos);
+  EXPECT_EQ(
+    errorOf(evaluator), "the chroma factor of CIEDE2000 is 0; expected a finite value above zero");
+}
+
+TEST(CIEDE2000EvaluatorErrors, NameMetricsThatAreNotKnown)
+{
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, grayImage({ 0.5 }));
+  evaluator->SetInputData(1, grayImage({ 0.5 }));
+  evaluator->SetMetrics("ciede2000, cam16");
+  EXPECT_EQ(errorOf(evaluator),
+    "there is no metric 'cam16'; expected some of rms, ciede2000, cie94, cie94-textiles, cmc, "
+    "din99, "
+    "cie76, hyab, mae, gfc, sam, metamerism");
+  evaluator->SetMetrics("metamerism");
+  evaluator->SetIlluminants("D65");
+  EXPECT_EQ(errorOf(evaluator),
+    "the metric metamerism compares illuminants, and there is 1; expected the reference illuminant "
+    "and at least one other one, like D65, A");
+}
+
+TEST(CIEDE2000EvaluatorErrors, SayWhatIsWrongWithATableOfLamps)
+{
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, grayImage({ 0.5 }));
+  evaluator->SetInputData(1, grayImage({ 0.5 }));
+  const auto errorWith = [&](vtkTable* lamps)
+  {
+    evaluator->SetInputData(2, lamps);
+    return errorOf(evaluator);
+  };
+  const NamedColumn nm{ "wavelength", { 380.0, 500.0, 720.0 } };
+  EXPECT_EQ(errorWith(newTable({ { "lamp", { 1.0 } } })),
+    "the illuminants' table has no column of numbers 'wavelength'; expected the column "
+    "'wavelength' "
+    "(nm) and one column of numbers a curve");
+  EXPECT_EQ(errorWith(newTable({ nm })),
+    "the illuminants' table has no curve; expected the column 'wavelength' (nm) and one column of "
+    "numbers a curve");
+  EXPECT_EQ(errorWith(newTable({ nm, { "lamp", { 1.0, -0.5, 1.0 } } })),
+    "illuminant 'lamp' has the power -0.5 at 500 nm; expected a finite value that is not negative");
+  EXPECT_EQ(errorWith(newTable({ nm, { "lamp", { NaN, 0.5, 1.0 } } })),
+    "the illuminants' table: the curve 'lamp' covers 500 to 720 nm; expected at least 400 to 700 "
+    "nm, "
+    "which color depends on; measure it farther");
+  evaluator->SetIlluminants("lamps");
+  const auto unknown = errorWith(newTable({ nm, { "lamp", { 1.0, 1.0, 1.0 } } }));
+  EXPECT_NE(unknown.find("unknown illuminant 'lamps'"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("; the illuminants' table has 'lamp'"), std::string::npos) << unknown;
+  evaluator->SetIlluminants("lamp");
+  EXPECT_EQ(errorWith(newTable({ nm, { "lamp", { 1.0, 1.0, 1.0 } } })), "");
+  evaluator->SetInputData(3, newTable({ nm, { "x", { 1.0, 1.0, 1.0 } } }));
+  EXPECT_EQ(errorOf(evaluator),
+    "the observer's table has 1 curve; expected three over the same wavelengths: x-bar, y-bar and "
+    "z-bar, in this order");
 }
 }

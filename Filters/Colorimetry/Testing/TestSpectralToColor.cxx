@@ -6,6 +6,8 @@
 
 #include "vtkNew.h"
 
+#include "SampleColumns.h"
+
 #include "Kernels/Colorimetry/CIELAB.h"
 #include "Kernels/Colorimetry/TristimulusTransform.h"
 
@@ -166,6 +168,98 @@ TEST(SpectralToColor, NamesAnIlluminantOrObserverThatIsNotKnown)
   const auto observer = errorOf(color);
   EXPECT_NE(observer.find("'CIE 2006'"), std::string::npos) << observer;
   EXPECT_NE(observer.find("CIE 1964 10 degree"), std::string::npos) << observer;
+}
+
+vtkSmartPointer<vtkTable> curvesAt1nm(
+  const std::vector<std::pair<std::string, Eigen::VectorXd>>& curves)
+{
+  const auto grid = WavelengthGrid::uniform(360.0, 830.0, 1.0);
+  auto table = vtkSmartPointer<vtkTable>::New();
+  setNumbers(table, "wavelength", grid.vector());
+  for (const auto& [name, values] : curves)
+  {
+    setNumbers(table, name, values);
+  }
+  return table;
+}
+
+// The CIE's own observer and illuminant, handed in as a user's, change nothing.
+TEST(SpectralToColor, TakesALampAndAnObserverFromTables)
+{
+  const auto grid = WavelengthGrid::uniform(360.0, 830.0, 1.0);
+  const auto& ten = StandardObserver::cie1964TenDegree().functions();
+  vtkNew<vtkTable> table;
+  Eigen::MatrixXd spectrum(GrayGrid.size(), 1);
+  spectrum.col(0).setLinSpaced(0.1, 0.8);
+  addSpectra(table, 'R', GrayGrid, spectrum);
+  vtkNew<vtkSpectralToColor> named;
+  named->SetInputData(table);
+  named->SetIlluminant("D50");
+  named->SetObserver("10");
+  ASSERT_EQ(errorOf(named), "");
+  vtkNew<vtkSpectralToColor> own;
+  own->SetInputData(table);
+  own->SetIlluminant("lamp");
+  own->SetInputData(1, curvesAt1nm({ { "lamp", 3.0 * Illuminant::named("D50").powerAt(grid) } }));
+  own->SetInputData(2,
+    curvesAt1nm({ { "x", ten.row(0).transpose() }, { "y", ten.row(1).transpose() },
+      { "z", ten.row(2).transpose() } }));
+  ASSERT_EQ(errorOf(own), "");
+  for (const char* column : { "R_X", "R_Y", "R_Z", "R_L", "R_a", "R_b" })
+  {
+    const double expected = cell(vtkTable::SafeDownCast(named->GetOutputDataObject(0)), 0, column);
+    EXPECT_NEAR(
+      cell(vtkTable::SafeDownCast(own->GetOutputDataObject(0)), 0, column), expected, 1e-9)
+      << column;
+  }
+}
+
+TEST(SpectralToColor, AddsQuantitiesAndTheGamutMask)
+{
+  // A gray, and a red that no display has: reflectance at long wavelengths alone.
+  Eigen::MatrixXd spectra = Eigen::MatrixXd::Zero(GrayGrid.size(), 2);
+  spectra.col(0).setConstant(0.9);
+  spectra.col(1).tail(7).setOnes();
+  vtkNew<vtkTable> table;
+  addSpectra(table, 'R', GrayGrid, spectra);
+  vtkNew<vtkSpectralToColor> color;
+  color->SetInputData(table);
+  color->SetQuantities("xyY, Luv, LCh, whiteness");
+  color->GamutMaskOn();
+  ASSERT_EQ(errorOf(color), "");
+  auto* output = vtkTable::SafeDownCast(color->GetOutputDataObject(0));
+  EXPECT_NEAR(cell(output, 0, "R_x"), 0.3127, 1e-4); // of D65
+  EXPECT_NEAR(cell(output, 0, "R_y"), 0.3290, 1e-4);
+  EXPECT_NEAR(cell(output, 0, "R_u"), 0.0, 1e-9);
+  EXPECT_NEAR(cell(output, 0, "R_C"), 0.0, 1e-9);
+  EXPECT_NEAR(cell(output, 0, "R_whiteness"), 90.0, 1e-9); // W of a gray is its Y
+  EXPECT_NEAR(cell(output, 0, "R_tint"), 0.0, 1e-9);
+  EXPECT_EQ(cell(output, 0, "R_out_of_gamut"), 0.0);
+  EXPECT_TRUE(std::isnan(cell(output, 1, "R_whiteness")));
+  EXPECT_EQ(cell(output, 1, "R_out_of_gamut"), 1.0);
+  EXPECT_GT(cell(output, 1, "R_C"), 60.0);
+  EXPECT_EQ(color->GetClippedCount(), 1);
+
+  color->SetInputData(newImage(2, 1, ReflectanceArray, spectra, GrayGrid));
+  color->SetDisplay("Display P3");
+  ASSERT_EQ(errorOf(color), "");
+  EXPECT_STREQ(imageOf(color)->GetPointData()->GetScalars()->GetName(), "Display P3");
+  const auto mask = valuesOf(imageOf(color), "OutOfGamut");
+  EXPECT_EQ(mask(0, 0), 0.0);
+  EXPECT_EQ(mask(0, 1), 1.0);
+  const auto whiteness = valuesOf(imageOf(color), "whiteness");
+  EXPECT_NEAR(whiteness(0, 0), 90.0, 1e-3);
+  EXPECT_TRUE(std::isnan(whiteness(0, 1)));
+  EXPECT_NEAR(valuesOf(imageOf(color), "xyY")(1, 0), 0.3290, 1e-4);
+
+  color->SetIlluminant("A");
+  EXPECT_EQ(errorOf(color),
+    "the quantity whiteness is not defined under 'A' for the observer 'CIE 1931 2 degree'; "
+    "expected "
+    "the illuminant D65, D50 or C and an observer of the CIE");
+  color->SetQuantities("");
+  color->SetDisplay("Rec. 2020");
+  EXPECT_EQ(errorOf(color), "there is no display space 'Rec. 2020'; expected sRGB or Display P3");
 }
 
 std::string colorError(vtkDataObject* input, const char* array = "")

@@ -3,6 +3,7 @@
 import os
 
 from . import command, pictures, pipeline
+from .colors import Colors
 from .command import Failure
 from .methods import NAMES
 
@@ -31,10 +32,11 @@ def select_channels(table, count):
     return selection
 
 
-def compare(calibration, target, folder, methods, tuning, draws, seed):
+def compare(calibration, target, folder, methods, tuning, draws, seed, colors=None):
     """Writes results.csv, draws.csv and the pictures; prints the table. Returns names and rows."""
-    comparison = pipeline.create("MethodComparison", Calibration=calibration, Target=target,
-                                 Methods=methods, TuningSamples=str(tuning), Draws=draws, Seed=seed)
+    conditions = (colors or Colors()).of_comparison()
+    comparison = pipeline.create("MethodComparison", Calibration=calibration, Target=target, Methods=methods,
+                                 TuningSamples=str(tuning), Draws=draws, Seed=seed, **conditions)
     pipeline.update(comparison)
     pipeline.save_table(pipeline.port(comparison, 0), os.path.join(folder, "results.csv"))
     pipeline.save_table(pipeline.port(comparison, 1), os.path.join(folder, "draws.csv"))
@@ -80,7 +82,7 @@ def condensed(names, rows):
              for method, cells in by_method.items()])
 
 
-def best(names, rows):
+def best(names, rows, judged=None):
     """The method with the least mean spectral rms, in one sentence; empty on ranks without the table."""
     column = {name: i for i, name in enumerate(names)}
 
@@ -94,9 +96,10 @@ def best(names, rows):
     text = f"{method} has the least spectral rms on the held-out samples: {rms[method]:.4f}"
     if "direct" in rms and method != "direct":
         text += f", against {rms['direct']:.4f} with the chart's calibration alone"
-    colors = means("dE00", "D65")
+    judged = judged or Colors()
+    colors = means(judged.metric, judged.illuminants[0])
     if method in colors:
-        text += f"; mean \u0394E00 {colors[method]:.2f} (D65)"
+        text += f"; mean {judged.label} {colors[method]:.2f} ({judged.illuminants[0]})"
         if "direct" in colors and method != "direct":
             text += f" against {colors['direct']:.2f}"
     return text + "."

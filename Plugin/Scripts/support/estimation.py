@@ -2,16 +2,10 @@
 
 import collections
 import os
+import re
 
 from . import command, pictures, pipeline, report, state
-
-DEFAULT_ILLUMINANTS = ("D65", "F2")
-DEFAULT_OBSERVER = "CIE 1931 2 degree"
-
-
-def error_arrays(illuminants):
-    return ("rms", *(f"dE00 {illuminant}" for illuminant in illuminants))
-
+from .colors import Colors
 
 # Images of more pixels than this are shown by every n-th one, so that a side has at most so many.
 MOST_PIXELS_SHOWN = 4_000_000
@@ -109,9 +103,9 @@ def save_quality(estimated, folder):
     return report.pictures("How far to trust each pixel", folder, captions) if captions else ""
 
 
-def save_view(reflectance, folder, whole=None, illuminant="D65", observer=DEFAULT_OBSERVER):
+def save_view(reflectance, folder, whole=None, colors=None):
     """The RGB view as rgb.png; whole: the image in full, whose colors are written as srgb.png."""
-    options = {"Illuminant": illuminant, "Observer": observer}
+    options = (colors or Colors()).of_view()
     color = pipeline.create("SpectralToColor", Input=reflectance, **options)
     pipeline.update(color)
     pictures.image(color, "sRGB", os.path.join(folder, "rgb.png"), rgb=True)
@@ -132,13 +126,12 @@ def error_maps(reflectance, labels, held_out, conditions):
     return pipeline.create("CIEDE2000Evaluator", Input=reflectance, Reference=reference, **conditions)
 
 
-def judge(reflectance, labels, held_out, folder, tops=None, view=None, illuminants=DEFAULT_ILLUMINANTS,
-          observer=DEFAULT_OBSERVER):
+def judge(reflectance, labels, held_out, folder, tops=None, view=None, colors=None):
     """Error maps over the held-out patches, their statistics, and the errors of the patches' mean spectra.
 
     view: reflectance and labels for the pictures, where the image is too large to be shown pixel by pixel."""
-    conditions = {"Illuminants": ", ".join(illuminants), "Observer": observer}
-    arrays = error_arrays(illuminants)
+    colors = colors or Colors()
+    conditions, arrays = colors.of_errors(), colors.error_arrays()
     maps = os.path.join(folder, "error-maps.img")
     pipeline.save_image(error_maps(reflectance, labels, held_out, conditions), maps, PointArrays=list(arrays))
     summary = pipeline.create("ErrorSummary",
@@ -181,7 +174,7 @@ def top_errors(summary):
 
 
 def error_picture(folder, array):
-    return os.path.join(folder, f"error-{array.replace(' ', '-')}.png")
+    return os.path.join(folder, f"error-{re.sub('[^A-Za-z0-9.-]', '-', array)}.png")
 
 
 def report_errors(judged, folder):

@@ -1,4 +1,4 @@
-"""Every method of estimation is known wherever methods are listed, in the registry's order.
+"""Every method of estimation and every color difference is known wherever they are listed, in the registry's order.
 
     check_methods.py ROOT
 """
@@ -42,6 +42,18 @@ def faults_of(root):
     for name in names:
         if f'"{name}"' not in tests:
             yield f"{KERNELS}/TestEstimationMethods.cpp: the method {name} is not tested"
+
+    # Color differences: names and metrics.
+    source = (root / "Filters/Kernels/Difference/ColorDifference.cpp").read_text(encoding="utf-8")
+    differences = re.findall(r'\{ "([a-z0-9-]+)", "(dE\w+)", "', source)
+    scripts = (root / "Plugin/Scripts/support/colors.py").read_text(encoding="utf-8")
+    listed = scripts[scripts.index("DIFFERENCES = {"):scripts.index("}")]
+    if not differences or re.findall(r'"([^"]+)": \("([^"]+)"', listed) != differences:
+        yield "Plugin/Scripts/support/colors.py: DIFFERENCES are not the registry's color differences"
+    page = (root / "Documentation/Filters/CIEDE2000Evaluator.md").read_text(encoding="utf-8")
+    for name, metric in differences:
+        if f"`{name}`" not in page or f"`{metric} D65`" not in page:
+            yield f"Documentation/Filters/CIEDE2000Evaluator.md: no row about the color difference {name}"
 
 
 def main():

@@ -164,7 +164,8 @@ def client(folder, port):
     os._exit(1 if faults else 0)
 
 
-if sys.argv[1] == "client":
-    client(*sys.argv[2:])
-else:
-    drive(*sys.argv[1:])
+if __name__ == "__main__":
+    if sys.argv[1] == "client":
+        client(*sys.argv[2:])
+    else:
+        drive(*sys.argv[1:])

@@ -129,13 +129,14 @@ void writeSummary(const GapReport& report, vtkTable* table)
     { { "verdict", TextColumn }, { "rms_before", NumberColumn }, { "rms_after", NumberColumn },
       { "noise_floor", NumberColumn }, { "shrink", NumberColumn }, { "shrink_low", NumberColumn },
       { "shrink_high", NumberColumn }, { "unexplained_share", NumberColumn },
-      { "unexplained_where", TextColumn }, { "next_capture", TextColumn },
-      { "separates", TextColumn } });
+      { "unexplained_where", TextColumn }, { "unknown_probability", NumberColumn },
+      { "next_capture", TextColumn }, { "separates", TextColumn } });
   const GapFigures& gap = report.gap;
   const GapNextCapture next = report.nextCapture.value_or(GapNextCapture{});
   rows.add({ nameOf(report.verdict), gap.rmsBefore, gap.rmsAfter, gap.noiseFloor, gap.shrink,
     gap.shrinkInterval[0], gap.shrinkInterval[1], report.unexplained.share,
-    report.unexplained.where, next.capture, joined(next.separates) });
+    report.unexplained.where, report.probabilityOf("unknown"), next.capture,
+    joined(next.separates) });
   vtkNew<vtkStringArray> text;
   text->SetName("Report");
   text->InsertNextValue(gapReportText(report));
@@ -174,11 +175,11 @@ void writeCauses(const GapReport& report, vtkTable* table)
 {
   TableRows rows(table,
     { { "rank", CountColumn }, { "effect", TextColumn }, { "form", TextColumn },
-      { "medium", TextColumn }, { "share", NumberColumn }, { "shrink", NumberColumn },
-      { "equivalent", TextColumn }, { "parameter", TextColumn }, { "value", NumberColumn },
-      { "unit", TextColumn }, { "standard_error", NumberColumn }, { "title", TextColumn },
-      { "meaning", TextColumn }, { "formula", TextColumn }, { "parameter_meaning", TextColumn },
-      { "next_capture", TextColumn } });
+      { "medium", TextColumn }, { "share", NumberColumn }, { "probability", NumberColumn },
+      { "shrink", NumberColumn }, { "equivalent", TextColumn }, { "parameter", TextColumn },
+      { "value", NumberColumn }, { "unit", TextColumn }, { "standard_error", NumberColumn },
+      { "title", TextColumn }, { "meaning", TextColumn }, { "formula", TextColumn },
+      { "parameter_meaning", TextColumn }, { "next_capture", TextColumn } });
   int rank = 0;
   for (const GapCause& cause : report.causes)
   {
@@ -191,8 +192,8 @@ void writeCauses(const GapReport& report, vtkTable* table)
     }
     for (const GapParameter& parameter : parameters)
     {
-      rows.add({ rank, cause.effect, cause.form, cause.medium, cause.share, cause.shrink,
-        joined(cause.equivalent), parameter.name, parameter.value, parameter.unit,
+      rows.add({ rank, cause.effect, cause.form, cause.medium, cause.share, cause.probability,
+        cause.shrink, joined(cause.equivalent), parameter.name, parameter.value, parameter.unit,
         parameter.standardError, texts.title, texts.meaning, texts.formula,
         meaningOf(parameter.name, cause), separatingCapture(cause.effect) });
     }

@@ -36,11 +36,29 @@ OrderedJson causesOf(const GapReport& report)
       parameters.push_back({ { "name", parameter.name }, { "value", parameter.value },
         { "unit", parameter.unit }, { "standard_error", parameter.standardError } });
     }
+    OrderedJson alternatives = OrderedJson::array();
+    for (const std::string& other : cause.equivalent)
+    {
+      alternatives.push_back(
+        { { "effect", other }, { "probability", report.probabilityOf(other) } });
+    }
     causes.push_back({ { "effect", cause.effect }, { "form", cause.form },
-      { "medium", cause.medium }, { "share", cause.share }, { "shrink", cause.shrink },
-      { "equivalent", cause.equivalent }, { "parameters", parameters } });
+      { "medium", cause.medium }, { "share", cause.share }, { "probability", cause.probability },
+      { "shrink", cause.shrink }, { "equivalent", cause.equivalent },
+      { "alternatives", alternatives }, { "parameters", parameters } });
   }
   return causes;
+}
+
+// Names and numbers, in their order.
+OrderedJson namedNumbers(const std::vector<std::pair<std::string, double>>& numbers)
+{
+  OrderedJson json = OrderedJson::object();
+  for (const auto& [name, number] : numbers)
+  {
+    json[name] = number;
+  }
+  return json;
 }
 
 OrderedJson candidatesOf(const GapReport& report)
@@ -77,9 +95,11 @@ std::string gapReportText(const GapReport& report)
         { "noise_floor", gap.noiseFloor }, { "shrink", gap.shrink },
         { "shrink_interval", gap.shrinkInterval } } },
     { "where", whereOf(report) }, { "change_points", changePointsOf(report) },
-    { "causes", causesOf(report) }, { "candidates", candidatesOf(report) },
+    { "causes", causesOf(report) }, { "probabilities", namedNumbers(report.probabilities) },
+    { "candidates", candidatesOf(report) },
     { "unexplained",
-      { { "share", report.unexplained.share }, { "where", report.unexplained.where } } },
+      { { "share", report.unexplained.share }, { "where", report.unexplained.where },
+        { "depends_on", namedNumbers(report.unexplained.dependsOn) } } },
     { "next_capture", { { "capture", next.capture }, { "separates", next.separates } } },
     { "notes", report.notes } };
   // Names come from the user's tables: bytes that are no UTF-8 must not end the writing.

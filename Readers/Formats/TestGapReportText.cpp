@@ -16,9 +16,11 @@ msi::GapReport filledReport()
   report.gap = { 0.021, 0.003, 0.0009, 0.94, { 0.92, 0.96 } };
   report.where = { { "channel", 0.7, { { "C3", 0.3 }, { "C1", 0.2 } } }, { "medium", 0.1, {} } };
   report.causes = { { "filter_shift", "common", "", 0.9, 0.85, 0.0, { "illuminant_drift" },
-    { { "shift", 2.9, "nm", 0.05 } } } };
+    { { "shift", 2.9, "nm", 0.05 } }, 0.6 } };
+  report.probabilities = { { "filter_shift", 0.6 }, { "illuminant_drift", 0.3 },
+    { "unknown", 0.1 } };
   report.candidates = { { "filter_shift", "common", "", 0.85, { 0.8, 0.9 } } };
-  report.unexplained = { 0.06, "medium fabric" };
+  report.unexplained = { 0.06, "medium fabric", { { "medium", 0.8 }, { "level", 0.1 } } };
   report.nextCapture =
     msi::GapNextCapture{ "lamp spectrum", { "filter_shift", "illuminant_drift" } };
   report.notes = { "One medium only." };
@@ -36,12 +38,14 @@ TEST(GapReportText, WritesTheContract)
                "worst": [{"cell": "C3", "share": 0.3}, {"cell": "C1", "share": 0.2}]},
               {"axis": "medium", "share": 0.1, "worst": []}],
     "change_points": [],
-    "causes": [{"effect": "filter_shift", "form": "common", "medium": "", "share": 0.9, "shrink": 0.85,
-                "equivalent": ["illuminant_drift"],
+    "causes": [{"effect": "filter_shift", "form": "common", "medium": "", "share": 0.9,
+                "probability": 0.6, "shrink": 0.85, "equivalent": ["illuminant_drift"],
+                "alternatives": [{"effect": "illuminant_drift", "probability": 0.3}],
                 "parameters": [{"name": "shift", "value": 2.9, "unit": "nm", "standard_error": 0.05}]}],
+    "probabilities": {"filter_shift": 0.6, "illuminant_drift": 0.3, "unknown": 0.1},
     "candidates": [{"effect": "filter_shift", "form": "common", "medium": "", "shrink": 0.85,
                     "shrink_interval": [0.8, 0.9]}],
-    "unexplained": {"share": 0.06, "where": "medium fabric"},
+    "unexplained": {"share": 0.06, "where": "medium fabric", "depends_on": {"medium": 0.8, "level": 0.1}},
     "next_capture": {"capture": "lamp spectrum", "separates": ["filter_shift", "illuminant_drift"]},
     "notes": ["One medium only."]})");
   EXPECT_EQ(Json::parse(msi::gapReportText(filledReport())), expected);

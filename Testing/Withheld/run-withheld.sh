@@ -17,7 +17,7 @@ build="$root/build/withheld"
 output="$build/run-$size-$seed"
 
 cmake -S "$root" -B "$build" -G Ninja -DMULTISPECTRAL_FACE=formats -DMULTISPECTRAL_WITHHELD=ON \
-  -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF >/dev/null
+  -DCMAKE_BUILD_TYPE=Release -DMULTISPECTRAL_UNITY=ON -DBUILD_TESTING=OFF >/dev/null
 cmake --build "$build" --target GenerateWithheld DiagnoseWithheld ScoreWithheld
 programs="$build/Testing/Withheld"
 mkdir -p "$output/sealed"

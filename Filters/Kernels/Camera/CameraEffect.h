@@ -56,9 +56,8 @@ enum Bit : unsigned
   KeepsWhite = 1U << 0, // of lamp and filters: the response to white does not change
   Brightens = 1U << 1,  // unless the white is balanced, it contains a gain common to all channels
   Adds = 1U << 2,       // adds to the response instead of multiplying it
-  SmallError = 1U << 3, // gain, center or dark of each channel: every camera is off by a little
   BesideLine =
-    1U << 4 // its given parameters are slope and constant of the line through the squared responses
+    1U << 3 // its given parameters are slope and constant of the line through the squared responses
 };
 }
 
@@ -73,9 +72,8 @@ enum Bit : unsigned
   ActsOnEdges = 1U << 2,     // its forms approximate point spreads and resampling
   SmoothInField = 1U << 3,   // a smooth factor over the field
   CommonGain = 1U << 4,      // one gain of all channels
-  ChannelGain = 1U << 5,     // one gain of each channel
-  SpectralGain = 1U << 6,    // gains that follow a smooth curve over the channels
-  LimitsResponse = 1U << 7   // its first parameter is the largest response that passes
+  SpectralGain = 1U << 5,    // gains that follow a smooth curve over the channels
+  LimitsResponse = 1U << 6   // its first parameter is the largest response that passes
 };
 }
 

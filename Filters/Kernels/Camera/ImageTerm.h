@@ -32,6 +32,8 @@ enum class ImageParameter
   Clip, // 1: the rounded clipping at ClipLevel; parts of it only on the way there
   ClipLevel,
   Retained,
+  FromPrevious, // times the difference of the channel before to this one
+  FromNext,
   Right,
   Down,
   Magnification,

@@ -76,10 +76,9 @@ struct GapCause
   std::string medium;                  // empty unless the effect acts on one medium
   double share = 0.0;                  // of the gap's size; Shapley value of the held-out shrink
   double shrink = 0.0;                 // by this effect alone
-  double undone = 0.0;                 // part of what it does that the other causes undo, 0..1
   std::vector<std::string> equivalent; // effects that this data cannot tell from it; at most two
   std::vector<GapParameter> parameters;
-  double probability = 0.0; // of this effect being a cause
+  double probability = 0.0; // of this effect, and not another or an unknown one, being a cause
 };
 
 struct GapCandidate
@@ -95,6 +94,9 @@ struct GapRemainder
 {
   double share = 0.0; // of the gap's size
   std::string where;  // empty where nothing is left
+  // What the rest depends on, the largest part of its energy first: level, wavelength, order, position, medium, scene,
+  // neighbour, sample.
+  std::vector<std::pair<std::string, double>> dependsOn;
 };
 
 struct GapNextCapture
@@ -115,8 +117,9 @@ struct GapReport
     false; // the causes show in so few samples that those left out cannot confirm them
   std::vector<GapCandidate> candidates; // the largest shrink first
   GapRemainder unexplained;
-  // Of each effect being a cause, of "nothing" being one, and of an "unknown" one; the largest first.
+  // Of "nothing" being the cause, of something "unknown" and of each effect being one; the largest first.
   std::vector<std::pair<std::string, double>> probabilities;
+  double probabilityOf(const std::string& name) const; // 0 where it is not told
   std::optional<GapNextCapture> nextCapture;
   std::vector<std::string> notes; // what the data cannot decide, and why
   // The corrected simulator is CameraSimulator(camera, correction, { whiteAfterEffects }) with the capture's

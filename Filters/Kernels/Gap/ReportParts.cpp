@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -32,7 +33,53 @@ const char* nameOf(GapVerdict verdict) noexcept
   return "unexplained";
 }
 
-double creditCauses(GapReport& report, std::vector<GapCause> causes)
+double GapReport::probabilityOf(const std::string& name) const
+{
+  const auto found = std::find_if(probabilities.begin(), probabilities.end(),
+    [&name](const auto& one) { return one.first == name; });
+  return found == probabilities.end() ? 0.0 : found->second;
+}
+
+void believe(GapReport& report, std::vector<std::pair<std::string, double>> probabilities)
+{
+  std::stable_sort(probabilities.begin(), probabilities.end(),
+    [](const auto& a, const auto& b) { return a.second > b.second; });
+  report.probabilities = std::move(probabilities);
+  for (GapCause& cause : report.causes)
+  {
+    cause.probability = report.probabilityOf(cause.effect);
+  }
+  if (report.verdict == GapVerdict::Explained && report.probabilityOf("unknown") > 0.5)
+  {
+    report.verdict = GapVerdict::PartlyExplained;
+  }
+}
+
+std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxis>& axes)
+{
+  static const std::map<std::string, std::string> plain = { { "channel", "wavelength" },
+    { "spectral_shape", "wavelength" }, { "edges", "neighbour" }, { "region", "position" },
+    { "rows", "position" }, { "columns", "position" } };
+  std::map<std::string, double> parts;
+  for (const GapAxis& axis : axes)
+  {
+    const auto known = plain.find(axis.axis);
+    parts[known == plain.end() ? axis.axis : known->second] += axis.share;
+  }
+  std::vector<std::pair<std::string, double>> sorted(parts.begin(), parts.end());
+  std::stable_sort(
+    sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  return sorted;
+}
+
+GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept
+{
+  return noiseAlone || shrink >= ExplainedShrink ? GapVerdict::Explained
+    : shrink >= PartlyShrink                     ? GapVerdict::PartlyExplained
+                                                 : GapVerdict::Unexplained;
+}
+
+void creditCauses(GapReport& report, std::vector<GapCause> causes)
 {
   const auto sumOf = [](const std::vector<GapCause>& some)
   {
@@ -47,9 +94,7 @@ double creditCauses(GapReport& report, std::vector<GapCause> causes)
     [](const GapCause& cause) { return cause.effect; });
   causes.erase(first, causes.end());
   report.causes = std::move(causes);
-  const double share = sumOf(report.causes);
-  report.unexplained.share = std::clamp(1.0 - share, 0.0, 1.0);
-  return share;
+  report.unexplained.share = std::clamp(1.0 - sumOf(report.causes), 0.0, 1.0);
 }
 
 void noteUncredited(std::vector<std::string>& notes, const std::vector<std::string>& effects)

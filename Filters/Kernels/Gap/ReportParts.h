@@ -4,14 +4,28 @@
 #include "Kernels/Gap/GapReport.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace msi
 {
 
-// Takes the causes into the report, and what none of them explains; the sum of their shares. Those that get less than 3 %
+// Of the gap's size, that the causes found must take away.
+inline constexpr double ExplainedShrink = 0.85;
+inline constexpr double PartlyShrink = 0.25;
+
+// Of a gap with causes. noiseAlone: nothing but noise is left.
+GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept;
+
+// Takes the causes into the report, and what none of them explains. Those that get less than 3 %
 // of what all get are no causes: their effects go to GapReport::uncredited.
-double creditCauses(GapReport& report, std::vector<GapCause> causes);
+void creditCauses(GapReport& report, std::vector<GapCause> causes);
+
+// Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.
+void believe(GapReport& report, std::vector<std::pair<std::string, double>> probabilities);
+
+// What a rest depends on, from its shares over the axes: GapRemainder::dependsOn.
+std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxis>& axes);
 
 // Says which effects the corrected simulator has although they are not believed to be causes.
 void noteUncredited(std::vector<std::string>& notes, const std::vector<std::string>& effects);

@@ -1,8 +1,8 @@
 // How far a gap shrinks.
 #pragma once
 
-#include "Kernels/Gap/EffectFit.h"
 #include "Kernels/Gap/GapReport.h"
+#include "Kernels/Gap/Samples/EffectFit.h"
 
 #include <array>
 #include <cstdint>

@@ -1,19 +1,18 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
-#include "Kernels/Gap/EffectSearch.h"
-#include "Kernels/Gap/GapAxes.h"
-#include "Kernels/Gap/GapCauses.h"
-#include "Kernels/Gap/GapCertainty.h"
-#include "Kernels/Gap/GapData.h"
-#include "Kernels/Gap/GapEvidence.h"
-#include "Kernels/Gap/GapNoise.h"
-#include "Kernels/Gap/GapNotes.h"
-#include "Kernels/Gap/HeldOut.h"
-#include "Kernels/Gap/OrderBreaks.h"
+#include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/ResidualScatter.h"
+#include "Kernels/Gap/Samples/GapAxes.h"
+#include "Kernels/Gap/Samples/GapData.h"
+#include "Kernels/Gap/Samples/GapEvidence.h"
+#include "Kernels/Gap/Samples/GapNoise.h"
+#include "Kernels/Gap/Samples/GapNotes.h"
+#include "Kernels/Gap/Samples/HeldOut.h"
+#include "Kernels/Gap/Samples/OrderBreaks.h"
+#include "Kernels/Gap/Samples/ResidualScatter.h"
+#include "Kernels/Gap/Samples/SampleObservation.h"
+#include "Kernels/Gap/Samples/TableDecisions.h"
 #include "Kernels/Gap/Shrink.h"
-#include "Kernels/Gap/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +26,7 @@ namespace
 {
 constexpr int MostChangePoints = 6;
 
-// Progress over jobs that may run on several threads.
+// Over jobs that may run on several threads.
 class Progress
 {
 public:
@@ -90,13 +89,14 @@ private:
   double Steps;
 };
 
-// Takes over what the search found; the sum of the causes' shares.
-double credit(GapReport& report, const EffectFitter& fitter, const SearchResult& found,
-  const std::vector<EffectChoice>& choices, double certain, double doubt)
+// Takes over what was found.
+void credit(
+  GapReport& report, const SampleObservation& observation, const FoundSets& found, double shrink)
 {
-  report.correction = found.best.set.simulated();
-  report.whiteAfterEffects = found.best.set.whiteAfterEffects();
-  return creditCauses(report, describeCauses(fitter, found, choices, certain, doubt));
+  const EffectSet& effects = static_cast<const SampleFit&>(*found.best).effects;
+  report.correction = effects.simulated();
+  report.whiteAfterEffects = effects.whiteAfterEffects();
+  creditCauses(report, foundCauses(observation, found, shrink));
 }
 
 }
@@ -133,17 +133,17 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const Eigen::MatrixXd before = measuredOnly(data, data.observed - data.simulated);
   Progress progress(options, data.folds + 4.0);
   const std::vector<EffectChoice> choices = choicesFor(data.scene, options.without);
-  const EffectFitter fitter(data, data.usable, options.seed);
-  SearchResult found;
+  const SampleObservation observation(data, data.usable, choices, options.seed);
+  FoundSets found;
   Eigen::MatrixXd after = before;
-  const auto stop = [&progress] { return progress.ask(); };
+  const std::function<bool()> stop = [&progress] { return progress.ask(); };
   const auto job = [&](int number)
   {
+    SetSearchLimits limits;
+    limits.maximumEffects = options.maximumCauses;
     if (number == 0)
     {
-      SearchLimits limits;
-      limits.maximumEffects = options.maximumCauses;
-      found = searchEffects(fitter, choices, limits, stop);
+      found = searchSets(observation, limits, stop);
       progress.step("effects found", 2.0);
       return;
     }
@@ -152,14 +152,13 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     {
       training[i] = training[i] != 0 && data.fold[i] != number - 1 ? 1 : 0;
     }
-    const EffectFitter fold(data, training, options.seed + static_cast<std::uint64_t>(number));
-    SearchLimits limits;
-    limits.maximumEffects = options.maximumCauses;
-    limits.width = 2;
-    limits.fullFits = 7;
-    limits.exchangePairs = false;
-    const SearchResult result = searchEffects(fold, choices, limits, stop);
-    const Eigen::MatrixXd left = leftOfHeldOut(data, result.best, training);
+    const SampleObservation fold(
+      data, training, choices, options.seed + static_cast<std::uint64_t>(number));
+    limits.beamWidth = 1;
+    limits.optionsFitted = 5;
+    limits.exchange = false;
+    const FoundSets result = searchSets(fold, limits, stop);
+    const Eigen::MatrixXd left = leftOfHeldOut(data, fold.whole(*result.best), training);
     for (Eigen::Index i = 0; i < data.samples(); ++i)
     {
       if (data.fold[static_cast<std::size_t>(i)] == number - 1)
@@ -208,25 +207,31 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     figuresOf(energiesOf(data, before, after), static_cast<double>(data.elements), options.seed);
   const AxisShares where = shareOverAxes(data, before, true);
   report.where = where.axes;
-  report.changePoints = OrderBreaks::significant(fitter, data.simulated, MostChangePoints);
+  report.changePoints =
+    OrderBreaks::significant(observation.fitter(), data.simulated, MostChangePoints);
   progress.step("axes shared");
 
-  const bool causes = found.best.set.size() > 0;
+  const bool causes = !found.best->set.empty();
   const double shrink = report.gap.shrink;
-  const double alone = shrinkOf(fitter, found.best); // all samples took part in the choice
+  const EffectFit best = observation.whole(*found.best);
+  const double alone = shrinkOf(observation.fitter(), best); // all samples took part in the choice
   if (causes && shrink > 0.0 && noticeable(data, before, after, integration))
   {
-    const double share = credit(
-      report, fitter, found, choices, certainPart(shrink), doubtOf(report.gap.shrinkInterval));
-    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest.axes) : "";
-    report.verdict = verdictOf(shrink, share, false);
+    credit(report, observation, found, shrink);
+    if (report.unexplained.share > 0.0)
+    {
+      report.unexplained.where = whereIs(rest.axes);
+      report.unexplained.dependsOn = dependences(rest.axes);
+    }
+    report.verdict = verdictOf(shrink, false);
   }
   else if (causes && alone >= ExplainedShrink &&
-    inFewSamples(data, found.best.predicted - data.simulated))
+    inFewSamples(data, best.predicted - data.simulated))
   {
     report.unconfirmed = true;
-    credit(report, fitter, found, choices, TableDecision::UnconfirmedShare * alone, 0.0);
+    credit(report, observation, found, TableDecision::UnconfirmedShare * alone);
     report.unexplained.where = whereIs(where.axes);
+    report.unexplained.dependsOn = dependences(where.axes);
     report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
   }
   else if ((predictable(data, before, where) &&
@@ -234,7 +239,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     beyondNoise(report.gap, doubted))
   {
     report.verdict = GapVerdict::Unexplained;
-    report.unexplained = { 1.0, whereIs(where.axes) };
+    report.unexplained = { 1.0, whereIs(where.axes), dependences(where.axes) };
   }
   if (report.correction.empty())
   {
@@ -243,7 +248,10 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     report.gap.shrinkInterval = { 0.0, 0.0 };
     after = before;
   }
-  report.candidates = describeCandidates(fitter, found, options.seed);
+  report.candidates = foundCandidates(observation, found, options.seed);
+  believe(report,
+    effectProbabilities(
+      observation, found, report.verdict != GapVerdict::NoGap, report.gap.shrink));
   addExcessNoise(report, data, noise, capture.noise, options.without);
   recommendCapture(report);
   report.notes = notesOn(data, capture, noise, reflectanceNoise, report);

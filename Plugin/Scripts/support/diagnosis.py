@@ -34,6 +34,9 @@ AXES = {
     "region": "single regions of the image stand out",
 }
 
+# Probability from which the summary speaks of something that the library does not have.
+UNKNOWN_IS_SAID = 0.2
+
 
 _LEAST_NM = 100  # a channel with such a number is named by its wavelength
 
@@ -124,6 +127,8 @@ def print_summary(gap):
     command.say(f"  {far(figures, gap.held)}")
     for cause in causes:
         command.say(f"  {cause_line(cause, gap)}")
+    if figures["unknown_probability"] >= UNKNOWN_IS_SAID:
+        command.say(f"  an effect that is not in the library: probability {percent(figures['unknown_probability'])}")
     if figures["next_capture"]:
         command.say(f"  Next capture: {gap.words(figures['next_capture'])} (separates {gap.words(figures['separates'])})")
 
@@ -150,7 +155,7 @@ def percent(share):
 
 
 def cause_line(cause, gap):
-    text = f"{title_of(cause)}: {percent(cause['share'])} of the gap"
+    text = f"{title_of(cause)}: {percent(cause['share'])} of the gap, probability {percent(cause['probability'])}"
     if cause["equivalent"]:
         text += f"; the data cannot distinguish it from {gap.words(cause['equivalent'])}"
     return text
@@ -265,7 +270,9 @@ def which_sections(causes, figures, drawn, folder, gap):
     for cause in first_rows(causes):
         words = [cause["meaning"], f"As simulated: {cause['formula']}.",
                  f"Adding this effect to the simulation accounts for {percent(cause['share'])} of the gap; alone it would remove "
-                 f"{100 * cause['shrink']:.0f} %."]
+                 f"{100 * cause['shrink']:.0f} %.",
+                 f"Probability that this effect is a cause, and not another or one that is not in the library: "
+                 f"{percent(cause['probability'])}."]
         if cause["equivalent"]:
             words.append(f"These data cannot distinguish it from {gap.words(cause['equivalent'])}: each of them fits the {gap.held} "
                          f"held out equally well. A capture that separates them: {gap.words(cause['next_capture'])}.")

@@ -14,9 +14,8 @@
 
 namespace
 {
-std::string lineOf(const withheld::Answer& answer, double seconds)
+std::string lineOf(const msi::GapReport& report, double seconds)
 {
-  const msi::GapReport& report = answer.report;
   std::ostringstream line;
   line << msi::nameOf(report.verdict) << ','
        << (report.where.empty() ? std::string() : report.where.front().axis) << ',';
@@ -37,7 +36,7 @@ std::string lineOf(const withheld::Answer& answer, double seconds)
     {
       line << (e > 0 ? "|" : "") << cause.equivalent[e];
     }
-    line << ':' << cause.form << ':' << cause.shrink << ':' << cause.undone;
+    line << ':' << cause.form << ':' << cause.shrink;
     separator = ";";
   }
   line << ',' << report.unexplained.share << ',';
@@ -49,7 +48,7 @@ std::string lineOf(const withheld::Answer& answer, double seconds)
   }
   line << ',';
   separator = "";
-  for (const auto& [name, probability] : answer.probabilities)
+  for (const auto& [name, probability] : report.probabilities)
   {
     line << separator << name << ':' << probability;
     separator = ";";
@@ -123,10 +122,10 @@ int main(int argc, char** argv)
         }
         const withheld::CaseInput input = withheld::readCase(folder + "/" + cases[i].first);
         const auto start = std::chrono::steady_clock::now();
-        const withheld::Answer answer = engine->second(input, without);
+        const msi::GapReport report = engine->second(input, without);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         const std::lock_guard<std::mutex> lock(console);
-        output << cases[i].first << ',' << lineOf(answer, seconds.count()) << std::endl;
+        output << cases[i].first << ',' << lineOf(report, seconds.count()) << std::endl;
       }
       catch (const std::exception& error)
       {

@@ -9,22 +9,14 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace withheld
 {
 
-struct Answer
-{
-  msi::GapReport report;
-  // How likely each effect is a cause, "nothing", "unknown"; empty where the diagnosis does not say.
-  std::vector<std::pair<std::string, double>> probabilities;
-};
-
 // without: effects that may not be blamed.
 using Engine =
-  std::function<Answer(const CaseInput& input, const std::vector<std::string>& without)>;
+  std::function<msi::GapReport(const CaseInput& input, const std::vector<std::string>& without)>;
 
 // By name; "present" is the project's.
 const std::map<std::string, Engine>& engines();

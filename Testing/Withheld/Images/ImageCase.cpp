@@ -28,6 +28,7 @@ const std::vector<std::string>& axesOfImage(const std::string& effect)
     { "channel_crosstalk", { "channel", "sample", "region" } }, { "channel_gain", { "channel" } },
     { "dark_offset", { "channel", "level" } }, { "defocus", { "edges" } },
     { "detector_nonlinearity", { "level" } }, { "exposure_gain", { "level" } },
+    { "ghost_reflection", { "region", "position", "sample", "edges" } },
     { "illumination_gradient", { "position" } },
     { "lag", { "channel", "level", "sample", "region" } },
     { "local_stray_light", { "edges", "position" } }, { "misregistration", { "edges" } },

@@ -144,6 +144,12 @@ const std::map<std::string, Maker>& makers()
             }
           } };
       } },
+    { "ghost_reflection",
+      [](Random&, int, int, int) -> ImageFault
+      {
+        return { "mirrored at the center",
+          [](ImageFaults& f, double size) { f.ghost += 0.05 * size; } };
+      } },
     { "illumination_gradient",
       [](Random& random, int, int, int) -> ImageFault
       {
@@ -245,7 +251,7 @@ const std::vector<std::string>& imageFaultNames()
 
 const std::vector<std::string>& imageStrangerNames()
 {
-  static const std::vector<std::string> names{ "barrel distortion", "dust", "ghost",
+  static const std::vector<std::string> names{ "barrel distortion", "dust",
     "wrong colors of patches", "two amplifiers" };
   return names;
 }
@@ -304,7 +310,7 @@ ImageFault drawImageStranger(const std::string& name, Random& random, const Imag
     colors.push_back(normal(random, 0.05));
   }
   const double border = uniform(random, 0.35, 0.65) * width;
-  const auto change = [=](double u, int k, int x, int y, const std::vector<double>& plane)
+  const auto change = [=](double u, int k, int x, int y)
   {
     if (name == "dust")
     {
@@ -315,13 +321,6 @@ ImageFault drawImageStranger(const std::string& name, Random& random, const Imag
         shade += 1.0 / (1.0 + std::exp(6.0 * (r - 1.0)));
       }
       return -0.15 * u * shade;
-    }
-    if (name == "ghost")
-    {
-      const auto mirrored =
-        static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
-        static_cast<std::size_t>(width - 1 - x);
-      return 0.05 * plane[mirrored];
     }
     if (name == "two amplifiers")
     {
@@ -338,14 +337,13 @@ ImageFault drawImageStranger(const std::string& name, Random& random, const Imag
       {
         for (std::size_t k = 0; k < planes.size(); ++k)
         {
-          const std::vector<double> before = planes[k];
           for (int y = 0; y < where.height(); ++y)
           {
             for (int x = 0; x < where.width(); ++x)
             {
               const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(where.width()) +
                 static_cast<std::size_t>(x);
-              planes[k][i] += size * change(before[i], static_cast<int>(k), x, y, before);
+              planes[k][i] += size * change(planes[k][i], static_cast<int>(k), x, y);
             }
           }
         }
@@ -388,6 +386,11 @@ Planes expose(const ImageScene& scene, const ImageFaults& faults)
       {
         u[i] += faults.tail * (sum[i] - u[i]);
       }
+    }
+    const std::vector<double> direct = u;
+    for (std::size_t i = 0; i < u.size(); ++i)
+    {
+      u[i] += faults.ghost * direct[u.size() - 1 - i];
     }
     const double mean = std::accumulate(u.begin(), u.end(), 0.0) / static_cast<double>(u.size());
     for (double& value : u)

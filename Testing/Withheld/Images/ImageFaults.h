@@ -19,6 +19,7 @@ struct ImageFaults
   double tailRadius = 12.0;                        // pixels
   std::function<double(double x, double y)> field; // -1..1
   double glare = 0.0;                              // of the mean
+  double ghost = 0.0;                              // of the light at the opposite place
   double before = 0.0;                             // of the channel before stays in the detector
   double mixed = 0.0; // with both neighbours, taken from the channel itself
   std::function<double(int k, int x, int y)> stripes; // factor

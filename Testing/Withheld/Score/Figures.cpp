@@ -262,7 +262,9 @@ bool unknownSaid(const ScoredCase& one, const std::vector<ScoredCase>& all, bool
   for (const NamedCause& cause : one.causes)
   {
     const bool wrong = !contains(alike, cause.effect);
-    accused = accused || (wrong && cause.share >= AccusedShare);
+    const auto belief = one.probabilities.find(cause.effect);
+    const bool believed = belief == one.probabilities.end() || belief->second >= AccusedProbability;
+    accused = accused || (wrong && believed && cause.share >= AccusedShare);
     explained = explained || (!wrong && cause.share >= AccusedShare);
   }
   const bool unknown = one.verdict == "partly explained" || one.verdict == "unexplained";

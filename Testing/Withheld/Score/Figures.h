@@ -11,8 +11,9 @@ namespace withheld
 
 // A cause counts from this share of the gap on.
 constexpr double NamedShare = 0.05;
-// A wrong cause with this share or more is a false accusation.
+// A wrong cause with this share or more, and this probability where one is told, is a false accusation.
 constexpr double AccusedShare = 0.5;
+constexpr double AccusedProbability = 0.5;
 
 struct Figure
 {

@@ -78,7 +78,10 @@ Effect channelCrosstalk()
             false, true } } },
       { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
         { previous, next } } },
-    "narrow-band source", EffectTrait::CouplesChannels };
+    "narrow-band source", EffectTrait::CouplesChannels,
+    { { "one_sided",
+      { imageTerm(ImageParameter::FromPrevious, previous),
+        imageTerm(ImageParameter::FromNext, next) } } } };
   effect.makeBlock = makeBlockOperator<ChannelCrosstalk>;
   return effect;
 }

@@ -11,9 +11,8 @@ Effect channelGain()
   Effect effect;
   effect.definition = { "channel_gain", "Channel gain",
     "Every channel has an error of its own in exposure or white balance.", EffectStage::Detector,
-    EffectNeed::Nothing, { { "per_channel", "gain_k u_k", { gain }, {}, FormTrait::SmallError } },
-    "grey ramp", EffectTrait::Exact | EffectTrait::ChannelGain,
-    { { "per_channel", { imageTerm(ImageParameter::Gain, gain) } } } };
+    EffectNeed::Nothing, { { "per_channel", "gain_k u_k", { gain }, {} } }, "grey ramp",
+    EffectTrait::Exact, { { "per_channel", { imageTerm(ImageParameter::Gain, gain) } } } };
   effect.makeBlock = makeBlockOperator<GainOperator>;
   return effect;
 }

@@ -37,7 +37,7 @@ Effect darkOffset()
     "Dark current, bias or ambient light that the dark frame did not take away.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "common", "u + offset", { offset(false) } },
-      { "per_channel", "u_k + offset_k", { offset(true) }, {}, FormTrait::SmallError } },
+      { "per_channel", "u_k + offset_k", { offset(true) }, {} } },
     "lens cap", EffectTrait::Exact,
     { { "common", { imageTerm(ImageParameter::Dark, offset(false)) } },
       { "per_channel", { imageTerm(ImageParameter::Dark, offset(true)) } } } };

@@ -105,7 +105,7 @@ Effect filterShift()
         "P2(x) + twist P3(x), none beyond the grid",
         shift(false), 1.0),
       { "per_channel", "a shift of its own for each channel", { shift(true) }, {},
-        FormTrait::KeepsWhite | FormTrait::SmallError } },
+        FormTrait::KeepsWhite } },
     "chart at several field positions, lamp spectrum" };
   effect.makeResponsivity = makeShift;
   return effect;

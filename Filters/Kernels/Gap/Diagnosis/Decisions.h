@@ -29,9 +29,14 @@ inline constexpr int OptionsFitted = 10;
 inline constexpr double Patience = 6.0;
 
 // Logarithm of the probability by which a set with an equivalent effect may be less likely.
-inline constexpr double EquivalentLog = 4.0;
+inline constexpr double EquivalentLog = 6.0;
 
 // Probabilities of sets are raised to 1 / this: what the data hold is less independent than the criterion takes it to be.
 inline constexpr double Temperature = 3.0;
+
+// Part of the gap's energy that is left when a cause that the library does not have is as likely as none, and how fast that
+// turns: the odds grow with this power of the rest.
+inline constexpr double UnknownRest = 0.13;
+inline constexpr double UnknownSteepness = 0.8;
 
 } // namespace msi::Decision

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace msi
 {
@@ -180,20 +182,49 @@ std::vector<GapCandidate> foundCandidates(
   return candidates;
 }
 
+namespace
+{
+// Causes of a medium beside another of it.
+int togetherIn(const Observation& data, const ObservedFit& fit)
+{
+  std::set<std::string> media;
+  int together = 0;
+  for (const std::size_t option : fit.set)
+  {
+    const std::string& medium = data.options()[option].medium;
+    together += !medium.empty() && !media.insert(medium).second ? 1 : 0;
+  }
+  return together;
+}
+}
+
+// An effect that is not in the library is e times less likely than one that is.
+double unknownProbability(double shrink, double chanceOfCurve, int together)
+{
+  const double rest = std::pow(1.0 - std::clamp(shrink, 0.0, 1.0), 2);
+  double odds =
+    std::pow(rest / Decision::UnknownRest, Decision::UnknownSteepness) + std::exp(-1.0) * together;
+  const double chance = std::fmax(chanceOfCurve, std::numeric_limits<double>::epsilon());
+  if (chance < std::exp(-1.0))
+  {
+    odds += std::exp(-Decision::EffectImprobability - 1.0) / (-chance * std::log(chance));
+  }
+  return odds / (1.0 + odds);
+}
+
 std::vector<std::pair<std::string, double>> effectProbabilities(
-  const Observation& data, const FoundSets& found)
+  const Observation& data, const FoundSets& found, bool gap, double shrink)
 {
   // Of a set of causes only the likeliest forms count: more forms make no effect likelier.
   const double top = *std::max_element(found.score.begin(), found.score.end());
-  std::map<std::vector<std::string>, double> sets;
+  std::map<std::set<std::string>, double> sets;
   for (std::size_t v = 0; v < found.visited.size(); ++v)
   {
-    std::vector<std::string> names;
+    std::set<std::string> names;
     for (const std::size_t option : found.visited[v]->set)
     {
-      names.push_back(data.options()[option].effect->name);
+      names.insert(data.options()[option].effect->name);
     }
-    std::sort(names.begin(), names.end());
     double& weight = sets[names];
     weight = std::fmax(weight, std::exp((found.score[v] - top) / Decision::Temperature));
   }
@@ -202,24 +233,25 @@ std::vector<std::pair<std::string, double>> effectProbabilities(
   for (const auto& [names, weight] : sets)
   {
     all += weight;
-    if (names.empty())
+    for (const std::string& name : names)
     {
-      effects["nothing"] += weight;
-    }
-    for (std::size_t n = 0; n < names.size(); ++n)
-    {
-      if (n == 0 || names[n] != names[n - 1])
-      {
-        effects[names[n]] += weight;
-      }
+      effects[name] += weight;
     }
   }
-  std::vector<std::pair<std::string, double>> probabilities;
-  probabilities.reserve(effects.size());
+  const double nothing = sets[{}] / all;
+  const double unknown = gap
+    ? unknownProbability(shrink, found.best->chanceOfCurve, togetherIn(data, *found.best))
+    : 0.0;
+  std::vector<std::pair<std::string, double>> probabilities{
+    { "nothing", gap ? 0.0 : nothing },
+    { "unknown", unknown + (gap ? (1.0 - unknown) * nothing : 0.0) },
+  };
   for (const auto& [name, weight] : effects)
   {
-    probabilities.emplace_back(name, weight / all);
+    probabilities.emplace_back(name, (1.0 - unknown) * weight / all);
   }
+  std::stable_sort(probabilities.begin(), probabilities.end(),
+    [](const auto& a, const auto& b) { return a.second > b.second; });
   return probabilities;
 }
 

@@ -5,6 +5,8 @@
 #include "Kernels/Gap/GapReport.h"
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace msi
@@ -26,8 +28,17 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
 std::vector<GapCandidate> foundCandidates(
   const Observation& data, const FoundSets& found, std::uint64_t seed);
 
-// Probability of each effect of being in the set that is right, among the sets that were fitted; "nothing": of none.
+// Probability that something that the library does not have is behind the gap.
+//   shrink: held out, of all that was found; after the right causes little is left.
+//   chanceOfCurve: numbers of single channels that follow a curve look like one effect with one number. Where chance has p
+//     for it, that multiplies the odds by at most 1 / (-e p ln p) (Sellke, Bayarri and Berger 2001,
+//     doi:10.1198/000313001300339950).
+//   together: causes of a medium beside another of it. Each is e times likelier than one unknown effect in the place of both.
+double unknownProbability(double shrink, double chanceOfCurve = 1.0, int together = 0);
+
+// Of "nothing", of "unknown", and of each effect being a cause; the largest first.
+// gap: whether there is one beyond noise. shrink: held out, of all that was found.
 std::vector<std::pair<std::string, double>> effectProbabilities(
-  const Observation& data, const FoundSets& found);
+  const Observation& data, const FoundSets& found, bool gap, double shrink);
 
 } // namespace msi

@@ -50,7 +50,8 @@ public:
     information; // prior variance over noise variance along its principal axes; unit dispersion
   double surprise =
     0.0; // half the sum of squares of the parameters over their learned prior deviations
-  bool atBound = false; // a parameter lies at the end of its range
+  double chanceOfCurve = 1.0; // LearnedPrior::chanceOfCurve
+  bool atBound = false;       // a parameter lies at the end of its range
 };
 using FitPointer = std::shared_ptr<const ObservedFit>;
 

@@ -98,6 +98,12 @@ Eigen::VectorXd FieldFitter::coefficients(
     case P::Retained:
       one(FieldColumn::Before);
       break;
+    case P::FromPrevious:
+      one(FieldColumn::FromPrevious);
+      break;
+    case P::FromNext:
+      one(FieldColumn::FromNext);
+      break;
     case P::Right:
       one(FieldColumn::Right);
       break;

@@ -69,25 +69,32 @@ GradientSlope gradientSlope(const FieldModel& model, double x, double y)
     along * along };
 }
 
-// The channel before, for the lag; that of the last call where it was this one.
-void findBefore(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
+// The signal of a channel in every pixel of a block; 0 of one that is not there.
+std::vector<double> signalOf(const FieldData& data, const FieldModel& model,
+  const Eigen::ArrayXd& glare, const FieldBlock& block, Eigen::Index channel,
+  const std::vector<double>& factors)
+{
+  std::vector<double> signal(block.window.pixels(), 0.0);
+  if (channel >= 0 && channel < data.channels())
+  {
+    const BlockLight light(data, model, glare, block, channel, false);
+    for (std::size_t i = 0; i < signal.size(); ++i)
+    {
+      signal[i] = light.signal(static_cast<int>(i), factors[i]);
+    }
+  }
+  return signal;
+}
+
+// The channels before and behind; that before is known where it was the last one.
+void findNeighbours(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
   const FieldBlock& block, Eigen::Index channel, const std::vector<double>& factors,
   FieldScratch& scratch)
 {
-  if (scratch.lastBlock == &block && scratch.lastChannel == channel - 1)
-  {
-    scratch.before = scratch.signal;
-    return;
-  }
-  scratch.before.assign(block.window.pixels(), 0.0);
-  if (channel > 0)
-  {
-    const BlockLight light(data, model, glare, block, channel - 1, false);
-    for (std::size_t i = 0; i < scratch.before.size(); ++i)
-    {
-      scratch.before[i] = light.signal(static_cast<int>(i), factors[i]);
-    }
-  }
+  const bool known = scratch.lastBlock == &block && scratch.lastChannel == channel - 1;
+  scratch.before =
+    known ? scratch.signal : signalOf(data, model, glare, block, channel - 1, factors);
+  scratch.next = signalOf(data, model, glare, block, channel + 1, factors);
 }
 }
 
@@ -119,7 +126,7 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
   const auto K = static_cast<std::size_t>(data.channels());
   const auto k = static_cast<std::size_t>(channel);
   const std::vector<double> factors = fieldFactors(data, model, window);
-  findBefore(data, model, glare, block, channel, factors, scratch);
+  findNeighbours(data, model, glare, block, channel, factors, scratch);
   const BlockLight light(data, model, glare, block, channel, true);
   scratch.lastBlock = &block;
   scratch.lastChannel = channel;
@@ -138,6 +145,8 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
   const Stripes columns(model.columnPeriod, window.x, window.width, P::ColumnSine, P::ColumnCosine);
   const double gain = model.at(P::Gain, channel);
   const double retained = model.at(P::Retained, channel);
+  const double fromPrevious = channel > 0 ? model.at(P::FromPrevious, channel) : 0.0;
+  const double fromNext = channel + 1 < data.channels() ? model.at(P::FromNext, channel) : 0.0;
   const double* rowGain =
     linesOf(model.rows ? &model.rows->gainFor(block.fold) : nullptr, window.y, channel);
   const double* rowOffset =
@@ -171,7 +180,10 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     }
     const double chain = gain * bands;
     const double before = scratch.before[at];
-    const double lit = scratch.signal[at] + retained * before;
+    const double self = scratch.signal[at];
+    const double fromBefore = channel > 0 ? before - self : 0.0;
+    const double fromBehind = channel + 1 < data.channels() ? scratch.next[at] - self : 0.0;
+    const double lit = self + retained * before + fromPrevious * fromBefore + fromNext * fromBehind;
     const double linear = chain * lit + gain * added;
     const DetectorAnswer answer = detector(linear);
     const double u = answer.bySignal * linear;
@@ -204,6 +216,8 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     out[FieldColumn::Clip] = answer.byClip;
     out[FieldColumn::ClipLevel] = answer.byClipLevel;
     out[FieldColumn::Before] = answer.bySignal * chain * before;
+    out[FieldColumn::FromPrevious] = answer.bySignal * chain * fromBefore;
+    out[FieldColumn::FromNext] = answer.bySignal * chain * fromBehind;
     out[FieldColumn::Mean] = answer.bySignal * chain * glare[channel];
     const double right = sharp * light.scene().right(column, row);
     const double down = sharp * light.scene().down(column, row);

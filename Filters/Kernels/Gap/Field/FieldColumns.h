@@ -30,9 +30,11 @@ enum Index : int
   Exponent, // u ln u
   Clip,     // u above the level of clipping
   ClipLevel,
-  Before, // the channel before
-  Mean,   // of the scene, what glare adds
-  Right,  // derivative by displacement
+  Before,       // the channel before
+  FromPrevious, // the same less this channel, where there is one
+  FromNext,
+  Mean,  // of the scene, what glare adds
+  Right, // derivative by displacement
   Down,
   Magnification,
   Rotation,
@@ -72,8 +74,8 @@ struct FieldScratch
   Eigen::MatrixXd columns; // usable pixels x FieldColumn::count()
   Eigen::ArrayXd level;    // predicted, of each
   std::vector<int> pixel;  // number in the block, of each
-  // Of every pixel of the block: the signal behind stray light, and that of the channel before.
-  std::vector<double> signal, before;
+  // Of every pixel of the block: the signal behind stray light, and that of the channel before and of the next.
+  std::vector<double> signal, before, next;
   const FieldBlock* lastBlock = nullptr;
   Eigen::Index lastChannel = -1;
 };

@@ -109,9 +109,10 @@ void FieldCorrection::operator()(
       {
         const auto channel = static_cast<Eigen::Index>(k);
         const double before = k > 0 ? light[k - 1] : 0.0;
-        const double u =
-          ((light[k] + Model.at(P::Retained, channel) * before) * Model.bandFactor(channel, x, y) +
-            Model.bandOffset(channel, x, y)) *
+        double lit = light[k] + Model.at(P::Retained, channel) * before;
+        lit += k > 0 ? Model.at(P::FromPrevious, channel) * (before - light[k]) : 0.0;
+        lit += k + 1 < K ? Model.at(P::FromNext, channel) * (light[k + 1] - light[k]) : 0.0;
+        const double u = (lit * Model.bandFactor(channel, x, y) + Model.bandOffset(channel, x, y)) *
           Model.at(P::Gain, channel);
         *corrected++ = std::isfinite(simulated[k]) ? static_cast<float>(Detector[k](u).value)
                                                    : std::numeric_limits<float>::quiet_NaN();

@@ -26,19 +26,17 @@ std::string harmonicName(Eigen::Index n)
 }
 
 // Lines of stripes' parameters, errors from `next` on.
-std::vector<GapParameter> bandingParameters(const FieldChoice& choice,
-  const FieldSearchResult& found, const std::vector<std::string>& channels,
-  const Eigen::VectorXd& error, Eigen::Index& next)
+std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const FieldModel& model,
+  double periodError, const std::vector<std::string>& channels, const Eigen::VectorXd& error,
+  Eigen::Index& next)
 {
   const auto K = static_cast<Eigen::Index>(channels.size());
-  const FieldModel& model = found.after.model;
   const BandingSines sines = bandingSines(choice, model);
   const bool profile = isProfile(choice);
   const bool offset =
     choice.has(ImageParameter::RowOffset) || choice.has(ImageParameter::ColumnOffset);
   std::vector<GapParameter> parameters;
-  const FieldPeriod& period = isOfRows(choice) ? found.rows : found.columns;
-  parameters.push_back({ "period", sines.period, "pixels", profile ? 0.0 : period.standardError });
+  parameters.push_back({ "period", sines.period, "pixels", profile ? 0.0 : periodError });
   for (Eigen::Index k = 0; k < K; ++k)
   {
     const std::string& channel = channels[static_cast<std::size_t>(k)];
@@ -73,15 +71,15 @@ bool isFree(const FieldChoice& choice)
 }
 }
 
-std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldSearchResult& found,
-  const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next)
+std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,
+  double periodError, const std::vector<std::string>& channels, const Eigen::VectorXd& error,
+  Eigen::Index& next)
 {
-  const FieldModel& model = found.after.model;
   std::vector<GapParameter> parameters;
   const auto K = static_cast<Eigen::Index>(channels.size());
   if (isBanding(choice))
   {
-    return bandingParameters(choice, found, channels, error, next);
+    return bandingParameters(choice, model, periodError, channels, error, next);
   }
   if (isFree(choice))
   {

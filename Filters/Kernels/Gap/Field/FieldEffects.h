@@ -1,7 +1,7 @@
 // The effects that were found, as the effect library writes them.
 #pragma once
 
-#include "Kernels/Gap/Field/FieldSearch.h"
+#include "Kernels/Gap/Field/FieldFit.h"
 #include "Kernels/Gap/GapReport.h"
 
 #include <Eigen/Core>
@@ -13,8 +13,10 @@ namespace msi
 {
 
 // error: standard errors of the choice's terms, from `next` on (FieldFitter::standardErrors), which moves on.
-std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldSearchResult& found,
-  const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next);
+// periodError: of the period of stripes.
+std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,
+  double periodError, const std::vector<std::string>& channels, const Eigen::VectorXd& error,
+  Eigen::Index& next);
 
 // The set as a list for CameraSimulator and ImageSimulator.
 std::vector<CameraEffect> fieldCorrection(

@@ -94,9 +94,8 @@ public:
   // Sandwich over groups of blocks.
   Eigen::VectorXd standardErrors(const FieldSet& set) const;
 
-  // Scalar products, weighted, of what each effect of the set does to the training blocks at the model and, last, of what
-  // they do together; to first order.
-  Eigen::MatrixXd contributionProducts(const FieldSet& set) const;
+  // Normal matrix of the numbers in the same order, without their priors.
+  Eigen::MatrixXd information(const FieldSet& set) const;
 
   // What one term changes in the columns of a channel.
   Eigen::VectorXd coefficients(
@@ -106,6 +105,7 @@ public:
 
 private:
   struct Bound;
+  std::vector<Eigen::MatrixXd> design(const FieldSet& set) const;
   std::vector<Eigen::VectorXd> solve(const std::vector<Eigen::MatrixXd>& normal,
     const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values,
     const FieldShape& shape) const;

@@ -1,19 +1,20 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
+#include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Field/FieldBanding.h"
 #include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldHypothesis.h"
-#include "Kernels/Gap/Field/FieldReport.h"
-#include "Kernels/Gap/Field/FieldSearch.h"
+#include "Kernels/Gap/Field/FieldObservation.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
-#include "Kernels/Gap/GapCertainty.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <sstream>
 
 namespace msi
@@ -23,13 +24,54 @@ namespace
 {
 constexpr double FewUsable = 0.5;
 
+// Sets of an image pair that are kept on the way, and options fitted in full for each: previews are cross-validated and good.
+constexpr int PairBeamWidth = 2;
+constexpr int PairOptionsFitted = 3;
+
+struct FieldFinding
+{
+  FieldWeights weights;
+  std::unique_ptr<FieldObservation> observation;
+  FoundSets found;
+
+  const FieldHypothesis& hypothesis(const FitPointer& fit) const
+  {
+    return static_cast<const FieldObservedFit&>(*fit).hypothesis;
+  }
+  const FieldStatistics& before() const { return *hypothesis(found.nominal).statistics; }
+  const FieldStatistics& after() const { return *hypothesis(found.best).statistics; }
+  const FieldSet& set() const { return hypothesis(found.best).set; }
+};
+
+// A first, quick search says what is left, which shows the noise.
+void search(FieldFinding& finding, const FieldData& data, const std::vector<FieldChoice>& choices,
+  const FieldStart& start, int maximumEffects, const FieldLoop& loop,
+  const std::function<bool()>& stop)
+{
+  finding.weights =
+    fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop), nullptr);
+  const auto observe = [&]
+  {
+    finding.observation =
+      std::make_unique<FieldObservation>(data, choices, finding.weights, start, loop);
+  };
+  observe();
+  finding.found = searchSets(*finding.observation, { maximumEffects, 1, 1, false }, stop);
+  // A limit from what is left would take the gap itself for outliers.
+  finding.weights.noise = fieldWeights(finding.after(), nullptr).noise;
+  observe();
+  finding.found = searchSets(
+    *finding.observation, { maximumEffects, PairBeamWidth, PairOptionsFitted, true }, stop);
+}
+
 struct TestEnergies
 {
   SampleEnergies samples; // a group of blocks is a sample
   double elements = 0.0;
 };
 
-TestEnergies energiesOf(const FieldData& data, const FieldSearchResult& found)
+TestEnergies energiesOf(
+  const FieldData& data, const FieldStatistics& nominal, const FieldStatistics& corrected)
 {
   TestEnergies energies;
   const auto count = static_cast<Eigen::Index>(data.blocks.size());
@@ -41,10 +83,10 @@ TestEnergies energiesOf(const FieldData& data, const FieldSearchResult& found)
     const auto block = static_cast<std::size_t>(b);
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
-      before[b] += found.before.at(block, k).energy;
-      after[b] += found.after.at(block, k).energy;
-      noise[b] += found.after.at(block, k).noise;
-      energies.elements += data.blocks[block].fold < 0 ? found.after.at(block, k).pixels : 0.0;
+      before[b] += nominal.at(block, k).energy;
+      after[b] += corrected.at(block, k).energy;
+      noise[b] += corrected.at(block, k).noise;
+      energies.elements += data.blocks[block].fold < 0 ? corrected.at(block, k).pixels : 0.0;
     }
   }
   energies.samples = { groupSums(data, before, false), groupSums(data, after, false),
@@ -52,19 +94,33 @@ TestEnergies energiesOf(const FieldData& data, const FieldSearchResult& found)
   return energies;
 }
 
-// Gains and offsets are what they are: no other formula of them leaves a rest. What they leave has another cause, and they
-// may stand for a part of that.
-bool areExact(const FieldSet& set)
+// Mean over test blocks and channels of the squared block mean of the residual over what white noise allows.
+double blockMeanExcess(const FieldData& data, const FieldStatistics& statistics)
 {
-  return std::all_of(set.begin(), set.end(),
-    [](const FieldChoice* choice) { return choice->has(EffectTrait::Exact); });
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    for (Eigen::Index k = 0; data.blocks[b].fold < 0 && k < data.channels(); ++k)
+    {
+      const BlockSums& sums = statistics.at(b, k);
+      if (sums.pixels > 0.0)
+      {
+        sum += sums.mean * sums.mean * sums.pixels * sums.pixels / sums.noise;
+        count += 1.0;
+      }
+    }
+  }
+  return count > 0.0 ? sum / count : 0.0;
 }
 
 std::vector<std::string> notesOn(
-  const FieldData& data, const FieldSearchResult& found, const FieldSet& set)
+  const FieldData& data, const FieldFinding& finding, const std::vector<FieldChoice>& choices)
 {
   std::vector<std::string> notes;
-  for (const std::string& effect : found.indistinct)
+  const FieldSet& set = finding.set();
+  for (const std::string& effect :
+    indistinctEffects(data, FieldFitter(data, finding.before()), choices))
   {
     notes.push_back(effect +
       " cannot be decided: the simulated image has too few edges and too little texture in the "
@@ -109,7 +165,7 @@ std::vector<std::string> notesOn(
       text << "the stripes of " << (isOfRows(*choice) ? "rows" : "columns")
            << " may have any shape in the corrected image; the list of effects has the three sines "
               "that come nearest, with "
-           << std::lround(100.0 * bandingSines(*choice, found.after.model).part)
+           << std::lround(100.0 * bandingSines(*choice, finding.after().model).part)
            << " % of their energy";
       notes.push_back(text.str());
     }
@@ -159,63 +215,68 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   {
     return std::nullopt;
   }
-  const FieldSearchResult found = searchField(data, choices, options.maximumCauses, loop,
-    [&] { return say(done + 0.5 * (0.9 - done) * 0.5, "searching for effects"); });
+  FieldFinding finding;
+  const FieldStart start = registrationStart(data, loop);
+  search(finding, data, choices, start, options.maximumCauses, loop,
+    [&] { return say(done + 0.25 * (0.9 - done), "searching for effects"); });
   if (stopped || say(0.9, "describing what was found"))
   {
     return std::nullopt;
   }
 
   std::optional<FieldGap> gap(std::in_place);
-  gap->model = found.after.model;
+  gap->model = finding.after().model;
   gap->unit = data.unit;
   GapReport& report = gap->report;
-  const TestEnergies energies = energiesOf(data, found);
+  const TestEnergies energies = energiesOf(data, finding.before(), finding.after());
   report.gap = figuresOf(energies.samples, std::fmax(energies.elements, 1.0), options.seed);
   // The stripes that were found are an axis of the gap before, too.
-  FieldModel nominal = found.before.model;
-  nominal.rowPeriod = found.after.model.rowPeriod;
-  nominal.columnPeriod = found.after.model.columnPeriod;
-  nominal.rows = found.after.model.rows;
-  nominal.columns = found.after.model.columns;
-  report.where = fieldAxes(data, fieldStatistics(data, nominal, &found.weights, loop), loop);
-  const std::vector<GapAxis> rest = fieldAxes(data, found.after, loop);
-  const double left = blockMeanExcess(data, found.after, false);
+  FieldModel nominal = finding.before().model;
+  nominal.rowPeriod = gap->model.rowPeriod;
+  nominal.columnPeriod = gap->model.columnPeriod;
+  nominal.rows = gap->model.rows;
+  nominal.columns = gap->model.columns;
+  report.where = fieldAxes(data, fieldStatistics(data, nominal, &finding.weights, loop), loop);
+  const std::vector<GapAxis> rest = fieldAxes(data, finding.after(), loop);
   const double shrink = report.gap.shrink;
   const bool noiseAlone =
     report.gap.rmsAfter < ImageDecision::UnexplainedRms * report.gap.noiseFloor &&
-    left < ImageDecision::ExplainedBlocks;
+    blockMeanExcess(data, finding.after()) < ImageDecision::ExplainedBlocks;
+  double explained = 0.0;
   // Effects that account for little are candidates, not causes.
-  if (!found.set.empty() && (shrink >= PartlyShrink || (noiseAlone && shrink > 0.0)))
+  if (!finding.set().empty() && (shrink >= PartlyShrink || (noiseAlone && shrink > 0.0)))
   {
-    const double doubt = noiseAlone ? 0.0 : doubtOf(report.gap.shrinkInterval);
-    const double certain = (noiseAlone ? shrink : certainPart(shrink)) *
-      (areExact(found.set) ? 1.0 - ImageDecision::ExactDoubt * doubt : 1.0);
-    const double share = creditCauses(report, fieldCauses(data, found, choices, certain, doubt));
-    report.correction = fieldCorrection(found.set, found.after.model, pair.channels);
-    // Of what a pair of images shrinks by, and not of the whole gap: its share is small where the shrink is uncertain.
-    report.verdict = verdictOf(shrink, share / shrink, noiseAlone);
-    report.unexplained.where = report.unexplained.share > 0.0 ? whereIs(rest) : "";
+    creditCauses(report, foundCauses(*finding.observation, finding.found, shrink));
+    report.correction = fieldCorrection(finding.set(), gap->model, pair.channels);
+    report.verdict = verdictOf(shrink, noiseAlone);
+    explained = noiseAlone ? 1.0 : shrink;
+    if (report.unexplained.share > 0.0)
+    {
+      report.unexplained.where = whereIs(rest);
+      report.unexplained.dependsOn = dependences(rest);
+    }
   }
   else
   {
-    gap->model = found.before.model;
+    gap->model = finding.before().model;
     const bool gapThere =
       report.gap.rmsBefore > ImageDecision::UnexplainedRms * report.gap.noiseFloor ||
-      blockMeanExcess(data, found.before, false) > ImageDecision::UnexplainedBlocks;
+      blockMeanExcess(data, finding.before()) > ImageDecision::UnexplainedBlocks;
     report.verdict = gapThere ? GapVerdict::Unexplained : GapVerdict::NoGap;
     if (gapThere)
     {
-      report.unexplained.share = 1.0;
-      report.unexplained.where = whereIs(report.where);
+      report.unexplained = { 1.0, whereIs(report.where), dependences(report.where) };
     }
     report.gap.rmsAfter = report.gap.rmsBefore;
     report.gap.shrink = 0.0;
     report.gap.shrinkInterval = { 0.0, 0.0 };
   }
-  report.candidates = fieldCandidates(data, found, options.seed);
+  report.candidates = foundCandidates(*finding.observation, finding.found, options.seed);
+  believe(report,
+    effectProbabilities(
+      *finding.observation, finding.found, report.verdict != GapVerdict::NoGap, explained));
   recommendCapture(report);
-  report.notes = notesOn(data, found, report.causes.empty() ? FieldSet() : found.set);
+  report.notes = notesOn(data, finding, choices);
   noteUncredited(report.notes, report.uncredited);
   say(1.0, "done");
   return gap;

@@ -22,7 +22,7 @@ struct FieldGap
 // Empty only where progress() asked to stop.
 //
 // Finds: vignetting, illumination_gradient, veiling_glare, local_stray_light, defocus, misregistration, banding,
-//   lag, exposure_gain, channel_gain, dark_offset, detector_nonlinearity, saturation: names, parameters and order of effectLibrary()
+//   ghost_reflection, lag, channel_crosstalk, exposure_gain, channel_gain, dark_offset, detector_nonlinearity, saturation: names, parameters and order of effectLibrary()
 //   and ImageSimulator, so that report.correction runs there.
 // Method: Documentation/Filters/ImageSimToRealGap.md. Blocks of pixels, two thirds for choosing and fitting
 //   (five folds), one third for the figures. Noise from differences of residuals.

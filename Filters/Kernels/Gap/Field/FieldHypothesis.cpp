@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Field/FieldHypothesis.h"
 
 #include "Kernels/Gap/Field/FieldDecisions.h"
-#include "Kernels/Gap/Field/FieldGroups.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,37 +17,10 @@ constexpr double Radii[] = { 2.0, 4.0, 8.0, 16.0, 32.0 };
 constexpr double Centers[] = { -0.3, 0.0, 0.3 }; // half fields
 }
 
-double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain)
-{
-  double n = 0.0;
-  double sum = 0.0;
-  double square = 0.0;
-  for (const double energy : groupSums(data, gain, true))
-  {
-    const double value = std::copysign(std::sqrt(std::fabs(energy)), energy);
-    n += 1.0;
-    sum += value;
-    square += value * value;
-  }
-  return sum / std::sqrt(std::fmax(square - sum * sum / n, 1e-30));
-}
-
 FieldSet joined(FieldSet set, const FieldChoice& choice)
 {
   set.push_back(&choice);
   return set;
-}
-
-FieldSet withoutOne(FieldSet set, std::size_t position)
-{
-  set.erase(set.begin() + static_cast<std::ptrdiff_t>(position));
-  return set;
-}
-
-bool contains(const FieldSet& set, const EffectDefinition& effect)
-{
-  return std::any_of(set.begin(), set.end(),
-    [&effect](const FieldChoice* choice) { return choice->effect == &effect; });
 }
 
 bool hasTerm(const FieldSet& set, ImageParameter parameter)

@@ -18,14 +18,8 @@ struct FieldHypothesis
 };
 
 FieldSet joined(FieldSet set, const FieldChoice& choice);
-FieldSet withoutOne(FieldSet set, std::size_t position);
-bool contains(const FieldSet& set, const EffectDefinition& effect);
 
 bool hasTerm(const FieldSet& set, ImageParameter parameter);
-
-// The mean over groups of training blocks of the signed root of what they gain, over its standard error. The root: energies
-// have tails, and a plane of light gains little in the middle of the field.
-double deviationsOf(const FieldData& data, const Eigen::VectorXd& gain);
 
 // The model after Gauss-Newton from a start.
 FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,

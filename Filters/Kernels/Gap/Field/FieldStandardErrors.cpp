@@ -6,50 +6,71 @@
 
 #include <cmath>
 #include <map>
-#include <utility>
+#include <vector>
 
 namespace msi
 {
 
-Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
+// What each number of the set changes in the columns of a channel; terms in order, channels within a per-channel term.
+std::vector<Eigen::MatrixXd> FieldFitter::design(const FieldSet& set) const
 {
   const auto K = Data.channels();
-  std::vector<std::pair<ImageTerm, Eigen::Index>> single; // channel, -1: common
+  const FieldShape shape = this->shape();
+  Eigen::Index count = 0;
   for (const FieldChoice* choice : set)
   {
     for (const ImageTerm& term : choice->terms)
     {
-      for (Eigen::Index k = term.perChannel ? 0 : -1; k < (term.perChannel ? K : 0); ++k)
-      {
-        single.emplace_back(term, k);
-      }
+      count += term.perChannel ? K : 1;
     }
   }
-  const auto p = static_cast<Eigen::Index>(single.size());
-  const FieldShape shape = this->shape();
   std::vector<Eigen::MatrixXd> design(
-    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(FieldColumn::residual(), p));
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(p, p);
+    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(FieldColumn::residual(), count));
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    Eigen::MatrixXd& columns = design[static_cast<std::size_t>(k)];
-    for (Eigen::Index i = 0; i < p; ++i)
+    Eigen::Index next = 0;
+    for (const FieldChoice* choice : set)
     {
-      const auto& [term, channel] = single[static_cast<std::size_t>(i)];
-      if (channel < 0 || channel == k)
+      for (const ImageTerm& term : choice->terms)
       {
-        columns.col(i) = coefficients(term.parameter, k, shape);
+        design[static_cast<std::size_t>(k)].col(next + (term.perChannel ? k : 0)) =
+          coefficients(term.parameter, k, shape);
+        next += term.perChannel ? K : 1;
       }
     }
-    information += columns.transpose() *
-      Total[static_cast<std::size_t>(k)].topLeftCorner(
-        FieldColumn::residual(), FieldColumn::residual()) *
-      columns;
   }
-  for (Eigen::Index i = 0; i < p; ++i)
+  return design;
+}
+
+Eigen::MatrixXd FieldFitter::information(const FieldSet& set) const
+{
+  const std::vector<Eigen::MatrixXd> columns = design(set);
+  const Eigen::Index count = columns.front().cols();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
+  for (std::size_t k = 0; k < columns.size(); ++k)
   {
-    information(i, i) +=
-      std::pow(ImageDecision::PriorSize * single[static_cast<std::size_t>(i)].first.typical, -2);
+    information += columns[k].transpose() *
+      Total[k].topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * columns[k];
+  }
+  return information;
+}
+
+Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
+{
+  const auto K = Data.channels();
+  const std::vector<Eigen::MatrixXd> columns = design(set);
+  Eigen::MatrixXd normal = information(set);
+  const Eigen::Index p = normal.rows();
+  Eigen::Index next = 0;
+  for (const FieldChoice* choice : set)
+  {
+    for (const ImageTerm& term : choice->terms)
+    {
+      const Eigen::Index size = term.perChannel ? K : 1;
+      normal.diagonal().segment(next, size).array() +=
+        std::pow(ImageDecision::PriorSize * term.typical, -2);
+      next += size;
+    }
   }
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(p, p);
   std::map<int, Eigen::VectorXd> ofGroup;
@@ -63,7 +84,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
       ofGroup.try_emplace(Data.blocks[b].group, Eigen::VectorXd::Zero(p)).first->second;
     for (Eigen::Index k = 0; k < K; ++k)
     {
-      g += design[static_cast<std::size_t>(k)].transpose() *
+      g += columns[static_cast<std::size_t>(k)].transpose() *
         Statistics.at(b, k).normal.col(FieldColumn::residual()).head(FieldColumn::residual());
     }
   }
@@ -71,39 +92,10 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
   {
     scatter += g * g.transpose();
   }
-  const Eigen::LDLT<Eigen::MatrixXd> factor(information);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(normal);
   const Eigen::MatrixXd half = factor.solve(scatter);
   const Eigen::MatrixXd covariance = factor.solve(half.transpose());
   return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-}
-
-Eigen::MatrixXd FieldFitter::contributionProducts(const FieldSet& set) const
-{
-  const FieldModel& model = Statistics.model;
-  const auto count = static_cast<Eigen::Index>(set.size());
-  const FieldShape shape = this->shape();
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count + 1, count + 1);
-  for (Eigen::Index k = 0; k < Data.channels(); ++k)
-  {
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(FieldColumn::residual(), count + 1);
-    for (Eigen::Index e = 0; e < count; ++e)
-    {
-      for (const ImageTerm& term : set[static_cast<std::size_t>(e)]->terms)
-      {
-        if (!isPlace(term.parameter))
-        {
-          columns.col(e) += (model.at(term.parameter, k) - neutralValue(term.parameter)) *
-            coefficients(term.parameter, k, shape);
-        }
-      }
-    }
-    columns.col(count) = columns.leftCols(count).rowwise().sum();
-    products += columns.transpose() *
-      Total[static_cast<std::size_t>(k)].topLeftCorner(
-        FieldColumn::residual(), FieldColumn::residual()) *
-      columns;
-  }
-  return products;
 }
 
 } // namespace msi

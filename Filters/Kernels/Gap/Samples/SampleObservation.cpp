@@ -1,10 +1,8 @@
 #include "Kernels/Gap/Samples/SampleObservation.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/EffectForms.h"
-#include "Kernels/Gap/EffectScreen.h"
-
-#include <Eigen/Eigenvalues>
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
+#include "Kernels/Gap/Samples/EffectScreen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +14,9 @@ namespace msi
 namespace
 {
 constexpr FitEffort NoStep{ 0, 1.0 };
+
+// Deviations by which a fit must be better for its secondary parameters to be free.
+constexpr double SecondaryDeviations = 4.0;
 
 const SampleFit& sampleFit(const ObservedFit& fit)
 {
@@ -44,51 +45,37 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, cons
   return options;
 }
 
-// Covariance of the free parameters before the data speak. The variance of numbers of single channels is learned from
-// them, and their mean where the effect also has a form with one number for all channels; surprise: half their sum of
-// squares over that variance.
-Eigen::MatrixXd priorCovariance(const EffectFit& fit, double& surprise)
+// With the secondary parameters of one effect free, where that predicts better.
+EffectFit withSecondary(const EffectFitter& fitter, EffectFit fit, std::size_t position)
 {
-  const auto count = static_cast<Eigen::Index>(fit.free.size());
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
-  for (Eigen::Index first = 0; first < count;)
+  const std::vector<EffectParameter>& parameters = fit.set.choices[position].form->parameters;
+  if (std::none_of(parameters.begin(), parameters.end(),
+        [](const EffectParameter& parameter) { return parameter.secondary && !parameter.given; }))
   {
-    const FreeParameter& parameter = fit.free[static_cast<std::size_t>(first)];
-    Eigen::Index size = 1;
-    while (first + size < count &&
-      fit.free[static_cast<std::size_t>(first + size)].group == parameter.group)
-    {
-      ++size;
-    }
-    auto block = covariance.block(first, first, size, size);
-    const double variance = parameter.spread * parameter.spread;
-    if (parameter.channel < 0)
-    {
-      block.diagonal().setConstant(variance);
-    }
-    else
-    {
-      Eigen::ArrayXd deviation(size);
-      for (Eigen::Index p = 0; p < size; ++p)
-      {
-        deviation[p] =
-          valueOf(fit.set, fit.free[static_cast<std::size_t>(first + p)]) - parameter.neutral;
-      }
-      const auto& common = fit.set.choices[parameter.effect].effect->forms.front().parameters;
-      if (std::none_of(common.begin(), common.end(),
-            [](const EffectParameter& one) { return one.perChannel; }))
-      {
-        deviation -= deviation.mean();
-        block.setConstant(variance);
-      }
-      const double learned =
-        std::fmin(deviation.square().mean() + std::pow(1e-6 * parameter.scale, 2), variance);
-      block.diagonal().array() += learned;
-      surprise += 0.5 * deviation.square().sum() / learned;
-    }
-    first += size;
+    return fit;
   }
-  return covariance;
+  EffectSet freed = fit.set;
+  freed.secondaryFree[position] = 1;
+  EffectFit other = fitter.fit(std::move(freed), SearchFit.unwantedAbove(fit.energy));
+  return other.energy + SecondaryDeviations * other.dispersion < fit.energy ? other : fit;
+}
+
+std::vector<FreeNumber> numbersOf(const EffectFit& fit)
+{
+  std::vector<FreeNumber> numbers;
+  for (const FreeParameter& parameter : fit.free)
+  {
+    const bool perChannel = parameter.channel >= 0;
+    const auto hasCommonForm = [&fit, &parameter]
+    {
+      const auto& plain = fit.set.choices[parameter.effect].effect->forms.front().parameters;
+      return std::none_of(
+        plain.begin(), plain.end(), [](const EffectParameter& one) { return one.perChannel; });
+    };
+    numbers.push_back({ parameter.group, perChannel, perChannel && hasCommonForm(),
+      valueOf(fit.set, parameter) - parameter.neutral, parameter.spread, parameter.scale });
+  }
+  return numbers;
 }
 }
 
@@ -140,9 +127,9 @@ FitPointer SampleObservation::extended(const ObservedFit& from, const GapPreview
   effects.add(Choices[with.option], Fitter.data().camera, with.start);
   std::vector<std::size_t> set = from.set;
   set.push_back(with.option);
-  EffectFit fit = Fitter.fit(std::move(effects), SearchFit);
   return described(
-    withSecondary(Fitter, std::move(fit), from.set.size(), SearchFit), std::move(set));
+    withSecondary(Fitter, Fitter.fit(std::move(effects), SearchFit), from.set.size()),
+    std::move(set));
 }
 
 FitPointer SampleObservation::reduced(const ObservedFit& from, std::size_t positions) const
@@ -168,26 +155,21 @@ FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> 
   described->coherence = fit.energy > 0.0
     ? fit.dispersion * std::fmax(Fitter.trainingElements(), 1.0) / fit.energy
     : 1.0;
-  const Eigen::MatrixXd prior = priorCovariance(fit, described->surprise);
   for (const FreeParameter& parameter : fit.free)
   {
     const double value = valueOf(fit.set, parameter);
     described->atBound = described->atBound || value <= parameter.lower || value >= parameter.upper;
   }
-  if (!fit.free.empty())
+  Eigen::MatrixXd information = fit.information;
+  for (std::size_t p = 0; p < fit.free.size(); ++p)
   {
-    Eigen::MatrixXd information = fit.information;
-    for (std::size_t p = 0; p < fit.free.size(); ++p)
-    {
-      const auto at = static_cast<Eigen::Index>(p);
-      information(at, at) -= 1.0 / (fit.free[p].spread * fit.free[p].spread);
-    }
-    const Eigen::MatrixXd root = prior.llt().matrixL();
-    described->information = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-      root.transpose() * information * root, Eigen::EigenvaluesOnly)
-                               .eigenvalues()
-                               .cwiseMax(0.0);
+    const auto at = static_cast<Eigen::Index>(p);
+    information(at, at) -= 1.0 / (fit.free[p].spread * fit.free[p].spread);
   }
+  const LearnedPrior prior(numbersOf(fit));
+  described->information = prior.informationOf(information);
+  described->surprise = prior.surprise;
+  described->chanceOfCurve = prior.chanceOfCurve;
   // The place of a step is a number, too, found among those of the samples.
   described->surprise += static_cast<double>(fit.set.steps()) * std::log(Fitter.trainingSamples());
   described->effects = std::move(fit.set);

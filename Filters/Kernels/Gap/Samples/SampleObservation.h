@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Kernels/Gap/Diagnosis/Observation.h"
-#include "Kernels/Gap/EffectFit.h"
+#include "Kernels/Gap/Samples/EffectFit.h"
 
 #include <cstdint>
 #include <vector>

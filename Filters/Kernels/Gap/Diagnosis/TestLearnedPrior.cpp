@@ -1,0 +1,67 @@
+#include "Kernels/Gap/Diagnosis/FoundCauses.h"
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
+#include "Kernels/Gap/ReportParts.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+TEST(LearnedPrior, ACommonNumberKeepsItsSpread)
+{
+  const msi::LearnedPrior prior({ { 0, false, false, 0.3, 2.0, 0.1 } });
+  EXPECT_DOUBLE_EQ(prior.covariance(0, 0), 4.0);
+  EXPECT_EQ(prior.surprise, 0.0);
+  EXPECT_NEAR(prior.informationOf(Eigen::MatrixXd::Constant(1, 1, 5.0))[0], 20.0, 1e-12);
+}
+
+// Numbers +-d scatter by d: each is one deviation from its mean, whatever d is.
+TEST(LearnedPrior, NumbersOfChannelsLearnTheirScatter)
+{
+  for (const double size : { 0.01, 0.5 })
+  {
+    const msi::LearnedPrior prior({ { 0, true, false, size, 10.0, 1.0 },
+      { 0, true, false, -size, 10.0, 1.0 }, { 1, false, false, 0.0, 3.0, 1.0 } });
+    EXPECT_NEAR(prior.covariance(0, 0), size * size, 1e-9);
+    EXPECT_EQ(prior.covariance(0, 1), 0.0);
+    EXPECT_DOUBLE_EQ(prior.covariance(2, 2), 9.0);
+    EXPECT_NEAR(prior.surprise, 1.0, 1e-6);
+  }
+}
+
+// What is common to all channels is a number of its own where the effect has a form with one.
+TEST(LearnedPrior, ACommonPartIsNoScatter)
+{
+  const msi::LearnedPrior prior(
+    { { 0, true, true, 1.1, 10.0, 1.0 }, { 0, true, true, 0.9, 10.0, 1.0 } });
+  EXPECT_NEAR(prior.covariance(0, 1), 100.0, 1e-9);
+  EXPECT_NEAR(prior.covariance(0, 0) - prior.covariance(0, 1), 0.01, 1e-6);
+}
+
+TEST(LearnedPrior, NothingFreeIsNothingKnown)
+{
+  const msi::LearnedPrior prior({});
+  EXPECT_EQ(prior.informationOf(Eigen::MatrixXd()).size(), 0);
+  EXPECT_EQ(prior.surprise, 0.0);
+}
+
+TEST(UnknownProbability, GrowsWithWhatIsLeft)
+{
+  EXPECT_EQ(msi::unknownProbability(1.0), 0.0);
+  EXPECT_LT(msi::unknownProbability(0.9), 0.2);
+  EXPECT_GT(msi::unknownProbability(0.3), 0.7);
+  EXPECT_GT(msi::unknownProbability(0.0), 0.8);
+  EXPECT_GT(msi::unknownProbability(1.0, 1e-4), 0.9);
+  EXPECT_EQ(msi::unknownProbability(1.0, 0.5), 0.0);
+  EXPECT_EQ(msi::unknownProbability(-0.5), msi::unknownProbability(0.0));
+}
+
+TEST(Verdict, FollowsTheShrink)
+{
+  EXPECT_EQ(msi::verdictOf(0.9, false), msi::GapVerdict::Explained);
+  EXPECT_EQ(msi::verdictOf(0.5, false), msi::GapVerdict::PartlyExplained);
+  EXPECT_EQ(msi::verdictOf(0.1, false), msi::GapVerdict::Unexplained);
+  EXPECT_EQ(msi::verdictOf(0.1, true), msi::GapVerdict::Explained);
+}
+
+} // namespace

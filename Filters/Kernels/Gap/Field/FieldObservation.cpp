@@ -1,0 +1,319 @@
+#include "Kernels/Gap/Field/FieldObservation.h"
+
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
+#include "Kernels/Gap/Field/FieldClip.h"
+#include "Kernels/Gap/Field/FieldDecisions.h"
+#include "Kernels/Gap/Field/FieldEffects.h"
+#include "Kernels/Gap/Field/FieldGroups.h"
+#include "Kernels/Gap/Field/FieldPeriod.h"
+#include "Kernels/Gap/Field/FieldProfile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+const FieldHypothesis& hypothesisOf(const ObservedFit& fit)
+{
+  return static_cast<const FieldObservedFit&>(fit).hypothesis;
+}
+
+bool isPerChannel(const std::vector<ImageTerm>& terms)
+{
+  return std::any_of(
+    terms.begin(), terms.end(), [](const ImageTerm& term) { return term.perChannel; });
+}
+
+std::vector<GapOption> fieldOptions(const std::vector<FieldChoice>& choices)
+{
+  std::vector<GapOption> options;
+  for (std::size_t c = 0; c < choices.size(); ++c)
+  {
+    const auto before =
+      std::count_if(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(c),
+        [&](const FieldChoice& other) { return other.effect == choices[c].effect; });
+    options.push_back({ choices[c].effect, choices[c].form, "", isPerChannel(choices[c].terms),
+      Decision::EffectImprobability + Decision::FormImprobability * static_cast<double>(before) });
+  }
+  return options;
+}
+
+bool hasProfile(const FieldSet& set, bool rows)
+{
+  return std::any_of(set.begin(), set.end(),
+    [rows](const FieldChoice* choice) { return isProfile(*choice) && isOfRows(*choice) == rows; });
+}
+}
+
+FieldObservation::FieldObservation(const FieldData& data, const std::vector<FieldChoice>& choices,
+  const FieldWeights& weights, const FieldStart& start, const FieldLoop& loop)
+  : Data(data)
+  , Choices(choices)
+  , Weights(weights)
+  , Start(start)
+  , Loop(loop)
+  , Options(fieldOptions(choices))
+{
+  FieldHypothesis hypothesis;
+  hypothesis.statistics = std::make_shared<FieldStatistics>(
+    fieldStatistics(data, FieldModel(data.channels()), &weights, loop));
+  const FieldFitter fitter(data, *hypothesis.statistics);
+  hypothesis.fit = fitter.fit({});
+  NoiseEnergy = fitter.chance();
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    for (Eigen::Index k = 0; data.blocks[b].fold >= 0 && k < data.channels(); ++k)
+    {
+      Elements += hypothesis.statistics->at(b, k).pixels;
+    }
+  }
+  Nominal = described(std::move(hypothesis));
+}
+
+bool FieldObservation::hasStart(const FieldModel& model, const FieldChoice& choice)
+{
+  if (isBanding(choice))
+  {
+    const bool rows = isOfRows(choice);
+    return isProfile(choice) ? (rows ? model.rows : model.columns) != nullptr
+                             : (rows ? model.rowPeriod : model.columnPeriod) > 0.0;
+  }
+  return !choice.has(ImageParameter::Clip) || !model.isNeutral(ImageParameter::ClipLevel);
+}
+
+const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
+{
+  const auto known = Started.find(&fit);
+  if (known != Started.end())
+  {
+    return known->second;
+  }
+  FieldHypothesis hypothesis = hypothesisOf(fit);
+  FieldModel model = hypothesis.statistics->model;
+  const auto period = [&](bool rows)
+  {
+    const FieldPeriod found = findPeriod(Data, model, rows, Loop);
+    PeriodError[found.period] = found.standardError;
+    return found.period;
+  };
+  if (!hasTerm(hypothesis.set, ImageParameter::RowSine))
+  {
+    model.rowPeriod = period(true);
+  }
+  if (!hasTerm(hypothesis.set, ImageParameter::ColumnSine))
+  {
+    model.columnPeriod = period(false);
+  }
+  findProfiles(model, hypothesis.set);
+  if (!hasTerm(hypothesis.set, ImageParameter::Clip))
+  {
+    model[ImageParameter::ClipLevel].setConstant(findClipLevel(Data, model, Loop));
+  }
+  hypothesis.statistics =
+    std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Weights, Loop));
+  hypothesis.fit = FieldFitter(Data, *hypothesis.statistics).fit(hypothesis.set);
+  return Started.emplace(&fit, std::move(hypothesis)).first->second;
+}
+
+// Of lines whose profile is not in the set; those of others stay as they are.
+void FieldObservation::findProfiles(FieldModel& model, const FieldSet& set) const
+{
+  const auto find = [&](bool rows)
+  {
+    return std::make_shared<const FieldProfile>(
+      findProfile(Data, model, rows, false, Weights.limit, Loop));
+  };
+  if (!hasProfile(set, true))
+  {
+    model.rows = find(true);
+  }
+  if (!hasProfile(set, false))
+  {
+    model.columns = find(false);
+  }
+}
+
+FieldModel FieldObservation::registered(const FieldModel& model, const FieldChoice& choice) const
+{
+  const Eigen::MatrixXd& place =
+    choice.has(ImageParameter::Rotation) ? Start.similarity : Start.shift;
+  FieldModel moved = model;
+  moved[ImageParameter::Right] = place.col(0);
+  moved[ImageParameter::Down] = place.col(1);
+  moved[ImageParameter::Magnification] = place.col(2);
+  moved[ImageParameter::Rotation] = place.col(3);
+  return moved;
+}
+
+std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) const
+{
+  const FieldHypothesis& base = started(from);
+  const FieldModel& model = base.statistics->model;
+  const FieldFitter fitter(Data, *base.statistics);
+  std::vector<GapPreview> previews;
+  for (std::size_t option = 0; option < Choices.size(); ++option)
+  {
+    const FieldChoice& choice = Choices[option];
+    if (!compatible(base.set, choice) || !hasStart(model, choice))
+    {
+      continue;
+    }
+    const FieldSet set = joined(base.set, choice);
+    const auto parameters = static_cast<double>(parameterCount({ &choice }, Data.channels()));
+    GapPreview preview{ option, {}, 0.0, parameters };
+    double energy = linearFit(fitter, set, FieldDetail::Sum).energy;
+    if (choice.has(ImageParameter::Right) && !Start.shift.isZero())
+    {
+      const FieldModel moved = registered(model, choice);
+      const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop);
+      const double other = FieldFitter(Data, there).fit(set, {}, FieldDetail::Sum).energy;
+      if (other < energy)
+      {
+        energy = other;
+        preview.start = { 1.0 };
+      }
+    }
+    // The energy is cross-validated already.
+    preview.gain = from.energy - energy + parameters;
+    previews.push_back(std::move(preview));
+  }
+  std::stable_sort(previews.begin(), previews.end(),
+    [](const GapPreview& a, const GapPreview& b) { return a.gain > b.gain; });
+  return previews;
+}
+
+FieldHypothesis FieldObservation::refit(const FieldSet& set, const FieldModel& start) const
+{
+  return refitted(Data, Weights, set, start, Loop);
+}
+
+FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview& with) const
+{
+  const FieldHypothesis& base = started(from);
+  const FieldChoice& choice = Choices[with.option];
+  const FieldSet set = joined(base.set, choice);
+  FieldHypothesis hypothesis = refit(set,
+    with.start.empty() ? linearFit(FieldFitter(Data, *base.statistics), set).next
+                       : registered(base.statistics->model, choice));
+  // Once more beside the other effects.
+  for (const FieldChoice* profile : set)
+  {
+    if (isProfile(*profile))
+    {
+      FieldModel model = hypothesis.fit.next;
+      const ImageParameter strength = profile->terms.front().parameter;
+      const Eigen::ArrayXd value = model[strength];
+      model[strength].setZero();
+      FieldSet others = set;
+      others.erase(std::remove(others.begin(), others.end(), profile), others.end());
+      findProfiles(model, others);
+      model[strength] = value;
+      hypothesis = refit(set, model);
+    }
+  }
+  return described(std::move(hypothesis));
+}
+
+FitPointer FieldObservation::reduced(const ObservedFit& from, std::size_t positions) const
+{
+  const FieldHypothesis& all = hypothesisOf(from);
+  FieldSet set;
+  for (std::size_t e = 0; e < all.set.size(); ++e)
+  {
+    if ((positions >> e & 1U) != 0)
+    {
+      set.push_back(all.set[e]);
+    }
+  }
+  return described(refit(set, FieldFitter(Data, *all.statistics).fit(set).next));
+}
+
+FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
+{
+  auto described = std::make_shared<FieldObservedFit>();
+  const FieldModel& model = hypothesis.fit.next;
+  for (const FieldChoice* choice : hypothesis.set)
+  {
+    described->set.push_back(static_cast<std::size_t>(choice - Choices.data()));
+  }
+  // What bends the curve does not clip.
+  const bool bends = hasTerm(hypothesis.set, ImageParameter::Clip) &&
+    model.at(ImageParameter::Clip, 0) < ImageDecision::LeastClip;
+  described->energy = bends ? std::numeric_limits<double>::infinity() : hypothesis.fit.energy;
+  std::vector<FreeNumber> numbers;
+  std::size_t group = 0;
+  for (const FieldChoice* choice : hypothesis.set)
+  {
+    const bool ownMean = !isPerChannel(choice->effect->imageForms.front().terms);
+    for (const ImageTerm& term : choice->terms)
+    {
+      for (Eigen::Index k = 0; k < (term.perChannel ? Data.channels() : 1); ++k)
+      {
+        const double value = model.at(term.parameter, k);
+        numbers.push_back({ group, term.perChannel, ownMean, value - neutralValue(term.parameter),
+          ImageDecision::PriorSize * term.typical, term.typical });
+        if (term.parameter == ImageParameter::CenterX || term.parameter == ImageParameter::CenterY)
+        {
+          described->surprise +=
+            0.5 * std::pow(value / term.typical, 2); // axes are near the middle
+        }
+        described->atBound = described->atBound ||
+          ((value <= term.lower || value >= term.upper) && !isShape(term.parameter));
+      }
+      ++group;
+    }
+  }
+  const LearnedPrior prior(numbers);
+  described->information =
+    prior.informationOf(FieldFitter(Data, *hypothesis.statistics).information(hypothesis.set));
+  described->surprise += prior.surprise;
+  described->chanceOfCurve = prior.chanceOfCurve;
+  described->hypothesis = std::move(hypothesis);
+  Kept.push_back(described);
+  return described;
+}
+
+GroupEnergies FieldObservation::energies(const ObservedFit& fit) const
+{
+  const FieldStatistics& nominal = *hypothesisOf(*Nominal).statistics;
+  Eigen::VectorXd chance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(Data.blocks.size()));
+  for (Eigen::Index b = 0; b < chance.size(); ++b)
+  {
+    for (Eigen::Index k = 0; k < Data.channels(); ++k)
+    {
+      chance[b] += nominal.at(static_cast<std::size_t>(b), k).chance;
+    }
+  }
+  return { groupSums(Data, hypothesisOf(*Nominal).fit.blockEnergy, true),
+    groupSums(Data, hypothesisOf(fit).fit.blockEnergy, true), groupSums(Data, chance, true) };
+}
+
+std::vector<std::vector<GapParameter>> FieldObservation::parameters(const ObservedFit& fit) const
+{
+  const FieldHypothesis& hypothesis = hypothesisOf(fit);
+  const Eigen::VectorXd error =
+    FieldFitter(Data, *hypothesis.statistics).standardErrors(hypothesis.set);
+  const FieldModel& model = hypothesis.statistics->model;
+  const auto deviation = [this](double period)
+  {
+    const auto known = PeriodError.find(period);
+    return known == PeriodError.end() ? 0.0 : known->second;
+  };
+  Eigen::Index next = 0;
+  std::vector<std::vector<GapParameter>> parameters;
+  for (const FieldChoice* choice : hypothesis.set)
+  {
+    const double period = isOfRows(*choice) ? model.rowPeriod : model.columnPeriod;
+    parameters.push_back(fieldParameters(*choice, model,
+      isBanding(*choice) ? deviation(period) : 0.0, Data.pair.channels, error, next));
+  }
+  return parameters;
+}
+
+} // namespace msi

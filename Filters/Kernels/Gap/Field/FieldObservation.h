@@ -1,0 +1,67 @@
+// A pair of images as the diagnosis sees it.
+#pragma once
+
+#include "Kernels/Gap/Diagnosis/Observation.h"
+#include "Kernels/Gap/Field/FieldHypothesis.h"
+#include "Kernels/Gap/Field/FieldShift.h"
+
+#include <Eigen/Core>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+class FieldObservedFit : public ObservedFit
+{
+public:
+  FieldHypothesis hypothesis;
+};
+
+// Groups of training blocks are the groups. A fit's residual is looked at for stripes, clipping and displacements before
+// options are previewed; what is found is where their fits start.
+class FieldObservation : public Observation
+{
+public:
+  // Hold references.
+  FieldObservation(const FieldData& data, const std::vector<FieldChoice>& choices,
+    const FieldWeights& weights, const FieldStart& start, const FieldLoop& loop);
+
+  const std::vector<GapOption>& options() const override { return Options; }
+  double elements() const override { return Elements; }
+  double noiseEnergy() const override { return NoiseEnergy; }
+  FitPointer nominal() const override { return Nominal; }
+  std::vector<GapPreview> previews(const ObservedFit& from) const override;
+  FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
+  FitPointer reduced(const ObservedFit& from, std::size_t positions) const override;
+  GroupEnergies energies(const ObservedFit& fit) const override;
+  std::vector<std::vector<GapParameter>> parameters(const ObservedFit& fit) const override;
+
+private:
+  // With starts for stripes and clipping that its residual shows.
+  const FieldHypothesis& started(const ObservedFit& fit) const;
+  FieldHypothesis refit(const FieldSet& set, const FieldModel& start) const;
+  FitPointer described(FieldHypothesis hypothesis) const;
+  void findProfiles(FieldModel& model, const FieldSet& set) const;
+  FieldModel registered(const FieldModel& model, const FieldChoice& choice) const;
+  // Whether the model has the start that it needs.
+  static bool hasStart(const FieldModel& model, const FieldChoice& choice);
+
+  const FieldData& Data;
+  const std::vector<FieldChoice>& Choices;
+  const FieldWeights& Weights;
+  const FieldStart& Start; // of misregistration
+  const FieldLoop& Loop;
+  std::vector<GapOption> Options;
+  double Elements = 0.0;
+  double NoiseEnergy = 0.0;
+  FitPointer Nominal;
+  mutable std::map<const ObservedFit*, FieldHypothesis> Started;
+  mutable std::vector<FitPointer> Kept; // of Started
+  mutable std::map<double, double> PeriodError;
+};
+
+} // namespace msi

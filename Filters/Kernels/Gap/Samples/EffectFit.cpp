@@ -1,0 +1,285 @@
+#include "Kernels/Gap/Samples/EffectFit.h"
+
+#include "Kernels/Gap/Samples/ColumnProducts.h"
+#include "Kernels/Gap/Samples/NormalMatrix.h"
+#include "Kernels/Gap/Samples/TableDecisions.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace msi
+{
+
+namespace
+{
+constexpr int InnerFolds = 5;
+constexpr double Remaining = 10.0; // times the last gain: what further iterations may gain at most
+
+using Flat = Eigen::Map<const Eigen::ArrayXd>;
+
+Flat flat(const Eigen::MatrixXd& matrix)
+{
+  return { matrix.data(), matrix.size() };
+}
+
+// sqrt of the Huber weights for whitened residuals; 1 where there is no weight.
+Eigen::ArrayXd huber(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& weight)
+{
+  std::vector<double> size;
+  size.reserve(static_cast<std::size_t>(whitened.size()));
+  for (Eigen::Index i = 0; i < whitened.size(); ++i)
+  {
+    if (weight[i] > 0.0)
+    {
+      size.push_back(std::fabs(whitened[i]));
+    }
+  }
+  if (size.empty())
+  {
+    return Eigen::ArrayXd::Ones(whitened.size());
+  }
+  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+  std::nth_element(size.begin(), middle, size.end());
+  const double cut = TableDecision::HuberCut * std::fmax(1.4826 * *middle, 1.0);
+  return (whitened.abs() > cut).select((cut / whitened.abs().cwiseMax(1e-300)).sqrt(), 1.0);
+}
+
+double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
+{
+  return (whitened * root).square().sum();
+}
+}
+
+EffectFitter::EffectFitter(const GapData& data, std::vector<char> training, std::uint64_t seed)
+  : Data(data)
+  , Training(std::move(training))
+  , Weight(data.weight)
+{
+  for (Eigen::Index j = 0; j < Weight.cols(); ++j)
+  {
+    if (Training[static_cast<std::size_t>(j)] == 0)
+    {
+      Weight.col(j).setZero();
+    }
+  }
+  const auto samples =
+    std::count_if(Training.begin(), Training.end(), [](char c) { return c != 0; });
+  Samples = static_cast<double>(samples);
+  const auto folds = static_cast<int>(std::min<std::ptrdiff_t>(InnerFolds, samples));
+  const std::vector<int> fold = foldsOf(data, Training, std::max(folds, 2), seed);
+  Fold.resize(folds >= 2 ? static_cast<std::size_t>(folds) : 0);
+  for (Eigen::Index j = 0; j < data.samples(); ++j)
+  {
+    if (Training[static_cast<std::size_t>(j)] != 0)
+    {
+      Members.push_back(j);
+      if (!Fold.empty())
+      {
+        Fold[static_cast<std::size_t>(fold[static_cast<std::size_t>(j)])].push_back(j);
+      }
+    }
+  }
+  Elements = static_cast<double>((Weight.array() > 0.0).count());
+  NoiseEnergy = (Weight.array() * Data.variance.array()).sum();
+}
+
+EffectFit EffectFitter::nominal() const
+{
+  EffectFit fit;
+  fit.predicted = Data.simulated;
+  fit.jacobian.resize(Data.observed.size(), 0);
+  fit.information.resize(0, 0);
+  crossValidate(fit);
+  return fit;
+}
+
+EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
+{
+  if (start.size() == 0)
+  {
+    return nominal();
+  }
+  EffectFit fit;
+  fit.set = std::move(start);
+  fit.free = fit.set.freeParameters(Data.camera);
+  const auto count = static_cast<Eigen::Index>(fit.free.size());
+  Eigen::ArrayXd prior(count), lower(count), upper(count), neutral(count);
+  for (Eigen::Index p = 0; p < count; ++p)
+  {
+    const FreeParameter& parameter = fit.free[static_cast<std::size_t>(p)];
+    prior[p] = 1.0 / (parameter.spread * parameter.spread);
+    lower[p] = parameter.lower;
+    upper[p] = parameter.upper;
+    neutral[p] = parameter.neutral;
+  }
+  const Eigen::ArrayXd rootWeight = flat(Weight).sqrt();
+  const auto whiten = [&](const Eigen::MatrixXd& predicted) -> Eigen::ArrayXd
+  { return (rootWeight > 0.0).select(rootWeight * (flat(Data.observed) - flat(predicted)), 0.0); };
+  std::optional<StagedResponse> here = stagedResponse(Data.camera, Data.scene, fit.set);
+  if (!here)
+  {
+    fit.predicted = noResponse(Data.camera, Data.scene);
+    fit.jacobian = Eigen::MatrixXd::Zero(Data.observed.size(), count);
+    fit.information = prior.matrix().asDiagonal();
+    crossValidate(fit);
+    return fit;
+  }
+  Eigen::ArrayXd residual = whiten(here->response());
+  double damping = 1e-6;
+  bool fresh = false;
+  for (fit.iterations = 0; fit.iterations < effort.iterations; ++fit.iterations)
+  {
+    fit.jacobian = jacobian(*here, fit.set, fit.free);
+    fresh = true;
+    const Eigen::ArrayXd root = huber(residual, rootWeight);
+    const Eigen::VectorXd values = valuesOf(fit.set, fit.free);
+    const Eigen::ArrayXd rootTrust = rootWeight * root;
+    const Eigen::Map<const Eigen::ArrayXXd> trust(
+      rootTrust.data(), Data.channels(), Data.samples());
+    Eigen::MatrixXd normal =
+      normalMatrix(fit.jacobian, trust.square(), fit.free, fit.set.reach(), Members);
+    Eigen::VectorXd gradient =
+      columnProducts(fit.jacobian, (rootWeight * residual * root.square()).matrix());
+    normal.diagonal().array() += prior;
+    gradient.array() -= prior * (values.array() - neutral);
+    // A parameter at its bound that wants further out stays.
+    for (Eigen::Index p = 0; p < count; ++p)
+    {
+      if ((values[p] >= upper[p] && gradient[p] > 0.0) ||
+        (values[p] <= lower[p] && gradient[p] < 0.0))
+      {
+        normal.row(p).setZero();
+        normal.col(p).setZero();
+        normal(p, p) = 1.0;
+        gradient[p] = 0.0;
+      }
+    }
+    const double before =
+      huberCost(residual, root) + (prior * (values.array() - neutral).square()).sum();
+    bool better = false;
+    double after = before;
+    for (int attempt = 0; attempt < 6 && !better; ++attempt)
+    {
+      Eigen::MatrixXd damped = normal;
+      damped.diagonal() *= 1.0 + damping;
+      const Eigen::VectorXd step = damped.ldlt().solve(gradient);
+      const Eigen::VectorXd trial =
+        (values + step).array().cwiseMax(lower).cwiseMin(upper).matrix();
+      EffectSet moved = fit.set;
+      setValues(moved, fit.free, trial);
+      std::optional<StagedResponse> there = stagedResponse(*here, moved);
+      if (there)
+      {
+        Eigen::ArrayXd trialResidual = whiten(there->response());
+        after = huberCost(trialResidual, root) + (prior * (trial.array() - neutral).square()).sum();
+        better = after < before;
+        if (better)
+        {
+          fit.set = std::move(moved);
+          here = std::move(there);
+          residual = std::move(trialResidual);
+          fresh = false;
+        }
+      }
+      damping = better ? std::fmax(damping * 0.1, 1e-9) : std::fmax(damping * 30.0, 1e-3);
+    }
+    if (!better || before - after < effort.converged * before ||
+      after - Remaining * (before - after) > effort.unwanted)
+    {
+      break;
+    }
+  }
+  if (!fresh)
+  {
+    fit.jacobian = jacobian(*here, fit.set, fit.free);
+  }
+  fit.predicted = here->response();
+  fit.information = normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), Members);
+  fit.information.diagonal().array() += prior;
+  crossValidate(fit);
+  return fit;
+}
+
+void EffectFitter::crossValidate(EffectFit& fit) const
+{
+  const Eigen::Index channels = Data.channels();
+  const Eigen::Index samples = Data.samples();
+  fit.heldOut = (Weight.array() > 0.0).select(Data.observed - fit.predicted, 0.0);
+  const Eigen::Index count = fit.jacobian.cols();
+  if (count > 0 && !Fold.empty())
+  {
+    std::vector<Eigen::MatrixXd> normal;
+    std::vector<Eigen::VectorXd> gradient;
+    for (const std::vector<Eigen::Index>& members : Fold)
+    {
+      normal.push_back(
+        normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), members));
+      Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
+      for (const Eigen::Index j : members)
+      {
+        sum += fit.jacobian.middleRows(j * channels, channels).transpose() *
+          (Weight.col(j).array() * fit.heldOut.col(j).array()).matrix();
+      }
+      gradient.push_back(std::move(sum));
+    }
+    for (std::size_t f = 0; f < Fold.size(); ++f)
+    {
+      Eigen::VectorXd step = (fit.information - normal[f]).ldlt().solve(gradient[f]);
+      for (Eigen::Index p = 0; p < count; ++p)
+      {
+        // The estimate without the fold is minus this step away, and keeps to the bounds.
+        const FreeParameter& parameter = fit.free[static_cast<std::size_t>(p)];
+        const double value = valueOf(fit.set, parameter);
+        step[p] = std::fmin(std::fmax(step[p], value - parameter.upper), value - parameter.lower);
+      }
+      for (const Eigen::Index j : Fold[f])
+      {
+        fit.heldOut.col(j) += fit.jacobian.middleRows(j * channels, channels) * step;
+      }
+    }
+    fit.heldOut = (Weight.array() > 0.0).select(fit.heldOut, 0.0);
+  }
+  fit.energy = (Weight.array() * fit.heldOut.array().square()).sum();
+  // Between the channels of one sample errors go together; the sum over a sample then scatters more.
+  double together = 0.0;
+  for (Eigen::Index j = 0; j < samples; ++j)
+  {
+    const double sum = (Weight.col(j).array().sqrt() * fit.heldOut.col(j).array()).sum();
+    together += sum * sum;
+  }
+  const double mean = fit.energy / std::fmax(Elements, 1.0);
+  const double effect = fit.energy > 0.0 ? together / fit.energy : 1.0;
+  fit.dispersion = mean * std::fmin(std::fmax(effect, 1.0), static_cast<double>(channels));
+}
+
+Eigen::VectorXd EffectFitter::weighted(const Eigen::MatrixXd& change) const
+{
+  const Eigen::ArrayXXd whole =
+    (Weight.array() > 0.0).select(Weight.array().sqrt() * change.array(), 0.0);
+  return Eigen::Map<const Eigen::VectorXd>(whole.data(), whole.size());
+}
+
+Eigen::MatrixXd EffectFitter::covariance(const EffectFit& fit) const
+{
+  const Eigen::Index channels = Data.channels();
+  const Eigen::Index count = fit.jacobian.cols();
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(count, count);
+  double samples = 0.0;
+  for (Eigen::Index j = 0; j < Data.samples(); ++j)
+  {
+    if (Training[static_cast<std::size_t>(j)] != 0)
+    {
+      const Eigen::VectorXd score = fit.jacobian.middleRows(j * channels, channels).transpose() *
+        (Weight.col(j).array() * fit.heldOut.col(j).array()).matrix();
+      meat += score * score.transpose();
+      samples += 1.0;
+    }
+  }
+  const Eigen::MatrixXd inverse =
+    fit.information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  return samples / std::fmax(samples - 1.0, 1.0) * inverse * meat * inverse;
+}
+
+} // namespace msi

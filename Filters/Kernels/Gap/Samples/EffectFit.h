@@ -1,0 +1,88 @@
+// Fits sets of effects to a capture and says how well they predict samples that were left out.
+#pragma once
+
+#include "Kernels/Gap/Samples/EffectSet.h"
+#include "Kernels/Gap/Samples/GapData.h"
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <vector>
+
+namespace msi
+{
+
+// How far a fit is taken.
+struct FitEffort
+{
+  int iterations;   // at most
+  double converged; // part of the error by which an iteration must better it, for another to follow
+  // Of no interest with more error than this: a fit that cannot get there any more stops where it is.
+  double unwanted = std::numeric_limits<double>::infinity();
+
+  FitEffort unwantedAbove(double error) const noexcept { return { iterations, converged, error }; }
+};
+constexpr FitEffort SearchFit{ 6, 1e-4 }; // of a set among many
+constexpr FitEffort FinalFit{ 20, 1e-5 }; // of one that stays
+
+struct EffectFit
+{
+  EffectSet set;
+  std::vector<FreeParameter> free;
+  Eigen::MatrixXd predicted;   // K x S, all samples
+  Eigen::MatrixXd jacobian;    // KS x p
+  Eigen::MatrixXd information; // p x p, weighted normal matrix with its prior
+  Eigen::MatrixXd heldOut; // K x S, cross-validated residual of the training samples, 0 elsewhere
+  double energy = 0.0;     // weighted sum of squares of heldOut
+  double dispersion =
+    1.0; // energy a residual element has, with the samples' correlation between channels
+  int iterations = 0;
+
+  Eigen::Index parameters() const noexcept
+  {
+    return jacobian.cols() + static_cast<Eigen::Index>(set.steps());
+  }
+};
+
+// Gauss-Newton with Levenberg damping, bounds by projection, Huber weights at five times the median
+// residual. Each parameter has a normal prior about neutral (FreeParameter::spread), so that what the data does not
+// determine stays neutral.
+//
+// Cross-validation: the estimate without a fold is one Gauss-Newton step from the estimate with it, exact
+// for linear effects and to second order in the step else; so folds cost no further simulation.
+class EffectFitter
+{
+public:
+  // Only samples with training != 0 are looked at. Holds a reference to data.
+  EffectFitter(const GapData& data, std::vector<char> training, std::uint64_t seed);
+
+  const GapData& data() const noexcept { return Data; }
+  const Eigen::MatrixXd& weight() const noexcept { return Weight; }
+  const std::vector<char>& training() const noexcept { return Training; }
+  double trainingSamples() const noexcept { return Samples; }
+  double trainingElements() const noexcept { return Elements; }
+  double noiseEnergy() const noexcept { return NoiseEnergy; } // what noise alone leaves of energy
+
+  EffectFit nominal() const;
+  EffectFit fit(EffectSet start, const FitEffort& effort) const; // nominal() without effects
+
+  // A change of the response, K x S, times the root of the weights, element by element.
+  Eigen::VectorXd weighted(const Eigen::MatrixXd& change) const;
+
+  // Covariance of the free parameters: sandwich over samples, whose channels may err together.
+  Eigen::MatrixXd covariance(const EffectFit& fit) const;
+
+private:
+  void crossValidate(EffectFit& fit) const;
+
+  const GapData& Data;
+  std::vector<char> Training;
+  Eigen::MatrixXd Weight;
+  std::vector<Eigen::Index> Members;           // the training samples
+  std::vector<std::vector<Eigen::Index>> Fold; // the training samples by inner fold
+  double Samples = 0.0;
+  double Elements = 0.0;
+  double NoiseEnergy = 0.0;
+};
+
+} // namespace msi

@@ -1,0 +1,372 @@
+#include "Kernels/Gap/Samples/EffectSet.h"
+
+#include "Kernels/Camera/CameraSimulator.h"
+#include "Kernels/Gap/Samples/TableDecisions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double RelativeStep = 1e-3; // of a parameter's typical size
+
+CameraSimulatorOptions optionsOf(const EffectSet& set)
+{
+  return { set.whiteAfterEffects() };
+}
+
+// Nothing for a trial that leaves a channel without light.
+template <typename Simulate>
+auto litOrNothing(Simulate simulate) -> std::optional<decltype(simulate())>
+{
+  try
+  {
+    return simulate();
+  }
+  catch (const std::invalid_argument&)
+  {
+    return std::nullopt;
+  }
+}
+
+// (there - here) / step in the rows low..high of all samples; 0 for samples without reflectance.
+void derive(const Eigen::MatrixXd& there, const Eigen::MatrixXd& here, double step,
+  Eigen::Index low, Eigen::Index high, double* column)
+{
+  const bool whole = low == 0 && high == here.rows() - 1;
+  const Eigen::Index runs = whole ? 1 : here.cols();
+  const Eigen::Index count = whole ? here.size() : high - low + 1;
+  for (Eigen::Index j = 0; j < runs; ++j)
+  {
+    const Eigen::Index first = j * here.rows() + low;
+    for (Eigen::Index i = first; i < first + count; ++i)
+    {
+      const double change = (there.data()[i] - here.data()[i]) / step;
+      column[i] = std::isfinite(change) ? change : 0.0;
+    }
+  }
+}
+
+// The effect that carries the level of the choices that are leveled.
+const EffectDefinition& levelEffect()
+{
+  return effectWith(EffectTrait::CommonGain);
+}
+}
+
+bool EffectSet::has(const EffectChoice& cause) const noexcept
+{
+  return std::any_of(choices.begin(), choices.end(),
+    [&cause](const EffectChoice& choice) { return choice.sameCause(cause); });
+}
+
+bool EffectSet::whiteAfterEffects() const noexcept
+{
+  return std::any_of(
+    choices.begin(), choices.end(), [](const EffectChoice& choice) { return choice.whiteAfter; });
+}
+
+bool EffectSet::leveled() const noexcept
+{
+  return std::any_of(choices.begin(), choices.end(),
+           [](const EffectChoice& choice) { return choice.leveled; }) &&
+    std::none_of(choices.begin(), choices.end(),
+      [](const EffectChoice& choice) { return choice.effect->has(EffectTrait::CommonGain); });
+}
+
+std::size_t EffectSet::steps() const noexcept
+{
+  return static_cast<std::size_t>(std::count_if(choices.begin(), choices.end(),
+    [](const EffectChoice& choice)
+    {
+      const auto& parameters = choice.form->parameters;
+      return std::any_of(parameters.begin(), parameters.end(),
+        [](const EffectParameter& parameter) { return parameter.searched; });
+    }));
+}
+
+Eigen::Index EffectSet::reach() const noexcept
+{
+  const bool coupled = std::any_of(choices.begin(), choices.end(),
+    [](const EffectChoice& choice) { return choice.effect->has(EffectTrait::CouplesChannels); });
+  return coupled ? 1 : 0;
+}
+
+std::vector<CameraEffect> EffectSet::simulated() const
+{
+  std::vector<CameraEffect> all = effects;
+  if (leveled())
+  {
+    all.push_back({ levelEffect().name, "", "", { level } });
+  }
+  return all;
+}
+
+void EffectSet::add(
+  const EffectChoice& choice, const CameraModel& camera, const std::vector<double>& start)
+{
+  choices.push_back(choice);
+  effects.push_back(
+    neutralEffect(choice.effect->name, camera.channels(), choice.form->name, choice.medium));
+  secondaryFree.push_back(0);
+  if (start.size() == effects.back().parameters.size())
+  {
+    effects.back().parameters = start;
+  }
+  else if (!start.empty())
+  {
+    std::size_t at = 0;
+    for (std::size_t p = 0; p < choice.form->parameters.size(); ++p)
+    {
+      const std::size_t count =
+        choice.form->parameters[p].perChannel ? camera.channels().size() : 1;
+      std::fill_n(
+        effects.back().parameters.begin() + static_cast<std::ptrdiff_t>(at), count, start[p]);
+      at += count;
+    }
+  }
+}
+
+void EffectSet::add(const EffectSet& from, std::size_t position)
+{
+  choices.push_back(from.choices[position]);
+  effects.push_back(from.effects[position]);
+  secondaryFree.push_back(from.secondaryFree[position]);
+}
+
+void EffectSet::remove(std::size_t position)
+{
+  const auto at = static_cast<std::ptrdiff_t>(position);
+  choices.erase(choices.begin() + at);
+  effects.erase(effects.begin() + at);
+  secondaryFree.erase(secondaryFree.begin() + at);
+}
+
+std::optional<StepPlace> EffectSet::placeOf(std::size_t position) const
+{
+  const std::vector<EffectParameter>& parameters = choices[position].form->parameters;
+  std::size_t index = 0;
+  for (const EffectParameter& parameter : parameters)
+  {
+    if (parameter.searched)
+    {
+      return StepPlace{ index, &parameter };
+    }
+    // At most one parameter of a form with a step has a number for each channel.
+    index +=
+      parameter.perChannel ? effects[position].parameters.size() - (parameters.size() - 1) : 1;
+  }
+  return std::nullopt;
+}
+
+std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) const
+{
+  std::vector<FreeParameter> free;
+  std::size_t group = 0;
+  for (std::size_t e = 0; e < effects.size(); ++e)
+  {
+    std::size_t index = 0;
+    for (const EffectParameter& parameter : choices[e].form->parameters)
+    {
+      const auto count = parameter.perChannel ? camera.channelCount() : Eigen::Index(1);
+      const bool isFree =
+        !parameter.searched && !parameter.given && (!parameter.secondary || secondaryFree[e] != 0);
+      for (Eigen::Index k = 0; k < count; ++k, ++index)
+      {
+        if (isFree)
+        {
+          std::string name = parameter.name;
+          if (parameter.perChannel)
+          {
+            name += "[" + camera.channels()[static_cast<std::size_t>(k)] + "]";
+          }
+          free.push_back({ e, index, parameter.perChannel ? k : -1, group, parameter.neutral,
+            parameter.lower, parameter.upper, parameter.typical,
+            (parameter.secondary ? TableDecision::SecondarySpread : TableDecision::FreeSpread) *
+              parameter.typical,
+            name, parameter.unit });
+        }
+      }
+      ++group;
+    }
+  }
+  if (leveled())
+  {
+    const EffectParameter& gain = levelEffect().forms.front().parameters.front();
+    free.push_back({ effects.size(), 0, -1, group, gain.neutral, gain.lower, gain.upper,
+      gain.typical, TableDecision::FreeSpread * gain.typical, "level", gain.unit });
+  }
+  return free;
+}
+
+double valueOf(const EffectSet& set, const FreeParameter& parameter)
+{
+  return parameter.effect < set.effects.size()
+    ? set.effects[parameter.effect].parameters[parameter.index]
+    : set.level;
+}
+
+void setValue(EffectSet& set, const FreeParameter& parameter, double value)
+{
+  (parameter.effect < set.effects.size() ? set.effects[parameter.effect].parameters[parameter.index]
+                                         : set.level) = value;
+}
+
+Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>& free)
+{
+  Eigen::VectorXd values(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t p = 0; p < free.size(); ++p)
+  {
+    values[static_cast<Eigen::Index>(p)] = valueOf(set, free[p]);
+  }
+  return values;
+}
+
+void setValues(
+  EffectSet& set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& values)
+{
+  for (std::size_t p = 0; p < free.size(); ++p)
+  {
+    setValue(set, free[p], values[static_cast<Eigen::Index>(p)]);
+  }
+}
+
+Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set)
+{
+  const auto response = litOrNothing(
+    [&] { return CameraSimulator(camera, set.simulated(), optionsOf(set)).respond(scene); });
+  return response ? *response : noResponse(camera, scene);
+}
+
+Eigen::MatrixXd noResponse(const CameraModel& camera, const SampleScene& scene)
+{
+  return Eigen::MatrixXd::Constant(
+    camera.channelCount(), scene.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+std::optional<StagedResponse> stagedResponse(
+  const CameraModel& camera, const SampleScene& scene, const EffectSet& set)
+{
+  return litOrNothing(
+    [&] { return StagedResponse(camera, scene, set.simulated(), optionsOf(set)); });
+}
+
+std::optional<StagedResponse> stagedResponse(const StagedResponse& related, const EffectSet& set)
+{
+  return litOrNothing([&] { return StagedResponse(related, set.simulated(), optionsOf(set)); });
+}
+
+Eigen::MatrixXd jacobian(
+  const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free)
+{
+  const Eigen::MatrixXd& base = here.response();
+  const Eigen::Index reach = set.reach();
+  const Eigen::Index colors = 2 * reach + 1;
+  const Eigen::Index channels = base.rows();
+  Eigen::MatrixXd columns(base.size(), static_cast<Eigen::Index>(free.size()));
+  const auto stepOf = [&](const FreeParameter& parameter)
+  {
+    const double value = valueOf(set, parameter);
+    const double step = RelativeStep * parameter.scale;
+    return value + step > parameter.upper ? -step : step;
+  };
+  std::size_t first = 0;
+  while (first < free.size())
+  {
+    std::size_t last = first + 1;
+    while (last < free.size() && free[last].group == free[first].group)
+    {
+      ++last;
+    }
+    const bool perChannel = free[first].channel >= 0;
+    for (Eigen::Index color = 0; color < (perChannel ? colors : 1); ++color)
+    {
+      EffectSet moved = set;
+      for (std::size_t p = first; p < last; ++p)
+      {
+        if (!perChannel || free[p].channel % colors == color)
+        {
+          setValue(moved, free[p], valueOf(set, free[p]) + stepOf(free[p]));
+        }
+      }
+      const std::optional<StagedResponse> there = stagedResponse(here, moved);
+      for (std::size_t p = first; p < last; ++p)
+      {
+        if (perChannel && free[p].channel % colors != color)
+        {
+          continue;
+        }
+        double* column = columns.col(static_cast<Eigen::Index>(p)).data();
+        if (perChannel || !there)
+        {
+          std::fill_n(column, base.size(), 0.0);
+        }
+        if (there)
+        {
+          const Eigen::Index low =
+            perChannel ? std::max<Eigen::Index>(free[p].channel - reach, 0) : 0;
+          const Eigen::Index high = perChannel
+            ? std::min<Eigen::Index>(free[p].channel + reach, channels - 1)
+            : channels - 1;
+          derive(there->response(), base, stepOf(free[p]), low, high, column);
+        }
+      }
+    }
+    first = last;
+  }
+  return columns;
+}
+
+std::vector<EffectChoice> choicesFor(
+  const SampleScene& scene, const std::vector<std::string>& without)
+{
+  const auto barred = [&without](const std::string& name)
+  { return std::find(without.begin(), without.end(), name) != without.end(); };
+  const bool mayBrighten = !barred(levelEffect().name);
+  std::vector<EffectChoice> choices;
+  for (const EffectDefinition& effect : effectLibrary())
+  {
+    const bool shown = effect.stage != EffectStage::Noise && effect.stage != EffectStage::Image &&
+      (effect.need != EffectNeed::Position || scene.hasPositions()) &&
+      (effect.need != EffectNeed::Order || scene.hasOrder()) &&
+      (effect.need != EffectNeed::Medium || !scene.samples().medium.empty()) &&
+      !barred(effect.name);
+    if (!shown)
+    {
+      continue;
+    }
+    const std::vector<std::string> media =
+      effect.need == EffectNeed::Medium ? scene.media() : std::vector<std::string>{ std::string() };
+    for (const std::string& medium : media)
+    {
+      if (effect.need == EffectNeed::Medium && medium.empty())
+      {
+        continue;
+      }
+      for (const EffectForm& form : effect.forms)
+      {
+        // Where a common gain may not be blamed nothing else may carry one in disguise.
+        if (!form.has(FormTrait::Brightens) || mayBrighten)
+        {
+          choices.push_back({ &effect, &form, medium });
+        }
+        if (effect.stage == EffectStage::Responsivity && !form.has(FormTrait::KeepsWhite))
+        {
+          choices.push_back({ &effect, &form, medium, true });
+        }
+        if (effect.has(EffectTrait::SpectralGain) && mayBrighten)
+        {
+          choices.push_back({ &effect, &form, medium, false, true });
+        }
+      }
+    }
+  }
+  return choices;
+}
+
+} // namespace msi

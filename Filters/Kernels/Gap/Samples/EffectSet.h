@@ -1,0 +1,109 @@
+// A hypothesis about the camera: some effects, some of their parameters free.
+#pragma once
+
+#include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Camera/CameraModel.h"
+#include "Kernels/Camera/SampleScene.h"
+#include "Kernels/Camera/StagedResponse.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+// One form of one effect that may be tried.
+struct EffectChoice
+{
+  const EffectDefinition* effect = nullptr;
+  const EffectForm* form = nullptr;
+  std::string medium;
+  // The white was taken with this effect in place: CameraSimulatorOptions::whiteAfterEffects.
+  bool whiteAfter = false;
+  // With a level of its own: a lamp that changes its color also changes its brightness. The library's forms of
+  // such an effect hold the brightness; a gain of all channels carries it in the simulator.
+  bool leveled = false;
+
+  // The same effect on the same medium, whatever the form.
+  bool sameCause(const EffectChoice& other) const noexcept
+  {
+    return effect == other.effect && medium == other.medium;
+  }
+};
+
+struct FreeParameter
+{
+  std::size_t effect;   // in EffectSet::effects; their number for the level
+  std::size_t index;    // in CameraEffect::parameters
+  Eigen::Index channel; // -1: common to all channels
+  std::size_t group;    // parameters of one group differ in the channel only
+  double neutral, lower, upper, scale;
+  double spread; // standard deviation about neutral before the data speak
+  std::string name, unit;
+};
+
+// The parameter that says when a step takes place: its index in CameraEffect::parameters, that of its width behind it.
+struct StepPlace
+{
+  std::size_t index;
+  const EffectParameter* parameter;
+};
+
+struct EffectSet
+{
+  std::vector<EffectChoice> choices;
+  std::vector<CameraEffect> effects; // one a choice
+  std::vector<char> secondaryFree;   // one a choice
+  double level = 1.0;                // of the choices that are leveled
+
+  std::size_t size() const noexcept { return effects.size(); }
+  bool has(const EffectChoice& cause) const noexcept;
+  bool whiteAfterEffects() const noexcept;
+  bool leveled() const noexcept;      // and no gain of all channels is there to do it
+  std::size_t steps() const noexcept; // places of steps in time: found by search, not by derivative
+  // How many channels away the parameters of one channel act.
+  Eigen::Index reach() const noexcept;
+  // What the simulator is to run with.
+  std::vector<CameraEffect> simulated() const;
+  // Added at its neutral values, or at `start`: one number a parameter of the form, or all numbers of the effect.
+  void add(
+    const EffectChoice& choice, const CameraModel& camera, const std::vector<double>& start = {});
+  void add(const EffectSet& from, std::size_t position); // with its values
+  void remove(std::size_t position);
+  std::optional<StepPlace> placeOf(std::size_t position) const; // empty: it makes no step
+  std::vector<FreeParameter> freeParameters(const CameraModel& camera) const;
+};
+
+double valueOf(const EffectSet& set, const FreeParameter& parameter);
+void setValue(EffectSet& set, const FreeParameter& parameter, double value);
+Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>& free);
+void setValues(
+  EffectSet& set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& values);
+
+// Noise-free response of the camera with these effects, K x S; noResponse() where a channel is left without light.
+Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
+
+// As bad as can be, for a fit to turn back from: not a number anywhere.
+Eigen::MatrixXd noResponse(const CameraModel& camera, const SampleScene& scene);
+
+// The same for a fit, which asks for many that are alike. Empty where a channel is left without light.
+std::optional<StagedResponse> stagedResponse(
+  const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
+std::optional<StagedResponse> stagedResponse(const StagedResponse& related, const EffectSet& set);
+
+// Derivative of the response `here`, that of the set, by these of its parameters: one column a parameter, rows in the
+// order of the K x S response; 0 where there is none.
+// Forward differences. The parameters of one channel move that channel only (with channel_crosstalk also
+// its neighbours), so all channels are moved at once.
+Eigen::MatrixXd jacobian(
+  const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free);
+
+// The effects of the library that this scene can show in its mean response, form by form, without those named;
+// those of lamp and filters also with the white taken after them.
+std::vector<EffectChoice> choicesFor(
+  const SampleScene& scene, const std::vector<std::string>& without);
+
+} // namespace msi

@@ -1,0 +1,184 @@
+#include "Kernels/Gap/Samples/GapData.h"
+
+#include "Kernels/Camera/CameraResponse.h"
+#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Gap/Samples/TableDecisions.h"
+#include "Kernels/Spectra/Interpolation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace msi
+{
+
+namespace
+{
+
+template <typename... Parts>
+[[noreturn]] void reject(const Parts&... parts)
+{
+  std::ostringstream message;
+  (message << ... << parts);
+  throw std::invalid_argument(message.str());
+}
+
+void validate(const GapCapture& capture)
+{
+  const Eigen::Index channels = capture.camera.channelCount();
+  if (capture.readings.rows() != channels)
+  {
+    reject(
+      "the camera has ", channels, " channels but the readings have ", capture.readings.rows());
+  }
+  if (static_cast<Eigen::Index>(capture.sampleOf.size()) != capture.readings.cols())
+  {
+    reject("there are ", capture.readings.cols(), " readings but ", capture.sampleOf.size(),
+      " sample numbers for them");
+  }
+  const Eigen::Index samples = capture.samples.reflectance.cols();
+  for (std::size_t i = 0; i < capture.sampleOf.size(); ++i)
+  {
+    if (capture.sampleOf[i] < 0 || capture.sampleOf[i] >= samples)
+    {
+      reject("reading ", i + 1, " belongs to sample number ", capture.sampleOf[i],
+        " but there are only ", samples, " samples, counted from 0");
+    }
+  }
+  if (capture.samples.reflectance.rows() != capture.wavelengths.size())
+  {
+    reject("the samples' reflectances have ", capture.samples.reflectance.rows(),
+      " wavelengths, their grid ", capture.wavelengths.size());
+  }
+}
+
+// Without positions that differ, or an order that does, nothing depends on them.
+void dropConstantColumns(SceneSamples& samples)
+{
+  const auto constant = [](const Eigen::VectorXd& v)
+  { return v.size() > 0 && v.maxCoeff() == v.minCoeff(); };
+  if (samples.x.size() > 0 && constant(samples.x) && constant(samples.y))
+  {
+    samples.x.resize(0);
+    samples.y.resize(0);
+  }
+  if (constant(samples.order))
+  {
+    samples.order.resize(0);
+  }
+}
+
+SampleScene alignedScene(const GapCapture& capture)
+{
+  SceneSamples samples = capture.samples;
+  const WavelengthGrid& grid = capture.camera.wavelengths();
+  if (grid != capture.wavelengths)
+  {
+    samples.reflectance =
+      (resamplingMatrix(capture.wavelengths, grid) * samples.reflectance).eval();
+  }
+  dropConstantColumns(samples);
+  return SampleScene(grid, std::move(samples));
+}
+
+void averageReadings(const GapCapture& capture, GapData& data)
+{
+  const Eigen::Index channels = data.camera.channelCount();
+  const Eigen::Index samples = data.scene.size();
+  data.observed = Eigen::MatrixXd::Zero(channels, samples);
+  data.count = Eigen::MatrixXd::Zero(channels, samples);
+  data.scatter = Eigen::MatrixXd::Zero(channels, samples);
+  for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
+  {
+    const Eigen::Index sample = capture.sampleOf[static_cast<std::size_t>(j)];
+    for (Eigen::Index k = 0; k < channels; ++k)
+    {
+      const double value = capture.readings(k, j);
+      if (std::isfinite(value))
+      {
+        // Welford's update.
+        const double before = value - data.observed(k, sample);
+        data.count(k, sample) += 1.0;
+        data.observed(k, sample) += before / data.count(k, sample);
+        data.scatter(k, sample) += before * (value - data.observed(k, sample));
+      }
+    }
+  }
+}
+}
+
+GapData prepareGapData(const GapCapture& capture, const GapOptions& options)
+{
+  validate(capture);
+  GapData data{ capture.camera, alignedScene(capture), {}, {}, {}, {}, {}, {}, {}, {}, 0, 0 };
+  averageReadings(capture, data);
+  data.simulated = cameraResponse(data.camera)(data.scene.reflectance());
+  data.usable.assign(static_cast<std::size_t>(data.samples()), 0);
+  for (Eigen::Index j = 0; j < data.samples(); ++j)
+  {
+    if (!data.simulated.col(j).allFinite())
+    {
+      data.count.col(j).setZero();
+    }
+    data.usable[static_cast<std::size_t>(j)] = (data.count.col(j).array() > 0.0).any() ? 1 : 0;
+    data.observed.col(j) =
+      (data.count.col(j).array() > 0.0).select(data.observed.col(j), data.simulated.col(j));
+  }
+  data.elements = (data.count.array() > 0.0).count();
+  const auto usable = std::count(data.usable.begin(), data.usable.end(), 1);
+  if (usable < 2)
+  {
+    reject("a diagnosis needs 2 samples or more with reading and reflectance; ", usable, " of ",
+      data.samples(), " have both");
+  }
+  data.folds = static_cast<int>(std::min<std::ptrdiff_t>(std::max(options.folds, 2), usable));
+  data.fold = foldsOf(data, data.usable, data.folds, options.seed);
+  return data;
+}
+
+void setWeights(GapData& data)
+{
+  const auto measured = (data.count.array() > 0.0).cast<double>();
+  const Eigen::ArrayXXd gap =
+    (data.count.array() > 0.0).select(data.observed - data.simulated, 0.0).array();
+  const double energy = gap.square().sum() / static_cast<double>(data.elements);
+  const double tolerance =
+    TableDecision::FormTolerance * TableDecision::FormTolerance * energy + 1e-14;
+  data.weight = measured / (data.variance.array() + tolerance);
+}
+
+std::vector<int> foldsOf(
+  const GapData& data, const std::vector<char>& among, int folds, std::uint64_t seed)
+{
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < among.size(); ++i)
+  {
+    if (among[i] != 0)
+    {
+      order.push_back(i);
+    }
+  }
+  const CounterRandom random(seed, 71);
+  std::vector<double> key(among.size());
+  for (const std::size_t i : order)
+  {
+    key[i] = random.uniform(i);
+  }
+  std::sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b)
+    {
+      return std::make_pair(data.scene.medium()[a], key[a]) <
+        std::make_pair(data.scene.medium()[b], key[b]);
+    });
+  std::vector<int> fold(among.size(), -1);
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    fold[order[i]] = static_cast<int>(i % static_cast<std::size_t>(folds));
+  }
+  return fold;
+}
+
+} // namespace msi

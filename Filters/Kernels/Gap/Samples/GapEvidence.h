@@ -1,0 +1,49 @@
+// The numbers by which a diagnosis decides whether there is a gap, and whether its causes account for it.
+#pragma once
+
+#include "Kernels/Gap/GapReport.h"
+#include "Kernels/Gap/Samples/GapAxes.h"
+#include "Kernels/Gap/Samples/GapData.h"
+#include "Kernels/Gap/Shrink.h"
+
+#include <Eigen/Core>
+
+namespace msi
+{
+
+// K x S throughout; `gap`, `before`, `after`: real minus simulated, 0 where nothing was measured.
+
+// The values where something was measured, 0 elsewhere.
+Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values);
+
+// Without noise model and repeats: per channel what no basis predicts is noise.
+void setUnknownNoise(GapData& data);
+
+// The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
+// it allows, only as much of it stays in data.variance as what is left shows. Returns the mean variance taken away.
+double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted);
+
+// Per-sample energies before and after, and what noise allows.
+SampleEnergies energiesOf(
+  const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
+
+// Whether the bases predict held-out samples: their gain in energy, sample by sample, against its own error.
+bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares);
+
+// A gap that nothing predicts but that noise, with the largest reflectance noise allowed for, does not make.
+// integration: further variance that sums over wavelength may make.
+bool beyondNoise(const GapFigures& gap, double integration);
+
+// Energy that errors of sums over wavelength, or a small part of what is left, may be.
+double negligibleEnergy(
+  const GapData& data, const Eigen::MatrixXd& after, const Eigen::MatrixXd& integration);
+
+// Whether what the causes take away is more than errors of sums over wavelength and of reflectance could be: on average,
+// or in single samples that make up most of it.
+bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
+  const Eigen::MatrixXd& integration);
+
+// Whether a change of the response stands in so few samples that none of them can be left out to check it.
+bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change);
+
+} // namespace msi

@@ -1,0 +1,267 @@
+#include "Kernels/Gap/Samples/GapNotes.h"
+
+#include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Gap/Samples/TableDecisions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace msi
+{
+
+namespace
+{
+
+template <typename... Parts>
+std::string text(const Parts&... parts)
+{
+  std::ostringstream message;
+  message.precision(3);
+  (message << ... << parts);
+  return message.str();
+}
+
+void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
+  const NoiseFinding& noise, double reflectanceNoise)
+{
+  if (noise.unknown)
+  {
+    notes.push_back(
+      "No noise model and one reading a sample: what no effect and no axis predicts is "
+      "taken for noise. A second reading of each sample would tell.");
+  }
+  else if (!capture.noise)
+  {
+    notes.push_back(text("The noise comes from the repeats: read ", noise.reading.read, ", shot ",
+      noise.reading.shot, ", relative to white."));
+  }
+  else if (noise.unrepeated)
+  {
+    notes.push_back(text("One reading a sample, and what is left scatters ", noise.excess,
+      " times as much as the noise model allows: noise, or an error of its own of each sample. "
+      "A second reading of each would tell."));
+  }
+  else if (noise.degrees < 4.0)
+  {
+    notes.push_back("One reading a sample: the noise model could not be checked.");
+  }
+  if (reflectanceNoise > 0.0)
+  {
+    notes.push_back(
+      text("The measured reflectances are taken to scatter by ", reflectanceNoise, "."));
+  }
+}
+
+// "illumination gradient, vignetting and local stray light"
+std::string namesOf(EffectNeed need)
+{
+  std::vector<std::string> names;
+  for (const EffectDefinition& effect : effectLibrary())
+  {
+    if (effect.need == need)
+    {
+      names.push_back(effect.name);
+      std::replace(names.back().begin(), names.back().end(), '_', ' ');
+    }
+  }
+  std::string all = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i)
+  {
+    all += (i + 1 < names.size() ? ", " : " and ") + names[i];
+  }
+  return all;
+}
+
+void noteScene(std::vector<std::string>& notes, const GapData& data)
+{
+  const SceneSamples& samples = data.scene.samples();
+  if (samples.medium.empty())
+  {
+    notes.push_back("The samples name no medium: effects of one medium were not tried.");
+  }
+  else if (data.scene.media().size() == 1)
+  {
+    notes.push_back(
+      "One medium only: an effect of the medium and one of the camera can look alike.");
+  }
+  if (!data.scene.hasPositions())
+  {
+    notes.push_back("No positions: " + namesOf(EffectNeed::Position) + " were not tried.");
+  }
+  if (!data.scene.hasOrder())
+  {
+    notes.push_back("No capture order: " + namesOf(EffectNeed::Order) + " was not tried.");
+  }
+  if (data.scene.scenes().size() == 1)
+  {
+    notes.push_back("One scene only: veiling glare looks like a dark offset of each channel.");
+  }
+}
+
+void noteSamples(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
+{
+  const auto usable = std::count(data.usable.begin(), data.usable.end(), 1);
+  if (usable < data.samples())
+  {
+    notes.push_back(text(data.samples() - usable, " of ", data.samples(),
+      " samples have no reading or no reflectance and were left out."));
+  }
+  std::size_t parameters = 0;
+  for (const GapCause& cause : report.causes)
+  {
+    parameters += cause.parameters.size();
+  }
+  if (static_cast<std::size_t>(usable) < std::max<std::size_t>(parameters, 20))
+  {
+    notes.push_back(
+      text(usable, " samples are few for ", parameters, " parameters: expect wide intervals."));
+  }
+  const Eigen::MatrixXd& r = data.scene.reflectance();
+  double spread = 0.0;
+  double level = 0.0;
+  for (Eigen::Index i = 0; i < r.cols(); ++i)
+  {
+    if (data.usable[static_cast<std::size_t>(i)] != 0)
+    {
+      const double mean = r.col(i).mean();
+      spread += (r.col(i).array() - mean).square().mean();
+      level += mean * mean;
+    }
+  }
+  if (spread < 1e-4 * level)
+  {
+    notes.push_back(
+      "The reflectances hardly change with wavelength: lamp, filters and channel gains "
+      "cannot be told apart.");
+  }
+}
+
+void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
+{
+  if (report.unconfirmed)
+  {
+    notes.push_back(
+      "What the causes do shows in a few samples only, and the others cannot confirm it: "
+      "more samples like these would.");
+  }
+  noteUncredited(notes, report.uncredited);
+}
+
+void noteSaturation(std::vector<std::string>& notes, const GapData& data)
+{
+  const double top = data.observed.maxCoeff();
+  Eigen::Index equal = 0;
+  for (Eigen::Index i = 0; i < data.observed.size(); ++i)
+  {
+    equal += data.count(i) > 0.0 && data.observed(i) >= top - 1e-6 * std::fabs(top) ? 1 : 0;
+  }
+  if (static_cast<double>(equal) >
+    TableDecision::EqualReadings * static_cast<double>(data.elements))
+  {
+    notes.push_back(text(equal, " readings share the largest value ", top,
+      ": they look clipped and say little about any other effect."));
+  }
+}
+}
+
+void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,
+  const std::optional<ReadingNoise>& given, const std::vector<std::string>& without)
+{
+  const EffectDefinition& effect = effectOf(EffectStage::Noise);
+  const bool barred = std::find(without.begin(), without.end(), effect.name) != without.end();
+  if (!given || noise.excess <= 1.0)
+  {
+    return;
+  }
+  if (barred)
+  {
+    if (report.verdict == GapVerdict::NoGap)
+    {
+      report.verdict = GapVerdict::Unexplained;
+      report.unexplained = { 1.0,
+        text(noise.unrepeated ? "scatter, " : "scatter between repeats, ", noise.excess,
+          " times what the noise model allows"),
+        {} };
+    }
+    return;
+  }
+  const Eigen::MatrixXd expected = readingVariance(data, *given);
+  const Eigen::MatrixXd found = readingVariance(data, noise.reading);
+  const auto measured = (data.count.array() > 0.0).cast<double>();
+  const double excess =
+    (measured * (found - expected).array()).sum() / static_cast<double>(data.elements);
+  const double before2 = report.gap.rmsBefore * report.gap.rmsBefore;
+  const double floor2 = report.gap.noiseFloor * report.gap.noiseFloor;
+  const double expected2 = std::fmax(floor2 - excess, 0.0);
+  GapCause cause;
+  cause.effect = effect.name;
+  cause.form = effect.forms.front().name;
+  const EffectParameter& factor = effect.forms.front().parameters.front();
+  cause.parameters.push_back({ factor.name, noise.excess, factor.unit,
+    noise.excess /
+      std::sqrt(2.0 * (noise.unrepeated ? static_cast<double>(data.elements) : noise.degrees)) });
+  if (report.causes.empty() && report.verdict != GapVerdict::Unexplained)
+  {
+    // The gap is what the given model does not allow; with the effect in the simulator it does.
+    cause.share = 1.0;
+    cause.shrink = 1.0;
+    report.verdict = GapVerdict::Explained;
+    report.gap.noiseFloor = std::sqrt(expected2);
+    report.gap.rmsAfter = std::sqrt(std::fmax(before2 - excess, expected2));
+    report.gap.shrink = before2 > expected2
+      ? 1.0 - std::sqrt(std::fmax(before2 - excess - expected2, 0.0) / (before2 - expected2))
+      : 1.0;
+    cause.shrink = report.gap.shrink;
+    report.gap.shrinkInterval = { std::fmin(report.gap.shrink, 0.0), 1.0 };
+    if (noise.unrepeated)
+    {
+      report.verdict = GapVerdict::PartlyExplained;
+      report.unexplained.where = "scatter of single readings";
+    }
+  }
+  else
+  {
+    // Sizes, not energies, as the other shares.
+    const double size = std::sqrt(std::fmax(excess, 0.0));
+    const double gap = std::sqrt(std::fmax(before2 - floor2, 0.0));
+    const double part = size / (size + gap);
+    cause.share = part;
+    cause.shrink = 0.0;
+    for (GapCause& other : report.causes)
+    {
+      other.share *= 1.0 - part;
+    }
+    report.unexplained.share *= 1.0 - part;
+  }
+  std::vector<std::pair<std::string, double>> beliefs = report.probabilities;
+  const double belief = noise.unrepeated ? TableDecision::UnrepeatedProbability : 1.0;
+  for (auto& [name, probability] : beliefs)
+  {
+    if (name == "unknown" && report.causes.empty())
+    {
+      probability = std::fmax(probability, 1.0 - belief);
+    }
+    probability = name == "nothing" ? 0.0 : probability;
+  }
+  beliefs.emplace_back(cause.effect, belief);
+  report.correction.push_back({ cause.effect, cause.form, "", { noise.excess } });
+  report.causes.push_back(std::move(cause));
+  std::stable_sort(report.causes.begin(), report.causes.end(),
+    [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
+  believe(report, std::move(beliefs));
+}
+
+std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
+  const NoiseFinding& noise, double reflectanceNoise, const GapReport& report)
+{
+  std::vector<std::string> notes;
+  noteNoise(notes, capture, noise, reflectanceNoise);
+  noteScene(notes, data);
+  noteSamples(notes, data, report);
+  noteSaturation(notes, data);
+  noteDoubts(notes, report);
+  return notes;
+}
+
+} // namespace msi

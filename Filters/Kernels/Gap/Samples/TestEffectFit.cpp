@@ -1,0 +1,177 @@
+#include "Kernels/Gap/Samples/EffectFit.h"
+#include "Kernels/Gap/Samples/GapTestData.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+
+namespace
+{
+
+using namespace msi::test;
+
+struct Planted
+{
+  msi::CameraEffect effect;
+  std::size_t parameter; // that is compared
+};
+
+void PrintTo(const Planted& planted, std::ostream* out)
+{
+  *out << planted.effect.name;
+}
+
+msi::EffectChoice choiceOf(const msi::CameraEffect& effect)
+{
+  const msi::EffectDefinition* definition = msi::findEffect(effect.name);
+  msi::EffectChoice choice;
+  choice.effect = definition;
+  choice.form = msi::findForm(*definition, effect.form);
+  choice.medium = effect.medium;
+  return choice;
+}
+
+class EffectFitRecovers : public ::testing::TestWithParam<Planted>
+{
+};
+
+// Three standard errors, those of the sandwich over samples, and they are not idly large.
+TEST_P(EffectFitRecovers, PlantedParameterWithinItsStandardError)
+{
+  const Planted& planted = GetParam();
+  const msi::GapData data = dataOf(captureWith({ planted.effect }));
+  const msi::EffectFitter fitter(data, data.usable, 1);
+  msi::EffectSet set;
+  set.add(choiceOf(planted.effect), data.camera);
+  const msi::EffectFit fit = fitter.fit(std::move(set), msi::FinalFit);
+  const double error = std::sqrt(fitter.covariance(fit)(
+    static_cast<Eigen::Index>(planted.parameter), static_cast<Eigen::Index>(planted.parameter)));
+  const double truth = planted.effect.parameters[planted.parameter];
+  const double neutral = fit.free[planted.parameter].neutral;
+  EXPECT_NEAR(fit.set.effects.front().parameters[planted.parameter], truth, 3.0 * error);
+  EXPECT_LT(error, 0.1 * std::fabs(truth - neutral));
+  // What is left is noise: the weighted squares of as many elements, within five of their standard deviations.
+  EXPECT_LT(fit.energy, fitter.noiseEnergy() * (1.0 + 5.0 * std::sqrt(2.0 / (96.0 * 7.0))) * 1.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, EffectFitRecovers,
+  ::testing::Values(Planted{ { "exposure_gain", "", "", { 1.05 } }, 0 },
+    Planted{ { "dark_offset", "", "", { 0.01 } }, 0 },
+    Planted{
+      { "dark_offset", "per_channel", "", { 0.01, -0.01, 0.005, 0.02, 0.01, -0.02, 0.015 } }, 3 },
+    Planted{ { "filter_shift", "", "", { 2.5 } }, 0 },
+    Planted{ { "filter_bandwidth", "", "", { 1.2 } }, 0 },
+    Planted{ { "channel_crosstalk", "", "", { 0.03, 0.0 } }, 0 },
+    Planted{ { "detector_nonlinearity", "gamma", "", { 0.92 } }, 0 },
+    Planted{ { "illumination_gradient", "", "", { 0.05, -0.03 } }, 1 },
+    Planted{ { "medium_gain", "", "fabric", { 0.93 } }, 0 },
+    Planted{ { "interreflection", "", "fabric", { 0.2 } }, 0 }));
+
+TEST(EffectFit, WithoutEffectsIsTheNominalCamera)
+{
+  const msi::GapData data = dataOf(captureWith({ { "exposure_gain", "", "", { 1.05 } } }));
+  const msi::EffectFitter fitter(data, data.usable, 1);
+  const msi::EffectFit fit = fitter.fit({}, msi::FinalFit);
+  EXPECT_EQ(fit.predicted, data.simulated);
+  EXPECT_EQ(fit.energy, fitter.nominal().energy);
+  EXPECT_EQ(fit.parameters(), 0);
+}
+
+TEST(EffectFit, ResistsReadingsThatAreWrongAltogether)
+{
+  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } });
+  capture.readings.col(10).setConstant(0.9);
+  capture.readings.col(11).setConstant(0.9);
+  const msi::GapData data = dataOf(capture);
+  const msi::EffectFitter fitter(data, data.usable, 1);
+  msi::EffectSet set;
+  set.add(choiceOf({ "exposure_gain", "", "", {} }), data.camera);
+  EXPECT_NEAR(
+    fitter.fit(std::move(set), msi::FinalFit).set.effects.front().parameters[0], 1.05, 0.002);
+}
+
+// One Gauss-Newton step without a fold is exact for an effect that is linear: compared with fits that really leave
+// the samples out. The folds are those of the fitter.
+TEST(EffectFit, CrossValidationOfALinearEffectIsThatOfFitsWithoutTheFold)
+{
+  const msi::GapData data = dataOf(captureWith({ { "exposure_gain", "", "", { 1.05 } } }));
+  const msi::EffectFitter fitter(data, data.usable, 1);
+  msi::EffectSet set;
+  set.add(choiceOf({ "exposure_gain", "", "", {} }), data.camera);
+  const msi::EffectFit fit = fitter.fit(set, msi::FinalFit);
+  const std::vector<int> fold = msi::foldsOf(data, data.usable, 5, 1);
+  for (int left = 0; left < 5; ++left)
+  {
+    std::vector<char> training = data.usable;
+    for (std::size_t i = 0; i < training.size(); ++i)
+    {
+      training[i] = fold[i] != left ? training[i] : 0;
+    }
+    const msi::EffectFitter without(data, training, 1);
+    const msi::EffectFit other = without.fit(set, msi::FinalFit);
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      if (fold[static_cast<std::size_t>(i)] == left)
+      {
+        EXPECT_NEAR(
+          (fit.heldOut.col(i) - (data.observed.col(i) - other.predicted.col(i))).norm(), 0.0, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(EffectSet, RespondsAsTheSimulatorDoes)
+{
+  const msi::CameraEffect shift{ "filter_shift", "common", "", { 2.0 } };
+  msi::EffectSet set;
+  set.add(choiceOf(shift), sevenChannels(), { 2.0 });
+  EXPECT_EQ(msi::respond(sevenChannels(), rasterScene(), set), responseWith({ shift }));
+}
+
+TEST(EffectSet, JacobianIsTheDerivative)
+{
+  msi::EffectSet set;
+  set.add(choiceOf({ "filter_shift", "per_channel", "", {} }), sevenChannels());
+  const msi::SampleScene scene = rasterScene();
+  const auto free = set.freeParameters(sevenChannels());
+  const Eigen::MatrixXd columns =
+    msi::jacobian(*msi::stagedResponse(sevenChannels(), scene, set), set, free);
+  ASSERT_EQ(columns.cols(), 7);
+  msi::EffectSet up = set;
+  msi::EffectSet down = set;
+  msi::setValue(up, free[2], 0.01);
+  msi::setValue(down, free[2], -0.01);
+  const Eigen::MatrixXd central = (msi::respond(sevenChannels(), rasterScene(), up) -
+                                    msi::respond(sevenChannels(), rasterScene(), down)) /
+    0.02;
+  const Eigen::Map<const Eigen::VectorXd> expected(central.data(), central.size());
+  EXPECT_LT((columns.col(2) - expected).norm(), 0.01 * expected.norm());
+}
+
+TEST(EffectChoices, OnlyWhatTheCaptureCanShow)
+{
+  msi::SceneSamples samples = rasterSamples();
+  const auto has = [&samples](const std::string& name, const std::vector<std::string>& without = {})
+  {
+    const auto choices = msi::choicesFor(msi::SampleScene(visibleGrid(), samples), without);
+    return std::any_of(choices.begin(), choices.end(),
+      [&name](const msi::EffectChoice& choice) { return choice.effect->name == name; });
+  };
+  EXPECT_TRUE(has("vignetting"));
+  EXPECT_TRUE(has("session_drift"));
+  EXPECT_TRUE(has("medium_gain"));
+  EXPECT_FALSE(has("defocus"));
+  EXPECT_FALSE(has("excess_noise"));
+  EXPECT_FALSE(has("vignetting", { "vignetting" }));
+  samples.x.resize(0);
+  samples.y.resize(0);
+  samples.order.resize(0);
+  samples.medium.clear();
+  EXPECT_FALSE(has("vignetting"));
+  EXPECT_FALSE(has("session_drift"));
+  EXPECT_FALSE(has("medium_gain"));
+  EXPECT_TRUE(has("filter_shift"));
+}
+
+} // namespace

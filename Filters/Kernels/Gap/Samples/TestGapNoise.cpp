@@ -1,0 +1,86 @@
+#include "Kernels/Gap/Samples/GapNoise.h"
+#include "Kernels/Gap/Samples/GapTestData.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+using namespace msi::test;
+
+// Welford's averages by hand: readings 0.2 and 0.4 give mean 0.3 and squared deviations 0.02.
+TEST(GapData, AveragesRepeatsAndLeavesOutWhatWasNotMeasured)
+{
+  msi::GapCapture capture = captureOf(rasterSamples(8), {}, 2);
+  capture.readings(0, 0) = 0.2;
+  capture.readings(0, 1) = 0.4;
+  capture.readings(1, 0) = std::numeric_limits<double>::quiet_NaN();
+  capture.readings.col(2).setConstant(std::numeric_limits<double>::quiet_NaN());
+  capture.readings.col(3).setConstant(std::numeric_limits<double>::quiet_NaN());
+  capture.samples.reflectance(5, 3) = std::numeric_limits<double>::quiet_NaN();
+  const msi::GapData data = msi::prepareGapData(capture, {});
+  EXPECT_NEAR(data.observed(0, 0), 0.3, 1e-15);
+  EXPECT_NEAR(data.scatter(0, 0), 0.02, 1e-15);
+  EXPECT_EQ(data.count(1, 0), 1.0);
+  EXPECT_EQ(data.usable[0], 1);
+  EXPECT_EQ(data.usable[1], 0);
+  EXPECT_EQ(data.usable[3], 0);
+  EXPECT_EQ(data.fold[1], -1);
+  EXPECT_EQ(data.elements, 6 * 7);
+}
+
+TEST(GapNoise, MeansOfRepeatsScatterLessByTheirNumber)
+{
+  const msi::GapData data = msi::prepareGapData(captureOf(rasterSamples(8), {}, 4), {});
+  const msi::ReadingNoise noise{ 0.002, 0.01 };
+  const Eigen::MatrixXd variance = msi::readingVariance(data, noise);
+  for (Eigen::Index i = 0; i < variance.size(); ++i)
+  {
+    EXPECT_NEAR(variance(i), (4e-6 + 1e-4 * data.observed(i)) / 4.0, 2e-12);
+  }
+}
+
+TEST(GapNoise, RepeatsGiveTheNoiseWhereNoModelIsGiven)
+{
+  msi::GapCapture capture = captureOf(rasterSamples(96), {}, 5, 0.002);
+  capture.noise.reset();
+  const msi::NoiseFinding found = msi::findNoise(msi::prepareGapData(capture, {}), capture.noise);
+  EXPECT_TRUE(found.fromRepeats);
+  EXPECT_FALSE(found.unknown);
+  EXPECT_EQ(found.degrees, 96.0 * 7.0 * 4.0);
+  // 2688 degrees of freedom: 1.4 % of the deviation; shot noise was not there.
+  EXPECT_NEAR(std::hypot(found.reading.read, found.reading.shot * 0.3), 0.002, 0.0003);
+}
+
+TEST(GapNoise, RepeatsThatScatterMoreThanTheModelOverruleIt)
+{
+  msi::GapCapture capture = captureOf(rasterSamples(96), {}, 3, 0.002);
+  capture.noise = msi::ReadingNoise{ 0.001, 0.0 };
+  const msi::NoiseFinding found = msi::findNoise(msi::prepareGapData(capture, {}), capture.noise);
+  EXPECT_NEAR(found.excess, 2.0, 0.1);
+  EXPECT_TRUE(found.fromRepeats);
+  capture.noise = msi::ReadingNoise{ 0.002, 0.0 };
+  EXPECT_EQ(msi::findNoise(msi::prepareGapData(capture, {}), capture.noise).excess, 1.0);
+}
+
+TEST(GapNoise, OneReadingAndNoModelIsUnknown)
+{
+  msi::GapCapture capture = captureOf(rasterSamples(48), {}, 1);
+  capture.noise.reset();
+  EXPECT_TRUE(msi::findNoise(msi::prepareGapData(capture, {}), capture.noise).unknown);
+}
+
+// Independent errors of size s at every wavelength add up to s^2 sum of M^2.
+TEST(GapNoise, ReflectanceErrorsGoThroughTheCamera)
+{
+  Eigen::MatrixXd responsivity(1, 3);
+  responsivity << 0.5, 0.3, 0.2;
+  const msi::CameraModel camera(
+    msi::WavelengthGrid({ 400.0, 500.0, 600.0 }), responsivity, Eigen::VectorXd::Zero(1));
+  EXPECT_NEAR(msi::reflectanceErrorGain(camera)[0], 0.25 + 0.09 + 0.04, 1e-15);
+}
+
+} // namespace

@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,8 @@ Criterion::Criterion(const Observation& data, const ObservedFit& nominal)
   , Gap(std::fmax(nominal.energy - data.noiseEnergy(), 0.0))
   , Noise(std::fmin(data.noiseEnergy(), nominal.energy))
   , Floor(std::fmax(Decision::FormPart * Gap, std::numeric_limits<double>::min()))
+  , Discrepancy(std::clamp(
+      static_cast<double>(data.energies(nominal).before.size()), 1.0, Decision::DiscrepancyNumbers))
   , Reference(std::numeric_limits<double>::infinity())
 {
   refer(nominal.energy, nominal.coherence);
@@ -27,7 +30,7 @@ void Criterion::refer(double energy, double coherence)
   Reference = energy;
   const double noise = std::fmin(Noise, Reference) / std::fmax(Data.elements(), 1.0);
   const double left = std::fmax(Reference - Noise, 0.0) + Floor;
-  Dispersion = coherence * noise + left / Decision::DiscrepancyNumbers;
+  Dispersion = coherence * noise + left / Discrepancy;
   Numbers = (Reference + Floor) / Dispersion;
 }
 

@@ -12,7 +12,8 @@ namespace msi
 //
 // Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera; f: Decision::FormPart.
 // phi, the dispersion, is what one independent number of the best residual known has of energy: noise, as far as
-//   it is coherent within groups, and what is left beyond noise, which counts as Decision::DiscrepancyNumbers numbers.
+//   it is coherent within groups, and what is left beyond noise, which counts as Decision::DiscrepancyNumbers numbers,
+//   or as one per group where there are fewer groups.
 // m = (Q + f G) / phi of that residual: the independent numbers.
 class Criterion
 {
@@ -38,6 +39,7 @@ private:
   double Gap = 0.0;
   double Noise = 0.0;
   double Floor = 0.0;
+  double Discrepancy = 1.0;
   double Reference = 0.0;
   double Dispersion = 1.0;
   double Numbers = 1.0;

@@ -6,7 +6,7 @@ namespace msi::Decision
 {
 
 // The simulated camera is never exact: what is left of the gap beyond noise is systematic, and counts as this many
-// independent numbers, however many samples there are.
+// independent numbers, however many samples there are; but as no more than there are groups.
 inline constexpr double DiscrepancyNumbers = 50.0;
 
 // Part of the gap's energy that the forms of effects, approximations of physics, leave at the least.

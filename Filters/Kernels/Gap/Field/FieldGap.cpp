@@ -243,8 +243,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.gap.rmsAfter < ImageDecision::UnexplainedRms * report.gap.noiseFloor &&
     blockMeanExcess(data, finding.after()) < ImageDecision::ExplainedBlocks;
   double explained = 0.0;
-  // Effects that account for little are candidates, not causes.
-  if (!finding.set().empty() && (shrink >= PartlyShrink || (noiseAlone && shrink > 0.0)))
+  if (!finding.set().empty() && shrink > 0.0)
   {
     creditCauses(report, foundCauses(*finding.observation, finding.found, shrink));
     report.correction = fieldCorrection(finding.set(), gap->model, pair.channels);

@@ -110,7 +110,7 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   {
     model.columnPeriod = period(false);
   }
-  findProfiles(model, hypothesis.set);
+  findProfiles(model, hypothesis.set, false);
   if (!hasTerm(hypothesis.set, ImageParameter::Clip))
   {
     model[ImageParameter::ClipLevel].setConstant(findClipLevel(Data, model, Loop));
@@ -122,12 +122,12 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
 }
 
 // Of lines whose profile is not in the set; those of others stay as they are.
-void FieldObservation::findProfiles(FieldModel& model, const FieldSet& set) const
+void FieldObservation::findProfiles(FieldModel& model, const FieldSet& set, bool keepTrend) const
 {
   const auto find = [&](bool rows)
   {
     return std::make_shared<const FieldProfile>(
-      findProfile(Data, model, rows, false, Weights.limit, Loop));
+      findProfile(Data, model, rows, keepTrend, Weights.limit, Loop));
   };
   if (!hasProfile(set, true))
   {
@@ -206,15 +206,22 @@ FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview&
   {
     if (isProfile(*profile))
     {
-      FieldModel model = hypothesis.fit.next;
+      const FieldModel found = hypothesis.fit.next;
       const ImageParameter strength = profile->terms.front().parameter;
-      const Eigen::ArrayXd value = model[strength];
-      model[strength].setZero();
       FieldSet others = set;
       others.erase(std::remove(others.begin(), others.end(), profile), others.end());
-      findProfiles(model, others);
-      model[strength] = value;
-      hypothesis = refit(set, model);
+      for (const bool keepTrend : { false, true })
+      {
+        FieldModel model = found;
+        model[strength].setZero();
+        findProfiles(model, others, keepTrend);
+        model[strength] = found[strength];
+        FieldHypothesis other = refit(set, model);
+        if (!keepTrend || other.fit.energy < hypothesis.fit.energy)
+        {
+          hypothesis = std::move(other);
+        }
+      }
     }
   }
   return described(std::move(hypothesis));

@@ -58,13 +58,13 @@ struct GapOptions
 // Empty only where progress() asked to stop.
 //
 // Method: Documentation/Filters/SimToRealGap.md. Effects of effectLibrary() are fitted to the averaged
-//   readings by bounded robust Gauss-Newton; sets of effects grow and shrink by cross-validated error
-//   with a price for parameters; the figures in GapReport::gap come from samples of outer folds, in
-//   which everything, choice included, was done without them.
+//   readings by bounded robust Gauss-Newton; sets of effects compete by their posterior probability (Diagnosis/Criterion.h);
+//   the figures in GapReport::gap come from samples of outer folds, in which everything, choice included, was done
+//   without them.
 // Errors: std::invalid_argument naming what disagrees: channel counts, samples without number, readings
 //   without sample, an unknown name in `without`, fewer than 2 samples with reading and reflectance.
 // NaN in a sample's reflectance takes the sample out, NaN in a reading takes that reading's channel out.
-// Cost: about 3 s on one core for 200 samples x 16 channels x 31 wavelengths; linear in the samples.
+// Cost: about 1 s on one core for 200 samples x 16 channels x 31 wavelengths; linear in the samples.
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options = {});
 
 } // namespace msi

@@ -1,5 +1,4 @@
-// The numbers by which the diagnosis decides. Documentation/Decisions/one-diagnosis.md says how the judges' figures move
-// when each is halved or doubled.
+// The numbers by which the diagnosis decides. Documentation/Decisions/one-diagnosis.md has the reasons.
 #pragma once
 
 namespace msi::Decision

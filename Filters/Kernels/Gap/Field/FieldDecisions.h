@@ -11,7 +11,7 @@ inline constexpr double Indistinct =
 // What do effects look like before the data speak?
 inline constexpr double PriorSize = 10.0;     // typical sizes
 inline constexpr double TolerancePart = 0.05; // of the gap: forms are approximations
-inline constexpr double HuberDeviations = 3.0;
+inline constexpr double HuberDeviations = 6.0;
 
 // Is there a gap at all, and is it explained?
 inline constexpr double UnexplainedRms = 1.1;    // of the noise floor

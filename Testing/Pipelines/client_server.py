@@ -113,7 +113,7 @@ class Pipelines:
         samples = simple.PatchSampler(Input=cube, Labels=self.labels, PatchTable=self.patches)
         fit = simple.MetamerismCorrection(Calibration=self.chart, Tuning=self.fabric, Method="Pooled")
         estimate = simple.ReflectanceEstimation(Input=cube, ReflectanceTransform=fit[0],
-                                                MetamerismTransform=fit[1])
+                                                MetamerismTransform=fit[1], TrustResponses=True)
         reference = simple.PatchReferenceImage(Input=self.labels, PatchTable=self.patches)
         errors = simple.CIEDE2000Evaluator(Input=estimate, Reference=reference)
         self.write(estimate, "reflectance.exr")

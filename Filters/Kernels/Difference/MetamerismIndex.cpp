@@ -15,6 +15,7 @@ MetamerismIndex::MetamerismIndex(const WavelengthGrid& wavelengths, const Illumi
 {
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref that is written through
 void MetamerismIndex::apply(const Eigen::Ref<const Eigen::MatrixXd>& standard,
   const Eigen::Ref<const Eigen::MatrixXd>& sample, Eigen::Ref<Eigen::VectorXd> index) const
 {

@@ -15,8 +15,8 @@ MetamerismIndex::MetamerismIndex(const WavelengthGrid& wavelengths, const Illumi
 {
 }
 
-// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref that is written through
 void MetamerismIndex::apply(const Eigen::Ref<const Eigen::MatrixXd>& standard,
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref that is written through
   const Eigen::Ref<const Eigen::MatrixXd>& sample, Eigen::Ref<Eigen::VectorXd> index) const
 {
   const Eigen::Index pairs = standard.cols();

@@ -1,5 +1,6 @@
 #include "CaseTable.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -21,6 +22,12 @@ std::vector<std::string> split(const std::string& text, char separator)
     parts.push_back(part);
   }
   return parts;
+}
+
+// std::stod refuses numbers too small for their exponent.
+double toNumber(const std::string& text)
+{
+  return std::strtod(text.c_str(), nullptr);
 }
 
 std::vector<Row> readRows(const std::string& path)
@@ -49,7 +56,7 @@ std::vector<Row> readRows(const std::string& path)
 double number(const Row& row, const std::string& column)
 {
   const std::string& cell = row.at(column);
-  return cell.empty() ? 0.0 : std::stod(cell);
+  return cell.empty() ? 0.0 : toNumber(cell);
 }
 
 std::vector<NamedCause> causesOf(const std::string& cell)
@@ -58,7 +65,7 @@ std::vector<NamedCause> causesOf(const std::string& cell)
   for (const std::string& part : split(cell, ';'))
   {
     const std::vector<std::string> fields = split(part, ':');
-    causes.push_back({ fields.at(0), std::stod(fields.at(1)), split(fields.at(2), '|'),
+    causes.push_back({ fields.at(0), toNumber(fields.at(1)), split(fields.at(2), '|'),
       fields.size() > 3 ? fields[3] : std::string() });
   }
   return causes;
@@ -100,7 +107,7 @@ std::vector<ScoredCase> readCases(const std::string& keyFile, const std::string&
     for (const std::string& part : split(result.at("probabilities"), ';'))
     {
       const std::size_t colon = part.find(':');
-      one.probabilities[part.substr(0, colon)] = std::stod(part.substr(colon + 1));
+      one.probabilities[part.substr(0, colon)] = toNumber(part.substr(colon + 1));
     }
     one.seconds = number(result, "seconds");
     cases.push_back(std::move(one));

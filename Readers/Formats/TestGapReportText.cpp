@@ -15,7 +15,7 @@ msi::GapReport filledReport()
   report.verdict = msi::GapVerdict::PartlyExplained;
   report.gap = { 0.021, 0.003, 0.0009, 0.94, { 0.92, 0.96 } };
   report.where = { { "channel", 0.7, { { "C3", 0.3 }, { "C1", 0.2 } } }, { "medium", 0.1, {} } };
-  report.causes = { { "filter_shift", "common", "", 0.9, 0.85, 0.0, { "illuminant_drift" },
+  report.causes = { { "filter_shift", "common", "", 0.9, 0.85, { "illuminant_drift" },
     { { "shift", 2.9, "nm", 0.05 } }, 0.6 } };
   report.probabilities = { { "filter_shift", 0.6 }, { "illuminant_drift", 0.3 },
     { "unknown", 0.1 } };

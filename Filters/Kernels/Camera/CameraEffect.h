@@ -70,10 +70,9 @@ enum Bit : unsigned
   Exact = 1U << 0,           // the formula is exact: a residual that remains has another cause
   CouplesChannels = 1U << 1, // the parameters of a channel act on its neighbours, too
   ActsOnEdges = 1U << 2,     // its forms approximate point spreads and resampling
-  SmoothInField = 1U << 3,   // a smooth factor over the field
-  CommonGain = 1U << 4,      // one gain of all channels
-  SpectralGain = 1U << 5,    // gains that follow a smooth curve over the channels
-  LimitsResponse = 1U << 6   // its first parameter is the largest response that passes
+  CommonGain = 1U << 3,      // one gain of all channels
+  SpectralGain = 1U << 4,    // gains that follow a smooth curve over the channels
+  LimitsResponse = 1U << 5   // its first parameter is the largest response that passes
 };
 }
 

@@ -15,32 +15,6 @@ constexpr int Resamplings = 400;
 constexpr std::uint32_t Stream = 72;
 }
 
-SampleEnergies energiesOf(const EffectFitter& fitter, const EffectFit& fit)
-{
-  const GapData& data = fitter.data();
-  SampleEnergies energies;
-  for (Eigen::Index i = 0; i < data.samples(); ++i)
-  {
-    double before = 0.0;
-    double after = 0.0;
-    double noise = 0.0;
-    for (Eigen::Index k = 0; k < data.channels(); ++k)
-    {
-      if (fitter.weight()(k, i) > 0.0)
-      {
-        const double gap = data.observed(k, i) - data.simulated(k, i);
-        before += gap * gap;
-        after += fit.heldOut(k, i) * fit.heldOut(k, i);
-        noise += data.variance(k, i);
-      }
-    }
-    energies.before.push_back(before);
-    energies.after.push_back(after);
-    energies.noise.push_back(noise);
-  }
-  return energies;
-}
-
 double shrinkOf(double before, double after, double noise) noexcept
 {
   const double excess = before - noise;
@@ -51,15 +25,14 @@ double shrinkOf(double before, double after, double noise) noexcept
   return std::fmax(1.0 - std::sqrt(std::fmax(after - noise, 0.0) / excess), -1.0);
 }
 
-double shrinkOf(const EffectFitter& fitter, const EffectFit& fit)
+double shrinkOf(const GroupEnergies& energies)
 {
-  const SampleEnergies energies = energiesOf(fitter, fit);
   const auto sum = [](const std::vector<double>& values)
   { return std::accumulate(values.begin(), values.end(), 0.0); };
   return shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
 }
 
-GapFigures figuresOf(const SampleEnergies& energies, double elements, std::uint64_t seed)
+GapFigures figuresOf(const GroupEnergies& energies, double elements, std::uint64_t seed)
 {
   double before = 0.0;
   double after = 0.0;
@@ -81,7 +54,7 @@ GapFigures figuresOf(const SampleEnergies& energies, double elements, std::uint6
   return figures;
 }
 
-std::array<double, 2> shrinkInterval(const SampleEnergies& energies, std::uint64_t seed)
+std::array<double, 2> shrinkInterval(const GroupEnergies& energies, std::uint64_t seed)
 {
   const std::size_t count = energies.before.size();
   if (count == 0)

@@ -214,7 +214,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const bool causes = !found.best->set.empty();
   const double shrink = report.gap.shrink;
   const EffectFit best = observation.whole(*found.best);
-  const double alone = shrinkOf(observation.fitter(), best); // all samples took part in the choice
+  const double alone = shrinkOf(observation.energies(best)); // all samples took part in the choice
   if (causes && shrink > 0.0 && noticeable(data, before, after, integration))
   {
     credit(report, observation, found, shrink);

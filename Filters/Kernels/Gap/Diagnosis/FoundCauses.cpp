@@ -17,14 +17,6 @@ namespace msi
 
 namespace
 {
-double heldOutShrink(const Observation& data, const ObservedFit& fit)
-{
-  const GroupEnergies energies = data.energies(fit);
-  const auto sum = [](const std::vector<double>& values)
-  { return std::accumulate(values.begin(), values.end(), 0.0); };
-  return shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
-}
-
 // Of every subset of the positions, fitted anew.
 std::vector<double> subsetShrinksOf(const Observation& data, const ObservedFit& best)
 {
@@ -33,7 +25,7 @@ std::vector<double> subsetShrinksOf(const Observation& data, const ObservedFit& 
   for (std::size_t subset = 1; subset < subsets; ++subset)
   {
     shrink[subset] = std::fmax(
-      heldOutShrink(data, subset + 1 == subsets ? best : *data.reduced(best, subset)), 0.0);
+      shrinkOf(data.energies(subset + 1 == subsets ? best : *data.reduced(best, subset))), 0.0);
   }
   return shrink;
 }
@@ -168,9 +160,7 @@ std::vector<GapCandidate> foundCandidates(
   for (const auto& [cause, v] : bestForm)
   {
     const GroupEnergies energies = data.energies(*found.visited[v]);
-    const auto sum = [](const std::vector<double>& values)
-    { return std::accumulate(values.begin(), values.end(), 0.0); };
-    const double shrink = shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
+    const double shrink = shrinkOf(energies);
     std::array<double, 2> interval =
       shrinkInterval({ energies.before, energies.after, energies.noise }, seed);
     interval = { std::fmin(interval[0], shrink), std::fmax(interval[1], shrink) };

@@ -3,6 +3,7 @@
 
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Gap/GapReport.h"
+#include "Kernels/Gap/Shrink.h"
 
 #include <Eigen/Core>
 
@@ -28,12 +29,6 @@ struct GapOption
   {
     return effect == other.effect && medium == other.medium;
   }
-};
-
-// Energies of the gap in plain response units, one of each group of data that are held out together.
-struct GroupEnergies
-{
-  std::vector<double> before, after, noise;
 };
 
 // A set of options fitted to the data.

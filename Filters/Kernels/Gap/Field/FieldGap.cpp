@@ -48,8 +48,7 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   const FieldStart& start, int maximumEffects, const FieldLoop& loop,
   const std::function<bool()>& stop)
 {
-  finding.weights =
-    fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop), nullptr);
+  finding.weights = fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop));
   const auto observe = [&]
   {
     finding.observation =
@@ -58,7 +57,7 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   observe();
   finding.found = searchSets(*finding.observation, { maximumEffects, 1, 1, false }, stop);
   // A limit from what is left would take the gap itself for outliers.
-  finding.weights.noise = fieldWeights(finding.after(), nullptr).noise;
+  finding.weights.noise = fieldNoise(finding.after());
   observe();
   finding.found = searchSets(
     *finding.observation, { maximumEffects, PairBeamWidth, PairOptionsFitted, true }, stop);
@@ -66,7 +65,7 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
 
 struct TestEnergies
 {
-  SampleEnergies samples; // a group of blocks is a sample
+  GroupEnergies groups;
   double elements = 0.0;
 };
 
@@ -89,7 +88,7 @@ TestEnergies energiesOf(
       energies.elements += data.blocks[block].fold < 0 ? corrected.at(block, k).pixels : 0.0;
     }
   }
-  energies.samples = { groupSums(data, before, false), groupSums(data, after, false),
+  energies.groups = { groupSums(data, before, false), groupSums(data, after, false),
     groupSums(data, noise, false) };
   return energies;
 }
@@ -229,7 +228,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   gap->unit = data.unit;
   GapReport& report = gap->report;
   const TestEnergies energies = energiesOf(data, finding.before(), finding.after());
-  report.gap = figuresOf(energies.samples, std::fmax(energies.elements, 1.0), options.seed);
+  report.gap = figuresOf(energies.groups, std::fmax(energies.elements, 1.0), options.seed);
   // The stripes that were found are an axis of the gap before, too.
   FieldModel nominal = finding.before().model;
   nominal.rowPeriod = gap->model.rowPeriod;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace msi
@@ -89,10 +90,10 @@ bool FieldObservation::hasStart(const FieldModel& model, const FieldChoice& choi
 
 const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
 {
-  const auto known = Started.find(&fit);
-  if (known != Started.end())
+  std::optional<FieldHypothesis>& known = static_cast<const FieldObservedFit&>(fit).started;
+  if (known)
   {
-    return known->second;
+    return *known;
   }
   FieldHypothesis hypothesis = hypothesisOf(fit);
   FieldModel model = hypothesis.statistics->model;
@@ -118,7 +119,7 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   hypothesis.statistics =
     std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Weights, Loop));
   hypothesis.fit = FieldFitter(Data, *hypothesis.statistics).fit(hypothesis.set);
-  return Started.emplace(&fit, std::move(hypothesis)).first->second;
+  return known.emplace(std::move(hypothesis));
 }
 
 // Of lines whose profile is not in the set; those of others stay as they are.
@@ -282,7 +283,6 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
   described->surprise += prior.surprise;
   described->chanceOfCurve = prior.chanceOfCurve;
   described->hypothesis = std::move(hypothesis);
-  Kept.push_back(described);
   return described;
 }
 

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include <map>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +19,8 @@ class FieldObservedFit : public ObservedFit
 {
 public:
   FieldHypothesis hypothesis;
+  mutable std::optional<FieldHypothesis>
+    started; // with the starts that its residual shows, once they are asked for
 };
 
 // Groups of training blocks are the groups. A fit's residual is looked at for stripes, clipping and displacements before
@@ -59,8 +61,6 @@ private:
   double Elements = 0.0;
   double NoiseEnergy = 0.0;
   FitPointer Nominal;
-  mutable std::map<const ObservedFit*, FieldHypothesis> Started;
-  mutable std::vector<FitPointer> Kept; // of Started
   mutable std::map<double, double> PeriodError;
 };
 

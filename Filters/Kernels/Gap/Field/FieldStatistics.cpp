@@ -165,7 +165,7 @@ std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics)
   return noise;
 }
 
-FieldWeights fieldWeights(const FieldStatistics& statistics, const Eigen::ArrayXd* tolerance)
+FieldWeights fieldWeights(const FieldStatistics& statistics)
 {
   FieldWeights weights;
   weights.noise = fieldNoise(statistics);
@@ -187,10 +187,6 @@ FieldWeights fieldWeights(const FieldStatistics& statistics, const Eigen::ArrayX
     weights.limit[k] = ImageDecision::HuberDeviations * std::sqrt(variance);
     weights.tolerance[k] = ImageDecision::TolerancePart * ImageDecision::TolerancePart *
       std::fmax(variance - noise / std::fmax(pixels, 1.0), 0.0);
-  }
-  if (tolerance != nullptr)
-  {
-    weights.tolerance = *tolerance;
   }
   return weights;
 }

@@ -54,8 +54,8 @@ struct FieldStatistics
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   const FieldWeights* weights, const FieldLoop& loop);
 
-// Weights that go by a model's residual; the tolerance is kept where one is given.
-FieldWeights fieldWeights(const FieldStatistics& statistics, const Eigen::ArrayXd* tolerance);
+// Weights that go by a model's residual.
+FieldWeights fieldWeights(const FieldStatistics& statistics);
 
 // Noise from differences of residuals two pixels apart, in the smoother half of the blocks: a variance for each
 // quarter of the levels (trimmed mean over blocks), then read^2 + shot^2 u.

@@ -52,10 +52,10 @@ double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, doubl
   return (1.0 - kept) * allowed / static_cast<double>(data.elements);
 }
 
-SampleEnergies energiesOf(
+GroupEnergies energiesOf(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
 {
-  SampleEnergies energies;
+  GroupEnergies energies;
   for (Eigen::Index i = 0; i < data.samples(); ++i)
   {
     if (data.usable[static_cast<std::size_t>(i)] != 0)

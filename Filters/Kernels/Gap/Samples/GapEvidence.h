@@ -24,7 +24,7 @@ void setUnknownNoise(GapData& data);
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted);
 
 // Per-sample energies before and after, and what noise allows.
-SampleEnergies energiesOf(
+GroupEnergies energiesOf(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
 
 // Whether the bases predict held-out samples: their gain in energy, sample by sample, against its own error.

@@ -178,7 +178,11 @@ FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> 
 
 GroupEnergies SampleObservation::energies(const ObservedFit& fit) const
 {
-  const EffectFit whole = linearised(sampleFit(fit).effects);
+  return energies(linearised(sampleFit(fit).effects));
+}
+
+GroupEnergies SampleObservation::energies(const EffectFit& fit) const
+{
   const GapData& data = Fitter.data();
   GroupEnergies energies;
   for (Eigen::Index i = 0; i < data.samples(); ++i)
@@ -189,7 +193,7 @@ GroupEnergies SampleObservation::energies(const ObservedFit& fit) const
       const auto sum = [&with](const auto& values) { return with.select(values, 0.0).sum(); };
       energies.before.push_back(
         sum((data.observed.col(i) - data.simulated.col(i)).array().square()));
-      energies.after.push_back(sum(whole.heldOut.col(i).array().square()));
+      energies.after.push_back(sum(fit.heldOut.col(i).array().square()));
       energies.noise.push_back(sum(data.variance.col(i).array()));
     }
   }

@@ -37,6 +37,7 @@ public:
   const EffectFitter& fitter() const noexcept { return Fitter; }
   // With everything that a fit knows, taken to the end.
   EffectFit whole(const ObservedFit& fit) const;
+  GroupEnergies energies(const EffectFit& fit) const;
 
 private:
   FitPointer described(EffectFit fit, std::vector<std::size_t> set) const;

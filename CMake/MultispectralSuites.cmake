@@ -1,6 +1,6 @@
 # Run by ctest for each GoogleTest program: one test for each suite. One for each TEST would start some programs hundreds
 # of times, and loading their libraries takes longer than most tests.
-#   program, prefix, label, filter   as multispectral_add_unit_tests gives them
+#   program, prefix, label, filter, environment   as multispectral_add_unit_tests gives them
 if(NOT EXISTS "${program}")
   add_test("${prefix}NOT_BUILT" NOT_BUILT)
   return()
@@ -39,5 +39,6 @@ foreach(line IN LISTS lines)
   list(GET line 0 suite)
   list(GET line 1 tests)
   add_test("${prefix}${suite}" "${program}" --gtest_brief=1 "--gtest_filter=${tests}")
-  set_tests_properties("${prefix}${suite}" PROPERTIES LABELS "${label}" TIMEOUT 600)
+  set_tests_properties("${prefix}${suite}" PROPERTIES LABELS "${label}" TIMEOUT 600
+    ENVIRONMENT "${environment}")
 endforeach()

@@ -1,4 +1,5 @@
-# multispectral_add_unit_tests(NAME <room> SOURCES <file>... [LINK <target>...] [SANITIZED <filter>])
+# multispectral_add_unit_tests(NAME <room> SOURCES <file>... [LINK <target>...] [SANITIZED <filter>]
+#   [ENVIRONMENT <name=value>...])
 #
 # One GoogleTest program for the tests of one room; each of its suites becomes a CTest test named <face>.<room>.<Suite>,
 # so that the same suite run against several builds stays apart.
@@ -15,7 +16,7 @@ else()
 endif()
 
 function(multispectral_add_unit_tests)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;SANITIZED" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;SANITIZED" "SOURCES;LINK;ENVIRONMENT")
   if(NOT BUILD_TESTING)
     return()
   endif()
@@ -36,6 +37,7 @@ function(multispectral_add_unit_tests)
 set(prefix \"${MULTISPECTRAL_TEST_PREFIX}${arg_NAME}.\")
 set(label \"${arg_NAME}\")
 set(filter \"${filter}\")
+set(environment \"${arg_ENVIRONMENT}\")
 include(\"${PROJECT_SOURCE_DIR}/CMake/MultispectralSuites.cmake\")
 ")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${suites}")

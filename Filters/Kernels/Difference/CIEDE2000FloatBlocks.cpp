@@ -31,9 +31,9 @@ using FloatMask = hn::Mask<Tag>;
 constexpr std::size_t MostFloats = hn::MaxLanes(Tag());
 
 // Coordinates beyond this are computed in double.
-constexpr float LargestCoordinate = 1e4F;
+constexpr double LargestCoordinate = 1e4;
 // Products that differ by less than this part of their sizes may be the other way round.
-constexpr float SideTolerance = 1e-6F;
+constexpr double SideTolerance = 1e-6;
 
 Float constant(double value)
 {

@@ -3,9 +3,13 @@
 namespace msi
 {
 
+namespace
+{
+using Kernel = TransferKernel;
+}
+
 TransferKernel startingKernel()
 {
-  using Kernel = TransferKernel;
   Eigen::VectorXd center(Kernel::Count);
   center[Kernel::Constant] = 0.0;
   center[Kernel::Linear] = 0.0;
@@ -39,7 +43,6 @@ Eigen::MatrixXd scaledDistances(
 Eigen::MatrixXd covariance(const TransferKernel& kernel, const Eigen::MatrixXd& a,
   Eigen::Index chartOfA, const Eigen::MatrixXd& b, Eigen::Index chartOfB)
 {
-  using Kernel = TransferKernel;
   const Eigen::MatrixXd products = scaledProducts(a, b);
   const double length = kernel[Kernel::Length];
   const Eigen::MatrixXd smooth =

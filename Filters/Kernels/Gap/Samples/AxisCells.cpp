@@ -31,9 +31,9 @@ std::string part(const char* what, double value, double low, double high, int pa
 
 using CellOf = std::function<std::string(Eigen::Index, Eigen::Index)>;
 
-CellOf sampleCell(const GapData& data)
+CellOf sampleCell()
 {
-  return [&data](Eigen::Index, Eigen::Index i)
+  return [](Eigen::Index, Eigen::Index i)
   {
     std::ostringstream name;
     name << "sample " << i + 1;
@@ -88,7 +88,7 @@ CellOf cellOf(const GapData& data, const std::string& axis)
     return [&data, low, high](Eigen::Index k, Eigen::Index i)
     { return part("level", data.simulated(k, i), low, high, 5); };
   }
-  return sampleCell(data);
+  return sampleCell();
 }
 }
 

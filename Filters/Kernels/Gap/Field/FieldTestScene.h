@@ -45,8 +45,20 @@ public:
     : Width(columns)
     , Height(rows)
     , Channels(channelCount)
-    , Random(seed, 5)
   {
+    const CounterRandom random(seed, 5);
+    for (std::uint64_t i = 0; i < 6; ++i)
+    {
+      const double angle = 2.0 * Pi * random.uniform(i, 1);
+      Waves.push_back({ 5.0 + 40.0 * random.uniform(i, 0), std::cos(angle), std::sin(angle),
+        ofChannels(random, 100 + i * 16) });
+    }
+    for (std::uint64_t i = 0; i < 14; ++i)
+    {
+      Patches.push_back(
+        { Width * random.uniform(300 + i, 0) - 10.0, Height * random.uniform(300 + i, 1) - 10.0,
+          12.0 + 35.0 * random.uniform(300 + i, 2), ofChannels(random, 500 + i * 16) });
+    }
   }
 
   int width() const { return Width; }
@@ -56,24 +68,22 @@ public:
   // The light at a place in pixels; pixel centers are whole numbers.
   double light(int channel, double x, double y) const
   {
+    const auto k = static_cast<std::size_t>(channel);
     double sum = 0.35;
-    for (std::uint64_t i = 0; i < 6; ++i)
+    for (const Wave& wave : Waves)
     {
-      const double period = 5.0 + 40.0 * Random.uniform(i, 0);
-      const double angle = 2.0 * Pi * Random.uniform(i, 1);
-      const double own = Random.uniform(100 + i * 16 + static_cast<std::uint64_t>(channel), 0);
+      const double own = wave.own[k];
       sum += 0.02 * own *
-        std::cos(2.0 * Pi * (x * std::cos(angle) + y * std::sin(angle)) / period + 6.0 * own);
+        std::cos(2.0 * Pi * (x * wave.right + y * wave.down) / wave.period + 6.0 * own);
     }
-    for (std::uint64_t i = 0; i < 14; ++i)
+    for (const Patch& patch : Patches)
     {
-      const double left = Width * Random.uniform(300 + i, 0) - 10.0;
-      const double top = Height * Random.uniform(300 + i, 1) - 10.0;
-      const double side = 12.0 + 35.0 * Random.uniform(300 + i, 2);
-      const double high =
-        0.6 * Random.uniform(500 + i * 16 + static_cast<std::uint64_t>(channel), 0) - 0.25;
-      sum +=
-        high * (edge(x - left) - edge(x - left - side)) * (edge(y - top) - edge(y - top - side));
+      const double across = edge(x - patch.left) - edge(x - patch.left - patch.side);
+      if (across != 0.0)
+      {
+        sum += (0.6 * patch.own[k] - 0.25) * across *
+          (edge(y - patch.top) - edge(y - patch.top - patch.side));
+      }
     }
     return std::fmax(sum, 0.02);
   }
@@ -130,16 +140,42 @@ public:
   }
 
 private:
+  struct Wave
+  {
+    double period, right, down;
+    std::vector<double> own; // of each channel
+  };
+  struct Patch
+  {
+    double left, top, side;
+    std::vector<double> own; // of each channel
+  };
+
+  std::vector<double> ofChannels(const CounterRandom& random, std::uint64_t counter) const
+  {
+    std::vector<double> own;
+    for (int k = 0; k < Channels; ++k)
+    {
+      own.push_back(random.uniform(counter + static_cast<std::uint64_t>(k), 0));
+    }
+    return own;
+  }
+
   // A soft step of 0.7 pixels.
   static double edge(double distance)
   {
+    if (std::fabs(distance) > 5.0)
+    {
+      return distance < 0.0 ? 0.0 : 1.0;
+    }
     return 0.5 * (1.0 + std::erf(distance / (0.7 * std::sqrt(2.0))));
   }
 
   int Width;
   int Height;
   int Channels;
-  CounterRandom Random;
+  std::vector<Wave> Waves;
+  std::vector<Patch> Patches;
 };
 
 inline ImagePlane gaussianBlurred(const ImagePlane& plane, double deviation)

@@ -30,8 +30,10 @@ ChannelDifference differenceOf(const Eigen::Ref<const Eigen::RowVectorXd>& real,
   const Eigen::ArrayXd x = simulated(finite).transpose();
   const double meanX = x.mean();
   const double meanY = y.mean();
-  const double variance = (x - meanX).square().sum();
-  const double gain = variance > 0.0 ? ((x - meanX) * (y - meanY)).sum() / variance : Unknown;
+  // The mean of equal numbers may differ from them by rounding.
+  const bool varies = x.minCoeff() < x.maxCoeff();
+  const double gain =
+    varies ? ((x - meanX) * (y - meanY)).sum() / (x - meanX).square().sum() : Unknown;
   const double offset = meanY - gain * meanX;
   return { static_cast<Eigen::Index>(finite.size()), (y - x).mean(),
     std::sqrt((y - x).square().mean()), gain, offset,

@@ -92,22 +92,35 @@ double cmcOf(const ColorDifferenceFactors& factors, const double* lab1, const do
   return std::sqrt(l * l + c * c + d.hueSquared / (weightH * weightH));
 }
 
-Eigen::Vector3d din99Color(const double* lab)
+// DIN99 is defined from black upwards. Below, where estimates lie that are darker than black, its mirror image goes on.
+double din99Lightness(double l1, double l2)
+{
+  constexpr double Scale = 105.509;
+  constexpr double Step = 0.0158;
+  const double a = std::abs(l1);
+  const double b = std::abs(l2);
+  if ((l1 < 0.0) != (l2 < 0.0))
+  {
+    return Scale * (std::log1p(Step * a) + std::log1p(Step * b));
+  }
+  return Scale * std::log1p(Step * std::abs(b - a) / (1.0 + Step * std::min(a, b)));
+}
+
+Eigen::Vector2d din99Chroma(const double* lab)
 {
   constexpr double Turn = 16.0 * Pi / 180.0;
   const double e = lab[1] * std::cos(Turn) + lab[2] * std::sin(Turn);
   const double f = 0.7 * (lab[2] * std::cos(Turn) - lab[1] * std::sin(Turn));
   const double g = std::hypot(e, f);
   const double scale = g > 0.0 ? std::log1p(0.045 * g) / (0.045 * g) : 1.0;
-  return { 105.509 * std::log1p(0.0158 * lab[0]), scale * e, scale * f };
+  return { scale * e, scale * f };
 }
 
 double din99Of(const ColorDifferenceFactors& /*factors*/, const double* lab1, const double* lab2)
 {
-  const double lightness =
-    105.509 * std::log1p(0.0158 * (lab2[0] - lab1[0]) / (1.0 + 0.0158 * lab1[0]));
-  const Eigen::Vector3d apart = din99Color(lab2) - din99Color(lab1);
-  return std::sqrt(lightness * lightness + apart[1] * apart[1] + apart[2] * apart[2]);
+  const double lightness = din99Lightness(lab1[0], lab2[0]);
+  const Eigen::Vector2d apart = din99Chroma(lab2) - din99Chroma(lab1);
+  return std::sqrt(lightness * lightness + apart.squaredNorm());
 }
 
 double hyabOf(const ColorDifferenceFactors& /*factors*/, const double* lab1, const double* lab2)

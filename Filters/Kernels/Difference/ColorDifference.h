@@ -49,6 +49,8 @@ const ColorDifferenceFormula& colorDifferenceNamed(std::string_view name);
 // Bytes:    a pair's value does not depend on which other pairs stand in the block.
 // Accuracy: CIEDE2000 as in CIEDE2000.h; the others relative error below 1e-11, float blocks computed in
 //           double and rounded once.
+// Range:    any finite color, also darker than black: what is estimated may be (DIN99, which has no value there, goes
+//           on as its mirror image).
 // Errors:   the constructor throws std::invalid_argument unless all factors are finite and positive, and
 //           for a factor other than 1 of a formula that has none.
 class ColorDifference

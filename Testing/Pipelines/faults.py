@@ -88,23 +88,29 @@ def killed_and_run_again(launcher, base):
 
 
 def stopped_by_the_user(launcher, base):
-    """Ctrl-C in a terminal goes to all processes: they end, without traces on the screen."""
-    output = base / "stopped"
-    process = start(launcher, "scene", "fabric", "--size", "3000x2000", "--output", output, start_new_session=True)
-    deadline = time.monotonic() + 60.0
-    while time.monotonic() < deadline and process.poll() is None and not list(output.glob(".*.part*")):
-        time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGINT)
-    try:
-        text = process.communicate(timeout=30)[1]
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        faults.append("Ctrl-C: it went on for 30 s")
-        return
-    expect(process.returncode != 0, "Ctrl-C: exit status 0")
-    expect(not re.search(r"Traceback|SIGINT|Stack|0x[0-9a-f]{6}", text) and len(text.splitlines()) <= 1,
-           f"Ctrl-C: it printed\n{text}")
-    expect(not (output / "reflectance.hdr").exists(), "Ctrl-C left a header")
+    """Ctrl-C in a terminal goes to all processes: they end, without traces on the screen and without files elsewhere."""
+    temporary = base / "temporary"
+    temporary.mkdir()
+    for ranks in 1, 2:
+        output = base / f"stopped {ranks}"
+        process = start(launcher, "scene", "fabric", "--size", "3000x2000", "--ranks", ranks, "--output", output,
+                        start_new_session=True, env={**os.environ, "TMPDIR": str(temporary)})
+        deadline = time.monotonic() + 60.0
+        while time.monotonic() < deadline and process.poll() is None and not list(output.glob(".*.part*")):
+            time.sleep(0.02)
+        os.killpg(process.pid, signal.SIGINT)
+        try:
+            text = process.communicate(timeout=30)[1]
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            faults.append(f"Ctrl-C, {ranks} ranks: it went on for 30 s")
+            return
+        expect(process.returncode == -signal.SIGINT, f"Ctrl-C, {ranks} ranks: status {process.returncode}")
+        expect(not re.search(r"Traceback|SIGINT|Stack|0x[0-9a-f]{6}", text) and len(text.splitlines()) <= 1,
+               f"Ctrl-C, {ranks} ranks: it printed\n{text}")
+        expect(not (output / "reflectance.hdr").exists(), f"Ctrl-C, {ranks} ranks, left a header")
+        left = [path.name for path in temporary.iterdir() if path.is_file()]
+        expect(not left, f"Ctrl-C, {ranks} ranks, left {left}")
 
 
 def descendants(process):
@@ -175,6 +181,13 @@ def names_with_meanings(launcher, base):
     page = place / "out" / "report.html"
     expect(page.exists() and "<script>" not in page.read_text(encoding="utf-8"), "markup in a name is markup in the report")
     expect("\x1b" not in done.stderr_text, "a control character reached the terminal")
+    # A name in Latin-1, on a system in UTF-8: refused before there is such a folder.
+    latin = os.fsencode(base) + b"/caf\xe9"
+    done = subprocess.run([os.fsencode(launcher), b"scene", b"chart24", b"--output", latin], stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE)
+    done.stderr_text = done.stderr.decode("utf-8")
+    one_line(done, "/caf\\xE9: the name is not UTF-8; choose another folder with --output", "an output folder in Latin-1")
+    expect(not os.path.exists(latin), "the output folder in Latin-1 was made")
 
 
 def main():

@@ -28,12 +28,16 @@ _locks = []  # folders that this run holds, until it ends
 def reads(*paths):
     """Notes the input files."""
     for path in filter(None, paths):
-        if any("\udc80" <= c <= "\udcff" for c in path):
-            raise Failure(f"{command.printable(path)}: the name is not UTF-8; rename the file or its folder")
+        _require_utf8(path, "rename the file or its folder")
         for file in _files_of(path):
             with contextlib.suppress(OSError):
                 status = os.stat(file)
                 _inputs[status.st_dev, status.st_ino] = path
+
+
+def _require_utf8(path, remedy):
+    if any("\udc80" <= c <= "\udcff" for c in path):
+        raise Failure(f"{command.printable(path)}: the name is not UTF-8; {remedy}")
 
 
 def _files_of(path):
@@ -48,6 +52,7 @@ def claim(folder, patterns):
     patterns: what the command may write into it, names or FOLDER/names with * and ?. Where one of those files is an input the command is refused; where
     another run writes into the folder, too. What killed runs left unfinished is removed."""
     global _declared, _old_report
+    _require_utf8(folder, "choose another folder with --output")
     require_apart(folder, patterns)
     try:
         os.makedirs(folder, exist_ok=True)

@@ -6,9 +6,11 @@
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace
@@ -356,6 +358,54 @@ TEST(DegenerateCapture, PartsThatWereNotMeasured)
   EXPECT_EQ(report.causes.front().effect, "exposure_gain");
   EXPECT_TRUE(report.gapBefore.row(2).array().isNaN().all());
   EXPECT_TRUE(std::isfinite(report.gapBefore(0, 20)));
+}
+
+// Whatever stands in the readings: figures that are numbers, or an error that says what is wrong.
+TEST(DegenerateCapture, ImpossibleReadingsGiveNumbersOrAnError)
+{
+  using Change = std::function<void(msi::GapCapture&)>;
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<std::pair<const char*, Change>> changes{
+    { "an infinite reading", [=](msi::GapCapture& c) { c.readings(2, 5) = infinite; } },
+    { "an infinite reflectance",
+      [=](msi::GapCapture& c) { c.samples.reflectance(4, 7) = -infinite; } },
+    { "a dead channel", [](msi::GapCapture& c) { c.readings.row(1).setZero(); } },
+    { "readings of 0", [](msi::GapCapture& c) { c.readings.setZero(); } },
+    { "readings times 1e30", [](msi::GapCapture& c) { c.readings *= 1e30; } },
+    { "readings times 1e-30", [](msi::GapCapture& c) { c.readings *= 1e-30; } },
+    { "one reading of 1e30", [](msi::GapCapture& c) { c.readings(0, 0) = 1e30; } },
+    { "one sample again and again",
+      [](msi::GapCapture& c)
+      {
+        c.samples.reflectance =
+          c.samples.reflectance.col(0).replicate(1, c.samples.reflectance.cols()).eval();
+        c.readings = c.readings.col(0).replicate(1, c.readings.cols()).eval();
+      } },
+    { "reflectances times 1e-30", [](msi::GapCapture& c) { c.samples.reflectance *= 1e-30; } },
+  };
+  for (const auto& [name, change] : changes)
+  {
+    SCOPED_TRACE(name);
+    msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } }, 16);
+    change(capture);
+    try
+    {
+      const msi::GapReport report = diagnosisOf(capture);
+      EXPECT_TRUE(std::isfinite(report.gap.rmsBefore));
+      EXPECT_TRUE(std::isfinite(report.gap.noiseFloor));
+      EXPECT_TRUE(std::isfinite(report.gap.shrink));
+      EXPECT_TRUE(std::isfinite(report.unexplained.share));
+      for (const msi::GapCause& cause : report.causes)
+      {
+        EXPECT_TRUE(std::isfinite(cause.share)) << cause.effect;
+        EXPECT_TRUE(std::isfinite(cause.probability)) << cause.effect;
+      }
+    }
+    catch (const std::invalid_argument& error)
+    {
+      EXPECT_GT(std::string(error.what()).size(), 20U) << error.what();
+    }
+  }
 }
 
 } // namespace

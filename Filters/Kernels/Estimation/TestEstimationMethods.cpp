@@ -196,6 +196,21 @@ TEST(KernelSystem, LeftOutErrorsAreThoseOfFitsWithoutTheSample)
   }
 }
 
+// A chart of any size in bounded memory and time, and a word that it is not used whole.
+TEST(KernelRidge, TakesASpreadOfALargeChartAndSaysSo)
+{
+  const msi::SampleSet chart{ randomMatrix(3, 4000, 1), randomMatrix(4, 4000, 2) };
+  const msi::SampleSet tuning{ randomMatrix(3, 2, 3), randomMatrix(4, 2, 4) };
+  const auto fit = msi::estimationMethodNamed("kernel-ridge").fit(chart, tuning, {});
+  EXPECT_NE(fit.summary.status.find("from 500 of 4000 chart samples"), std::string::npos)
+    << fit.summary.status;
+  for (const auto& [name, matrix] : fit.estimator->parameters())
+  {
+    EXPECT_LE(matrix.cols(), 502) << name;
+    EXPECT_LE(matrix.rows(), 502) << name;
+  }
+}
+
 TEST(Lasso, MeetsTheConditionsOfOptimality)
 {
   // Correlated channels, as a camera's are.

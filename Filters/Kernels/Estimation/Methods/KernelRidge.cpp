@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 namespace msi
 {
@@ -22,10 +23,29 @@ struct KernelCandidate
   double tuningWeight = 1.0;
 };
 
-EstimationFit fitKernelRidge(
-  const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
+// Memory grows with the square of the samples, time with the cube and hundreds of candidates: 1000 take about a minute.
+constexpr Eigen::Index MostChartSamples = 500;
+
+// Of a larger chart as many samples, spread evenly over it.
+SampleSet spreadOver(const SampleSet& chart)
 {
-  requireTrainingSamples(calibration, tuning);
+  if (chart.size() <= MostChartSamples)
+  {
+    return chart;
+  }
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < MostChartSamples; ++i)
+  {
+    kept.push_back(i * chart.size() / MostChartSamples);
+  }
+  return chart.subset(kept);
+}
+
+EstimationFit fitKernelRidge(
+  const SampleSet& chart, const SampleSet& tuning, const EstimationOptions& /*options*/)
+{
+  requireTrainingSamples(chart, tuning);
+  const SampleSet calibration = spreadOver(chart);
   const SampleSet samples = joined(calibration, tuning);
   const LocalSamples scaled = localSamples(samples);
   const Eigen::VectorXd center = scaled.points.rowwise().mean();
@@ -93,6 +113,10 @@ EstimationFit fitKernelRidge(
   status << (best.kernel == RegressionKernel::Gaussian ? "Gaussian" : "logarithmic")
          << " kernel of length " << best.length << ", penalty " << best.penalty
          << ", tuning weight " << best.tuningWeight << ", " << choiceText(choice, tuning);
+  if (calibration.size() < chart.size())
+  {
+    status << ", from " << calibration.size() << " of " << chart.size() << " chart samples";
+  }
   result.summary = summaryOfChoice(choice, calibration, tuning, status.str());
   return result;
 }

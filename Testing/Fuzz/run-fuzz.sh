@@ -1,19 +1,22 @@
 #!/bin/sh
 # Fuzzing guided by coverage, under AddressSanitizer and UndefinedBehaviorSanitizer:
-#   Testing/Fuzz/run-fuzz.sh SECONDS [TARGET...]
-# Builds all targets (or those named: EnviHeader, SampleTable, ...) with Clang into build/fuzz and runs each for SECONDS.
-# New inputs that reach new code are kept in build/fuzz/corpus, so that the next run goes on from there; an input that
-# makes a target fail stands in build/fuzz/findings. Exit status 1 where one did.
+#   Testing/Fuzz/run-fuzz.sh SECONDS|long [TARGET...]
+# Builds all targets (or those named: EnviHeader, SampleTable, ...) with Clang, as the preset 'sanitize' does, and runs each
+# for SECONDS; long: 10 million executions or an hour each. New inputs that reach new code are kept in build/fuzz/corpus, so
+# that the next run goes on from there; an input that makes a target fail stands in build/fuzz/findings. Exit status 1 where
+# one did.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
+tree=$root/build/sanitize
 build=$root/build/fuzz
 case ${1:-} in
+  long) limits='-runs=10000000 -max_total_time=3600' ;;
   '' | *[!0-9]*)
-    sed -n '2,6s/^# //p' "$0" >&2
+    sed -n '2,7s/^# //p' "$0" >&2
     exit 2
     ;;
+  *) limits=-max_total_time=$1 ;;
 esac
-seconds=$1
 shift
 command -v clang++ >/dev/null || {
   echo "run-fuzz.sh: there is no clang++; install the package clang" >&2
@@ -22,11 +25,8 @@ command -v clang++ >/dev/null || {
 mkdir -p "$build"
 launcher=
 command -v ccache >/dev/null 2>&1 && launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
-[ -f "$build/build.ninja" ] || cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-  -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ $launcher \
-  -DMULTISPECTRAL_FACE=formats -DMULTISPECTRAL_FUZZ=ON -DMULTISPECTRAL_SANITIZE=ON -DBUILD_TESTING=OFF \
-  "-DMULTISPECTRAL_KERNEL_ROOMS=Spectra;Camera" >"$build.log" 2>&1 || {
-  rm -f "$build/build.ninja"
+grep -q '^MULTISPECTRAL_FUZZ:BOOL=ON' "$tree/CMakeCache.txt" 2>/dev/null ||
+  (cd "$root" && cmake --preset sanitize $launcher) >"$build.log" 2>&1 || {
   echo "run-fuzz.sh: configuring failed; the log is $build.log" >&2
   exit 1
 }
@@ -40,11 +40,13 @@ for target in "$@"; do
   targets="$targets Fuzz$target"
 done
 echo "Building$targets"
-ninja -C "$build" $targets >"$build.log" 2>&1 || {
+cmake --build "$tree" --target $targets >"$build.log" 2>&1 || {
   echo "run-fuzz.sh: the build failed; the log is $build.log" >&2
   exit 1
 }
 mkdir -p "$build/findings"
+# Targets that write files write them into memory.
+[ ! -w /dev/shm ] || export TMPDIR=/dev/shm
 failed=0
 printf '%-20s %12s %10s %8s\n' target executions "per second" edges
 for target in "$@"; do
@@ -52,7 +54,7 @@ for target in "$@"; do
   mkdir -p "$corpus"
   log=$build/corpus/$target.log
   status=ok
-  "$build/Testing/Fuzz/Fuzz$target" -max_total_time="$seconds" -max_len=65536 -timeout=10 -rss_limit_mb=2048 \
+  "$tree/Testing/Fuzz/Fuzz$target" $limits -max_len=65536 -timeout=10 -rss_limit_mb=2048 \
     -malloc_limit_mb=1024 -print_final_stats=1 -artifact_prefix="$build/findings/$target-" "$corpus" \
     "$root/Testing/Fuzz/Corpus/$target" >"$log" 2>&1 || status=FAILED
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")

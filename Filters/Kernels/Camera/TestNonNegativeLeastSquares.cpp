@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
 
@@ -53,6 +55,42 @@ TEST(NonNegativeLeastSquares, MeetsTheOptimalityConditions)
       ASSERT_LE(gradient[j], 1e-9);
       ASSERT_LE(solution.x[j] * std::abs(gradient[j]), 1e-9);
     }
+  }
+}
+
+// Broad passbands that overlap: who takes all coefficients away at once that want to be negative goes round in circles.
+TEST(NonNegativeLeastSquares, ConvergesWhereColumnsAreAlike)
+{
+  constexpr Eigen::Index Columns = 18;
+  constexpr Eigen::Index Rows = 25;
+  constexpr double Width = 8.0; // columns
+  const msi::CounterRandom random(4);
+  Eigen::MatrixXd a(Rows, Columns);
+  for (Eigen::Index i = 0; i < Rows; ++i)
+  {
+    const double place = static_cast<double>(i * Columns) / static_cast<double>(Rows);
+    a.row(i) =
+      (-((Eigen::ArrayXd::LinSpaced(Columns, 0.0, Columns - 1.0) - place) / Width).square())
+        .exp()
+        .matrix()
+        .transpose();
+  }
+  const Eigen::MatrixXd h = a.transpose() * a;
+  for (std::uint64_t problem = 0; problem < 200; ++problem)
+  {
+    Eigen::VectorXd b(Rows);
+    for (Eigen::Index i = 0; i < Rows; ++i)
+    {
+      b[i] = std::sin(0.5 * static_cast<double>(i) + static_cast<double>(problem)) +
+        random.normal(problem * 1000 + static_cast<std::uint64_t>(i));
+    }
+    const Eigen::VectorXd f = a.transpose() * b;
+    const auto solution = msi::solveNonNegative(h, f);
+    ASSERT_TRUE(solution.converged) << problem;
+    ASSERT_GE(solution.x.minCoeff(), 0.0);
+    const Eigen::ArrayXd gradient = f - h * solution.x;
+    ASSERT_LE(gradient.maxCoeff(), 1e-7) << problem;
+    ASSERT_LE((solution.x.array() * gradient).abs().maxCoeff(), 1e-7) << problem;
   }
 }
 

@@ -130,13 +130,15 @@ void writeSummary(const GapReport& report, vtkTable* table)
       { "noise_floor", NumberColumn }, { "shrink", NumberColumn }, { "shrink_low", NumberColumn },
       { "shrink_high", NumberColumn }, { "unexplained_share", NumberColumn },
       { "unexplained_where", TextColumn }, { "unknown_probability", NumberColumn },
-      { "next_capture", TextColumn }, { "separates", TextColumn } });
+      { "next_capture", TextColumn }, { "separates", TextColumn },
+      { "expected_bits", NumberColumn }, { "minutes", NumberColumn } });
   const GapFigures& gap = report.gap;
-  const GapNextCapture next = report.nextCapture.value_or(GapNextCapture{});
+  const GapNextCapture next =
+    report.nextCaptures.empty() ? GapNextCapture{} : report.nextCaptures.front();
   rows.add({ nameOf(report.verdict), gap.rmsBefore, gap.rmsAfter, gap.noiseFloor, gap.shrink,
     gap.shrinkInterval[0], gap.shrinkInterval[1], report.unexplained.share,
-    report.unexplained.where, report.probabilityOf("unknown"), next.capture,
-    joined(next.separates) });
+    report.unexplained.where, report.probabilityOf("unknown"), next.capture, joined(next.separates),
+    next.expectedBits.value_or(Nothing), next.minutes.value_or(Nothing) });
   vtkNew<vtkStringArray> text;
   text->SetName("Report");
   text->InsertNextValue(gapReportText(report));

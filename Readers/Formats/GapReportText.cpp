@@ -73,6 +73,30 @@ OrderedJson candidatesOf(const GapReport& report)
   return candidates;
 }
 
+OrderedJson captureOf(const GapNextCapture& next)
+{
+  OrderedJson json = { { "capture", next.capture }, { "separates", next.separates } };
+  if (next.expectedBits && next.minutes)
+  {
+    json["expected_bits"] = *next.expectedBits;
+    json["minutes"] = *next.minutes;
+  }
+  return json;
+}
+
+OrderedJson nextCaptureOf(const GapReport& report)
+{
+  const std::vector<GapNextCapture>& all = report.nextCaptures;
+  OrderedJson json = captureOf(all.empty() ? GapNextCapture{} : all.front());
+  OrderedJson others = OrderedJson::array();
+  for (std::size_t i = 1; i < all.size(); ++i)
+  {
+    others.push_back(captureOf(all[i]));
+  }
+  json["others"] = others;
+  return json;
+}
+
 OrderedJson changePointsOf(const GapReport& report)
 {
   OrderedJson points = OrderedJson::array();
@@ -88,7 +112,6 @@ OrderedJson changePointsOf(const GapReport& report)
 std::string gapReportText(const GapReport& report)
 {
   const GapFigures& gap = report.gap;
-  const GapNextCapture next = report.nextCapture.value_or(GapNextCapture{});
   const OrderedJson json = { { "verdict", nameOf(report.verdict) },
     { "gap",
       { { "rms_before", gap.rmsBefore }, { "rms_after", gap.rmsAfter },
@@ -100,8 +123,7 @@ std::string gapReportText(const GapReport& report)
     { "unexplained",
       { { "share", report.unexplained.share }, { "where", report.unexplained.where },
         { "depends_on", namedNumbers(report.unexplained.dependsOn) } } },
-    { "next_capture", { { "capture", next.capture }, { "separates", next.separates } } },
-    { "notes", report.notes } };
+    { "next_capture", nextCaptureOf(report) }, { "notes", report.notes } };
   // Names come from the user's tables: bytes that are no UTF-8 must not end the writing.
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }

@@ -21,8 +21,8 @@ msi::GapReport filledReport()
     { "unknown", 0.1 } };
   report.candidates = { { "filter_shift", "common", "", 0.85, { 0.8, 0.9 } } };
   report.unexplained = { 0.06, "medium fabric", { { "medium", 0.8 }, { "level", 0.1 } } };
-  report.nextCapture =
-    msi::GapNextCapture{ "lamp spectrum", { "filter_shift", "illuminant_drift" } };
+  report.nextCaptures = { { "lamp spectrum", { "filter_shift", "illuminant_drift" }, 0.75, 5.0 },
+    { "monochromator", { "filter_shift", "illuminant_drift" }, 0.5, 60.0 } };
   report.notes = { "One medium only." };
   return report;
 }
@@ -46,7 +46,10 @@ TEST(GapReportText, WritesTheContract)
     "candidates": [{"effect": "filter_shift", "form": "common", "medium": "", "shrink": 0.85,
                     "shrink_interval": [0.8, 0.9]}],
     "unexplained": {"share": 0.06, "where": "medium fabric", "depends_on": {"medium": 0.8, "level": 0.1}},
-    "next_capture": {"capture": "lamp spectrum", "separates": ["filter_shift", "illuminant_drift"]},
+    "next_capture": {"capture": "lamp spectrum", "separates": ["filter_shift", "illuminant_drift"],
+                     "expected_bits": 0.75, "minutes": 5.0,
+                     "others": [{"capture": "monochromator", "separates": ["filter_shift", "illuminant_drift"],
+                                 "expected_bits": 0.5, "minutes": 60.0}]},
     "notes": ["One medium only."]})");
   EXPECT_EQ(Json::parse(msi::gapReportText(filledReport())), expected);
 }

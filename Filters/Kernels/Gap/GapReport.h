@@ -102,7 +102,9 @@ struct GapRemainder
 struct GapNextCapture
 {
   std::string capture;
-  std::vector<std::string> separates;
+  std::vector<std::string> separates; // effects that it tells apart
+  // Of information about which effects are the causes, and of work. Empty: the capture was looked up, not simulated.
+  std::optional<double> expectedBits, minutes;
 };
 
 struct GapReport
@@ -120,8 +122,8 @@ struct GapReport
   // Of "nothing" being the cause, of something "unknown" and of each effect being one; the largest first.
   std::vector<std::pair<std::string, double>> probabilities;
   double probabilityOf(const std::string& name) const; // 0 where it is not told
-  std::optional<GapNextCapture> nextCapture;
-  std::vector<std::string> notes; // what the data cannot decide, and why
+  std::vector<GapNextCapture> nextCaptures;            // that would tell more; the best first
+  std::vector<std::string> notes;                      // what the data cannot decide, and why
   // The corrected simulator is CameraSimulator(camera, correction, { whiteAfterEffects }) with the capture's
   // own camera.
   std::vector<CameraEffect> correction;

@@ -134,10 +134,9 @@ void recommendCapture(GapReport& report)
     [](const GapCause& cause) { return !cause.equivalent.empty(); });
   if (ambiguous != report.causes.end())
   {
-    GapNextCapture next{ separatingCapture(ambiguous->effect), { ambiguous->effect } };
-    next.separates.insert(
-      next.separates.end(), ambiguous->equivalent.begin(), ambiguous->equivalent.end());
-    report.nextCapture = std::move(next);
+    std::vector<std::string> separates{ ambiguous->effect };
+    separates.insert(separates.end(), ambiguous->equivalent.begin(), ambiguous->equivalent.end());
+    report.nextCaptures = { { separatingCapture(ambiguous->effect), separates, {}, {} } };
   }
 }
 

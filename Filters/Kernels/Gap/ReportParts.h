@@ -39,7 +39,7 @@ struct Rival
 // The cheapest two, by name.
 std::vector<std::string> cheapestOf(std::vector<Rival> rivals);
 
-// The capture that separates the first cause with equivalents from those.
+// The capture that the library names for the first cause with equivalents.
 void recommendCapture(GapReport& report);
 
 // The first axis and its worst cell.

@@ -8,6 +8,7 @@
 #include "Kernels/Gap/Samples/GapNoise.h"
 #include "Kernels/Gap/Samples/GapNotes.h"
 #include "Kernels/Gap/Samples/HeldOut.h"
+#include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
 #include "Kernels/Gap/Samples/ResidualScatter.h"
 #include "Kernels/Gap/Samples/SampleObservation.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 namespace msi
@@ -249,11 +251,22 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     after = before;
   }
   report.candidates = foundCandidates(observation, found, options.seed);
+  const bool gap = report.verdict != GapVerdict::NoGap;
+  const std::vector<Explanation> explanations = explanationsOf(observation, found);
   believe(report,
     effectProbabilities(
-      observation, found, report.verdict != GapVerdict::NoGap, report.gap.shrink));
+      explanations, gap, unknownProbability(observation, found, report.gap.shrink)));
+  if (gap)
+  {
+    std::set<std::string> inQuestion;
+    for (const GapCause& cause : report.causes)
+    {
+      inQuestion.insert(cause.effect);
+      inQuestion.insert(cause.equivalent.begin(), cause.equivalent.end());
+    }
+    report.nextCaptures = nextCaptures(observation, explanations, inQuestion, options.seed);
+  }
   addExcessNoise(report, data, noise, capture.noise, options.without);
-  recommendCapture(report);
   report.notes = notesOn(data, capture, noise, reflectanceNoise, report);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   report.gapBefore = (data.count.array() > 0.0).select(before, nan);

@@ -130,7 +130,14 @@ def print_summary(gap):
     if figures["unknown_probability"] >= UNKNOWN_IS_SAID:
         command.say(f"  an effect that is not in the library: probability {percent(figures['unknown_probability'])}")
     if figures["next_capture"]:
-        command.say(f"  Next capture: {gap.words(figures['next_capture'])} (separates {gap.words(figures['separates'])})")
+        command.say(f"  Next capture: {next_capture(figures, gap)}")
+
+
+def next_capture(figures, gap):
+    worth = ""
+    if figures["expected_bits"] > 0:
+        worth = f", expected {figures['expected_bits']:.1f} bits about the causes in {figures['minutes']:.0f} minutes"
+    return f"{gap.words(figures['next_capture'])} (separates {gap.words(figures['separates'])}{worth})"
 
 
 def first_rows(rows):
@@ -194,7 +201,7 @@ def sections(gap, folder):
         report.pictures("How far it shrinks", folder, {
             "how-far.png": f"The gap before and after the causes are simulated, on {gap.held} that took no "
                            "part in finding them, against what noise alone makes"}),
-        undecided_section(first_rows(tables["causes"]), notes, gap)]
+        undecided_section(figures, first_rows(tables["causes"]), notes, gap)]
     if "camera" in gap.ports:
         pages.append(corrected_section(tables["causes"]))
     return pages
@@ -230,7 +237,7 @@ def verdict_section(figures, causes, gap):
     if causes:
         lines += uncredited_lines(figures, gap)
     if figures["next_capture"]:
-        lines.append(f"Next capture: {gap.words(figures['next_capture'])}. It separates {gap.words(figures['separates'])}.")
+        lines.append(f"Next capture: {next_capture(figures, gap)}.")
     return report.text(f"Verdict: {figures['verdict']}", *lines)
 
 
@@ -275,7 +282,7 @@ def which_sections(causes, figures, drawn, folder, gap):
                  f"{percent(cause['probability'])}."]
         if cause["equivalent"]:
             words.append(f"These data cannot distinguish it from {gap.words(cause['equivalent'])}: each of them fits the {gap.held} "
-                         f"held out equally well. A capture that separates them: {gap.words(cause['next_capture'])}.")
+                         f"held out equally well.")
         parts.append(report.text(f"Cause {cause['rank']}: {title_of(cause)}", *words))
     if not parts:
         parts = [report.text("Which effects cause it",
@@ -292,9 +299,10 @@ def which_sections(causes, figures, drawn, folder, gap):
     return parts
 
 
-def undecided_section(causes, notes, gap):
-    words = [f"{title_of(cause)}, or {gap.words(cause['equivalent'])}: a capture of {gap.words(cause['next_capture'])} would tell."
-             for cause in causes if cause["equivalent"]]
+def undecided_section(figures, causes, notes, gap):
+    words = [f"{title_of(cause)}, or {gap.words(cause['equivalent'])}." for cause in causes if cause["equivalent"]]
+    if figures["next_capture"]:
+        words.append(f"What to capture next: {next_capture(figures, gap)}.")
     words += [gap.words(note) for note in notes]
     return report.text("What these data cannot decide, and why",
                        *(words or ["Nothing limits the diagnosis."]))

@@ -202,12 +202,17 @@ double unknownProbability(double shrink, double chanceOfCurve, int together)
   return odds / (1.0 + odds);
 }
 
-std::vector<std::pair<std::string, double>> effectProbabilities(
-  const Observation& data, const FoundSets& found, bool gap, double shrink)
+double unknownProbability(const Observation& data, const FoundSets& found, double shrink)
+{
+  return unknownProbability(shrink, found.best->chanceOfCurve, togetherIn(data, *found.best));
+}
+
+std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets& found)
 {
   // Of a set of causes only the likeliest forms count: more forms make no effect likelier.
   const double top = *std::max_element(found.score.begin(), found.score.end());
-  std::map<std::set<std::string>, double> sets;
+  std::map<std::set<std::string>, Explanation> sets;
+  double all = 0.0;
   for (std::size_t v = 0; v < found.visited.size(); ++v)
   {
     std::set<std::string> names;
@@ -215,30 +220,71 @@ std::vector<std::pair<std::string, double>> effectProbabilities(
     {
       names.insert(data.options()[option].effect->name);
     }
-    double& weight = sets[names];
-    weight = std::fmax(weight, std::exp((found.score[v] - top) / Decision::Temperature));
-  }
-  double all = 0.0;
-  std::map<std::string, double> effects;
-  for (const auto& [names, weight] : sets)
-  {
-    all += weight;
-    for (const std::string& name : names)
+    const double weight = std::exp((found.score[v] - top) / Decision::Temperature);
+    Explanation& explanation = sets[names];
+    if (!explanation.fit || weight > explanation.probability)
     {
-      effects[name] += weight;
+      all += weight - explanation.probability;
+      explanation = { names, found.visited[v], weight };
     }
   }
-  const double nothing = sets[{}] / all;
-  const double unknown = gap
-    ? unknownProbability(shrink, found.best->chanceOfCurve, togetherIn(data, *found.best))
-    : 0.0;
+  std::vector<Explanation> explanations;
+  for (auto& [names, explanation] : sets)
+  {
+    explanation.probability /= all;
+    explanations.push_back(std::move(explanation));
+  }
+  std::stable_sort(explanations.begin(), explanations.end(),
+    [](const Explanation& a, const Explanation& b) { return a.probability > b.probability; });
+  return explanations;
+}
+
+namespace
+{
+std::map<std::string, double> chancesOf(const std::vector<Explanation>& explanations)
+{
+  std::map<std::string, double> effects;
+  for (const Explanation& explanation : explanations)
+  {
+    for (const std::string& name : explanation.effects)
+    {
+      effects[name] += explanation.probability;
+    }
+  }
+  return effects;
+}
+}
+
+std::vector<std::string> disputed(
+  const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion)
+{
+  std::vector<Rival> rivals;
+  for (const auto& [name, chance] : chancesOf(explanations))
+  {
+    if (inQuestion.count(name) > 0)
+    {
+      rivals.push_back({ name, std::fabs(chance - 0.5) });
+    }
+  }
+  return cheapestOf(std::move(rivals));
+}
+
+std::vector<std::pair<std::string, double>> effectProbabilities(
+  const std::vector<Explanation>& explanations, bool gap, double unknown)
+{
+  double nothing = 0.0;
+  for (const Explanation& explanation : explanations)
+  {
+    nothing += explanation.effects.empty() ? explanation.probability : 0.0;
+  }
+  unknown = gap ? unknown : 0.0;
   std::vector<std::pair<std::string, double>> probabilities{
     { "nothing", gap ? 0.0 : nothing },
     { "unknown", unknown + (gap ? (1.0 - unknown) * nothing : 0.0) },
   };
-  for (const auto& [name, weight] : effects)
+  for (const auto& [name, chance] : chancesOf(explanations))
   {
-    probabilities.emplace_back(name, (1.0 - unknown) * weight / all);
+    probabilities.emplace_back(name, (1.0 - unknown) * chance);
   }
   std::stable_sort(probabilities.begin(), probabilities.end(),
     [](const auto& a, const auto& b) { return a.second > b.second; });

@@ -5,6 +5,7 @@
 #include "Kernels/Gap/GapReport.h"
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,9 +37,23 @@ std::vector<GapCandidate> foundCandidates(
 //   together: causes of a medium beside another of it. Each is e times likelier than one unknown effect in the place of both.
 double unknownProbability(double shrink, double chanceOfCurve = 1.0, int together = 0);
 
+// The likeliest fit of each set of effects, whatever their forms and media; their probabilities sum to 1, the largest first.
+struct Explanation
+{
+  std::set<std::string> effects;
+  FitPointer fit;
+  double probability = 0.0;
+};
+std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets& found);
+
+// The two of the effects in question about which the explanations agree the least.
+std::vector<std::string> disputed(
+  const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion);
+
 // Of "nothing", of "unknown", and of each effect being a cause; the largest first.
-// gap: whether there is one beyond noise. shrink: held out, of all that was found.
+// gap: whether there is one beyond noise. unknown: unknownProbability.
 std::vector<std::pair<std::string, double>> effectProbabilities(
-  const Observation& data, const FoundSets& found, bool gap, double shrink);
+  const std::vector<Explanation>& explanations, bool gap, double unknown);
+double unknownProbability(const Observation& data, const FoundSets& found, double shrink);
 
 } // namespace msi

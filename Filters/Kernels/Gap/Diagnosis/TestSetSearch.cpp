@@ -141,7 +141,8 @@ msi::FoundSets foundSets(const msi::Observation& data)
 
 double probabilityOf(const msi::Observation& data, const msi::FoundSets& sets, std::size_t option)
 {
-  for (const auto& [name, probability] : msi::effectProbabilities(data, sets, true, 1.0))
+  for (const auto& [name, probability] :
+    msi::effectProbabilities(msi::explanationsOf(data, sets), true, 0.0))
   {
     if (name == data.options()[option].effect->name)
     {
@@ -172,7 +173,7 @@ TEST(SetSearch, NoiseIsNothing)
   const ColumnSums data(drawnNumbers(SumRows, 8, 3), drawnNumbers(SumRows, 1, 4));
   const msi::FoundSets sets = foundSets(data);
   EXPECT_TRUE(sets.best->set.empty());
-  EXPECT_EQ(msi::effectProbabilities(data, sets, false, 0.0).size(),
+  EXPECT_EQ(msi::effectProbabilities(msi::explanationsOf(data, sets), false, 0.0).size(),
     10U); // each effect, "nothing" and "unknown"
 }
 

@@ -271,8 +271,9 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   }
   report.candidates = foundCandidates(*finding.observation, finding.found, options.seed);
   believe(report,
-    effectProbabilities(
-      *finding.observation, finding.found, report.verdict != GapVerdict::NoGap, explained));
+    effectProbabilities(explanationsOf(*finding.observation, finding.found),
+      report.verdict != GapVerdict::NoGap,
+      unknownProbability(*finding.observation, finding.found, explained)));
   recommendCapture(report);
   report.notes = notesOn(data, finding, choices);
   noteUncredited(report.notes, report.uncredited);

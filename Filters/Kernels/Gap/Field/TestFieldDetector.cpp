@@ -53,8 +53,8 @@ TEST(FieldGap, OffsetsOfChannelsMayBeGlare)
   ASSERT_EQ(report.causes.size(), 1U);
   expectParameter(report, "dark_offset", "offset[C2]", 0.012, 0.0005);
   EXPECT_EQ(report.causes.front().equivalent, std::vector<std::string>{ "veiling_glare" });
-  ASSERT_TRUE(report.nextCapture);
-  EXPECT_EQ(report.nextCapture->capture, "lens cap");
+  ASSERT_FALSE(report.nextCaptures.empty());
+  EXPECT_EQ(report.nextCaptures.front().capture, "lens cap");
 }
 
 // Light that is scattered adds; a dark signal that was taken off twice is missing.

@@ -92,9 +92,9 @@ FitPointer SampleObservation::nominal() const
   return described(Fitter.nominal(), {});
 }
 
-EffectFit SampleObservation::linearised(const EffectSet& effects) const
+EffectFit SampleObservation::linearised(const ObservedFit& fit) const
 {
-  return Fitter.fit(effects, NoStep);
+  return Fitter.fit(sampleFit(fit).effects, NoStep);
 }
 
 EffectFit SampleObservation::whole(const ObservedFit& fit) const
@@ -106,7 +106,7 @@ std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) con
 {
   std::vector<GapPreview> previews;
   for (ScreenedEffect& screened :
-    screenEffects(Fitter, linearised(sampleFit(from).effects), Choices, 0.0))
+    screenEffects(Fitter, linearised(from), Choices, 0.0))
   {
     const auto at = std::find_if(Choices.begin(), Choices.end(),
       [&screened](const EffectChoice& choice)
@@ -178,7 +178,7 @@ FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> 
 
 GroupEnergies SampleObservation::energies(const ObservedFit& fit) const
 {
-  return energies(linearised(sampleFit(fit).effects));
+  return energies(linearised(fit));
 }
 
 GroupEnergies SampleObservation::energies(const EffectFit& fit) const
@@ -202,7 +202,7 @@ GroupEnergies SampleObservation::energies(const EffectFit& fit) const
 
 std::vector<std::vector<GapParameter>> SampleObservation::parameters(const ObservedFit& fit) const
 {
-  const EffectFit whole = linearised(sampleFit(fit).effects);
+  const EffectFit whole = linearised(fit);
   std::vector<std::vector<GapParameter>> all(whole.set.size());
   if (whole.set.size() == 0)
   {

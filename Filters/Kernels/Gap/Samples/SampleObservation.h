@@ -35,13 +35,13 @@ public:
   std::vector<std::vector<GapParameter>> parameters(const ObservedFit& fit) const override;
 
   const EffectFitter& fitter() const noexcept { return Fitter; }
-  // With everything that a fit knows, taken to the end.
+  // The fit as it was found, and taken to the end.
+  EffectFit linearised(const ObservedFit& fit) const;
   EffectFit whole(const ObservedFit& fit) const;
   GroupEnergies energies(const EffectFit& fit) const;
 
 private:
   FitPointer described(EffectFit fit, std::vector<std::size_t> set) const;
-  EffectFit linearised(const EffectSet& effects) const;
 
   EffectFitter Fitter;
   std::vector<EffectChoice> Choices;

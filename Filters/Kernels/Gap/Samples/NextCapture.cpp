@@ -1,0 +1,418 @@
+#include "Kernels/Gap/Samples/NextCapture.h"
+
+#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Camera/StagedResponse.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <optional>
+
+namespace msi
+{
+
+namespace
+{
+constexpr std::uint32_t DrawStream = 77;
+constexpr int Draws = 64;                   // of each explanation
+constexpr Eigen::Index MostElements = 2000; // of a chart that is simulated again
+constexpr double LeastProbability = 0.02;   // of an explanation that is looked at
+constexpr double LeastBits = 0.1;           // that a capture is worth being named for
+constexpr double MinutesToGetReady = 10.0;
+
+// An explanation made ready to predict.
+struct Predictor
+{
+  EffectFit fit;
+  Eigen::MatrixXd covariance; // of the free parameters
+  double rest = 0.0;          // variance of an element that the explanation leaves beyond noise
+};
+
+Predictor predictorOf(const SampleObservation& data, const ObservedFit& explanation)
+{
+  Predictor predictor{ data.linearised(explanation), {}, 0.0 };
+  const EffectFit& fit = predictor.fit;
+  Eigen::VectorXd prior(static_cast<Eigen::Index>(fit.free.size()));
+  for (Eigen::Index p = 0; p < prior.size(); ++p)
+  {
+    prior[p] = std::pow(fit.free[static_cast<std::size_t>(p)].spread, -2);
+  }
+  Eigen::MatrixXd information = fit.information;
+  information.diagonal() -= prior;
+  information /= std::fmax(fit.dispersion, 1.0);
+  information.diagonal() += prior;
+  predictor.covariance =
+    information.ldlt().solve(Eigen::MatrixXd::Identity(prior.size(), prior.size()));
+  const GroupEnergies energies = data.energies(fit);
+  const auto sum = [](const std::vector<double>& values)
+  { return std::accumulate(values.begin(), values.end(), 0.0); };
+  predictor.rest =
+    std::fmax(sum(energies.after) - sum(energies.noise), 0.0) / std::fmax(data.elements(), 1.0);
+  return predictor;
+}
+
+SceneSamples selected(const SceneSamples& samples, const std::vector<Eigen::Index>& which)
+{
+  SceneSamples some;
+  some.reflectance = samples.reflectance(Eigen::all, which);
+  const auto names = [&which](const std::vector<std::string>& all)
+  {
+    std::vector<std::string> picked;
+    for (const Eigen::Index i : which)
+    {
+      if (!all.empty())
+      {
+        picked.push_back(all[static_cast<std::size_t>(i)]);
+      }
+    }
+    return picked;
+  };
+  const auto numbers = [&which](const Eigen::VectorXd& all)
+  { return all.size() > 0 ? Eigen::VectorXd(all(which)) : all; };
+  some.medium = names(samples.medium);
+  some.scene = names(samples.scene);
+  some.x = numbers(samples.x);
+  some.y = numbers(samples.y);
+  some.order = numbers(samples.order);
+  return some;
+}
+
+SceneSamples chartOf(const GapData& data)
+{
+  std::vector<Eigen::Index> usable;
+  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  {
+    if (data.usable[static_cast<std::size_t>(i)] != 0)
+    {
+      usable.push_back(i);
+    }
+  }
+  std::vector<Eigen::Index> which;
+  const auto count = static_cast<Eigen::Index>(usable.size());
+  const Eigen::Index kept =
+    std::min(count, std::max<Eigen::Index>(MostElements / data.channels(), 12));
+  for (Eigen::Index i = 0; i < kept; ++i)
+  {
+    which.push_back(usable[static_cast<std::size_t>(i * count / kept)]);
+  }
+  return selected(data.scene.samples(), which);
+}
+
+// Normal distribution with covariance diag(variance) + factor factor'.
+class LowRankNormal
+{
+public:
+  LowRankNormal(Eigen::VectorXd mean, Eigen::VectorXd variance, Eigen::MatrixXd factor)
+    : Mean(std::move(mean))
+    , Variance(std::move(variance))
+    , Factor(std::move(factor))
+    , Scaled(Variance.cwiseInverse().asDiagonal() * Factor)
+    , Inner(Eigen::MatrixXd::Identity(Factor.cols(), Factor.cols()) + Factor.transpose() * Scaled)
+  {
+    LogDeterminant =
+      Variance.array().log().sum() + 2.0 * Inner.matrixLLT().diagonal().array().log().sum();
+  }
+
+  double logDensity(const Eigen::VectorXd& y) const
+  {
+    const Eigen::VectorXd off = y - Mean;
+    const Eigen::VectorXd inner = Scaled.transpose() * off;
+    const double square =
+      (off.array().square() / Variance.array()).sum() - inner.dot(Inner.solve(inner));
+    return -0.5 * (square + LogDeterminant);
+  }
+
+  Eigen::VectorXd draw(const CounterRandom& random, std::uint64_t number) const
+  {
+    std::vector<float> normals(static_cast<std::size_t>(Mean.size() + Factor.cols()));
+    random.normals(number * normals.size(), normals.data(), normals.size());
+    const Eigen::VectorXd z =
+      Eigen::Map<Eigen::VectorXf>(normals.data(), static_cast<Eigen::Index>(normals.size()))
+        .cast<double>();
+    return Mean + Variance.cwiseSqrt().cwiseProduct(z.head(Mean.size())) +
+      Factor * z.tail(Factor.cols());
+  }
+
+private:
+  Eigen::VectorXd Mean, Variance;
+  Eigen::MatrixXd Factor, Scaled;
+  Eigen::LLT<Eigen::MatrixXd> Inner;
+  double LogDeterminant = 0.0;
+};
+
+// The effects that this capture can show, those known left out.
+EffectSet shownBy(const CaptureCandidate& candidate, const SampleScene& scene, const EffectSet& all,
+  std::vector<std::size_t>& kept)
+{
+  EffectSet shown = all;
+  kept.clear();
+  for (std::size_t e = all.size(); e-- > 0;)
+  {
+    const EffectChoice& choice = all.choices[e];
+    const std::vector<std::string>& media = scene.media();
+    const bool elsewhere = choice.effect->need == EffectNeed::Medium &&
+      std::find(media.begin(), media.end(), choice.medium) == media.end();
+    const bool unplaced = (choice.effect->need == EffectNeed::Position && !scene.hasPositions()) ||
+      (choice.effect->need == EffectNeed::Order && !scene.hasOrder());
+    if (elsewhere || unplaced || (candidate.known && candidate.known(*choice.effect)))
+    {
+      shown.remove(e);
+    }
+    else
+    {
+      kept.insert(kept.begin(), e);
+    }
+  }
+  return shown;
+}
+
+// Root of the covariance of some of the parameters.
+Eigen::MatrixXd rootOf(const Predictor& predictor, const EffectSet& shown,
+  const std::vector<std::size_t>& kept, const std::vector<FreeParameter>& free)
+{
+  const std::vector<FreeParameter>& all = predictor.fit.free;
+  std::vector<Eigen::Index> place;
+  for (const FreeParameter& one : free)
+  {
+    const std::size_t effect =
+      one.effect < shown.size() ? kept[one.effect] : predictor.fit.set.size();
+    const auto same = std::find_if(all.begin(), all.end(),
+      [&one, effect](const FreeParameter& other) {
+        return other.effect == effect && other.index == one.index && other.channel == one.channel;
+      });
+    place.push_back(same - all.begin());
+  }
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(
+    static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(place.size()));
+  const auto known = static_cast<Eigen::Index>(all.size());
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i)
+  {
+    for (Eigen::Index j = 0; j < covariance.cols(); ++j)
+    {
+      const Eigen::Index a = place[static_cast<std::size_t>(i)];
+      const Eigen::Index b = place[static_cast<std::size_t>(j)];
+      covariance(i, j) = a < known && b < known ? predictor.covariance(a, b) : 0.0;
+    }
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> decomposed(covariance);
+  return decomposed.transpositionsP().transpose() * Eigen::MatrixXd(decomposed.matrixL()) *
+    decomposed.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+// Empty where the camera would see nothing.
+std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandidate& candidate,
+  const SampleScene& scene, const Predictor& predictor)
+{
+  std::vector<std::size_t> kept;
+  const EffectSet shown = shownBy(candidate, scene, predictor.fit.set, kept);
+  const std::optional<StagedResponse> here = stagedResponse(data.camera, scene, shown);
+  if (!here || !here->response().allFinite())
+  {
+    return std::nullopt;
+  }
+  const std::vector<FreeParameter> free = shown.freeParameters(data.camera);
+  const Eigen::MatrixXd derivative = jacobian(*here, shown, free);
+  const Eigen::Map<const Eigen::VectorXd> mean(here->response().data(), here->response().size());
+  const Eigen::VectorXd noise = data.variance.rowwise().mean();
+  const Eigen::VectorXd variance =
+    (noise.replicate(scene.size(), 1).array() + predictor.rest + 1e-14) * Decision::Temperature;
+  return LowRankNormal(mean, variance,
+    std::sqrt(Decision::Temperature) * derivative * rootOf(predictor, shown, kept, free));
+}
+
+double logSumExp(const std::vector<double>& logs)
+{
+  const double top = *std::max_element(logs.begin(), logs.end());
+  double sum = 0.0;
+  for (const double one : logs)
+  {
+    sum += std::exp(one - top);
+  }
+  return top + std::log(sum);
+}
+
+// group: of explanations that are one.
+double expectedBits(const std::vector<LowRankNormal>& predicted,
+  const std::vector<double>& probability, const std::vector<std::set<std::string>>& group,
+  const CounterRandom& random)
+{
+  double information = 0.0;
+  for (std::size_t h = 0; h < predicted.size(); ++h)
+  {
+    double mean = 0.0;
+    for (std::uint64_t draw = 0; draw < Draws; ++draw)
+    {
+      const Eigen::VectorXd y = predicted[h].draw(random, h * Draws + draw);
+      std::vector<double> joint, ofGroup;
+      double groupProbability = 0.0;
+      for (std::size_t g = 0; g < predicted.size(); ++g)
+      {
+        joint.push_back(std::log(probability[g]) + predicted[g].logDensity(y));
+        if (group[g] == group[h])
+        {
+          ofGroup.push_back(joint.back());
+          groupProbability += probability[g];
+        }
+      }
+      mean += (logSumExp(ofGroup) - std::log(groupProbability) - logSumExp(joint)) / Draws;
+    }
+    information += probability[h] * mean;
+  }
+  return std::fmax(information / std::log(2.0), 0.0);
+}
+}
+
+std::vector<CaptureCandidate> captureCandidates(
+  const GapData& data, const std::vector<std::string>& effects)
+{
+  const WavelengthGrid& grid = data.camera.wavelengths();
+  const Eigen::Index N = grid.size();
+  const auto flat = [N](const std::vector<double>& levels)
+  {
+    SceneSamples samples;
+    samples.reflectance.resize(N, static_cast<Eigen::Index>(levels.size()));
+    for (std::size_t i = 0; i < levels.size(); ++i)
+    {
+      samples.reflectance.col(static_cast<Eigen::Index>(i)).setConstant(levels[i]);
+    }
+    return samples;
+  };
+  std::vector<CaptureCandidate> candidates;
+  candidates.push_back({ "lens cap", 1.0, flat({ 0.0 }) });
+  candidates.push_back(
+    { "exposure series of one patch", 5.0, flat({ 0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05 }) });
+  candidates.push_back({ "black trap, second scene", 5.0, flat({ 0.0, 0.03, 0.03, 0.03 }) });
+
+  SceneSamples narrow;
+  const Eigen::Index bands = std::min<Eigen::Index>(N, 40);
+  narrow.reflectance.resize(N, bands);
+  for (Eigen::Index i = 0; i < bands; ++i)
+  {
+    const double center = grid[i * (N - 1) / std::max<Eigen::Index>(bands - 1, 1)];
+    for (Eigen::Index n = 0; n < N; ++n)
+    {
+      narrow.reflectance(n, i) = std::exp(-0.5 * std::pow((grid[n] - center) / 5.0, 2));
+    }
+  }
+  candidates.push_back({ "narrow-band source", 30.0, narrow });
+
+  const SceneSamples chart = chartOf(data);
+  if (data.scene.hasPositions())
+  {
+    SceneSamples even = chart;
+    even.reflectance.setConstant(0.9);
+    even.medium.clear();
+    candidates.push_back({ "flat field", 3.0, even });
+    SceneSamples turned = chart;
+    turned.x = (chart.x.minCoeff() + chart.x.maxCoeff()) - chart.x.array();
+    turned.y = (chart.y.minCoeff() + chart.y.maxCoeff()) - chart.y.array();
+    candidates.push_back({ "chart rotated by 180 degrees", 5.0, turned });
+    SceneSamples board = even;
+    for (Eigen::Index i = 0; i < board.reflectance.cols(); i += 2)
+    {
+      board.reflectance.col(i).setConstant(0.03);
+    }
+    candidates.push_back({ "patch with black and with white surround", 5.0, board });
+  }
+  if (data.scene.hasOrder())
+  {
+    SceneSamples white = chart;
+    white.reflectance.setConstant(0.9);
+    white.medium.clear();
+    white.x.resize(0);
+    white.y.resize(0);
+    candidates.push_back({ "interleaved white", 5.0, white });
+  }
+  else
+  {
+    candidates.push_back({ "repeated white", 2.0, flat({ 0.9, 0.9 }) });
+  }
+
+  candidates.push_back({ effectWith(EffectTrait::SpectralGain).separatingCapture, 5.0, chart,
+    [](const EffectDefinition& effect) { return effect.has(EffectTrait::SpectralGain); } });
+  candidates.push_back({ "monochromator", 60.0, chart, [](const EffectDefinition& effect) {
+                          return effect.stage == EffectStage::Responsivity &&
+                            !effect.has(EffectTrait::SpectralGain);
+                        } });
+  for (const EffectDefinition& effect : effectLibrary())
+  {
+    const bool named = std::find(effects.begin(), effects.end(), effect.name) != effects.end();
+    if (named && effect.stage == EffectStage::Reflectance)
+    {
+      candidates.push_back({ effect.separatingCapture, 10.0, chart,
+        [&effect](const EffectDefinition& other) { return &other == &effect; } });
+    }
+  }
+  return candidates;
+}
+
+std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
+  const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion,
+  std::uint64_t seed)
+{
+  const std::vector<std::string> separates = disputed(explanations, inQuestion);
+  std::vector<std::set<std::string>> group;
+  std::vector<Predictor> predictors;
+  std::vector<double> probability;
+  for (const Explanation& one : explanations)
+  {
+    if (one.probability >= LeastProbability)
+    {
+      predictors.push_back(predictorOf(data, *one.fit));
+      probability.push_back(one.probability);
+      group.emplace_back();
+      std::set_intersection(one.effects.begin(), one.effects.end(), inQuestion.begin(),
+        inQuestion.end(), std::inserter(group.back(), group.back().end()));
+    }
+  }
+  if (std::set<std::set<std::string>>(group.begin(), group.end()).size() < 2)
+  {
+    return {};
+  }
+  const double all = std::accumulate(probability.begin(), probability.end(), 0.0);
+  for (double& one : probability)
+  {
+    one /= all;
+  }
+  const GapData& gap = data.fitter().data();
+  const CounterRandom random(seed, DrawStream);
+  std::vector<GapNextCapture> captures;
+  std::vector<std::string> effects;
+  for (const Predictor& predictor : predictors)
+  {
+    for (const CameraEffect& effect : predictor.fit.set.effects)
+    {
+      effects.push_back(effect.name);
+    }
+  }
+  for (const CaptureCandidate& candidate : captureCandidates(gap, effects))
+  {
+    const SampleScene scene(gap.camera.wavelengths(), candidate.samples);
+    std::vector<LowRankNormal> predicted;
+    for (const Predictor& predictor : predictors)
+    {
+      if (auto one = prediction(gap, candidate, scene, predictor))
+      {
+        predicted.push_back(std::move(*one));
+      }
+    }
+    const double bits = predicted.size() == predictors.size()
+      ? expectedBits(predicted, probability, group, random)
+      : 0.0;
+    if (bits >= LeastBits)
+    {
+      captures.push_back({ candidate.name, separates, bits, candidate.minutes });
+    }
+  }
+  const auto rate = [](const GapNextCapture& one)
+  { return *one.expectedBits / (*one.minutes + MinutesToGetReady); };
+  std::stable_sort(captures.begin(), captures.end(),
+    [&rate](const GapNextCapture& a, const GapNextCapture& b) { return rate(a) > rate(b); });
+  return captures;
+}
+
+} // namespace msi

@@ -1,0 +1,130 @@
+#include "Kernels/Gap/Samples/NextCapture.h"
+
+#include "Kernels/Gap/Samples/GapTestData.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+
+using namespace msi::test;
+
+// Both captures as one table, read by the camera with its true effects.
+msi::GapCapture joinedCapture(const msi::GapCapture& first, const msi::CaptureCandidate& candidate,
+  const std::vector<msi::CameraEffect>& truth)
+{
+  msi::SceneSamples samples = first.samples;
+  const Eigen::Index old = samples.reflectance.cols();
+  const Eigen::Index added = candidate.samples.reflectance.cols();
+  Eigen::MatrixXd reflectance(samples.reflectance.rows(), old + added);
+  reflectance << samples.reflectance, candidate.samples.reflectance;
+  samples.reflectance = reflectance;
+  const auto names = [old, added](std::vector<std::string> before,
+                       const std::vector<std::string>& after, const std::string& nameBefore,
+                       const std::string& nameAfter)
+  {
+    before.resize(static_cast<std::size_t>(old), nameBefore);
+    for (Eigen::Index i = 0; i < added; ++i)
+    {
+      before.push_back(after.empty() ? nameAfter : after[static_cast<std::size_t>(i)]);
+    }
+    return before;
+  };
+  samples.medium = names(samples.medium, candidate.samples.medium, "", "tile");
+  samples.scene = names(samples.scene, {}, "first", "second");
+  const auto numbers = [added](const Eigen::VectorXd& before, const Eigen::VectorXd& after)
+  {
+    Eigen::VectorXd both(before.size() == 0 ? 0 : before.size() + added);
+    if (both.size() > 0)
+    {
+      both << before, (after.size() > 0 ? after : Eigen::VectorXd::Constant(added, before.mean()));
+    }
+    return both;
+  };
+  samples.x = numbers(samples.x, candidate.samples.x);
+  samples.y = numbers(samples.y, candidate.samples.y);
+  samples.order = numbers(samples.order, candidate.samples.order);
+  return captureOf(samples, truth);
+}
+
+// Whether the second capture names what the first leaves open; empty where it leaves nothing open.
+std::optional<bool> toldByNext(const msi::SceneSamples& samples, const msi::CameraEffect& planted)
+{
+  const msi::GapCapture first = captureOf(samples, { planted });
+  const msi::GapReport report = diagnosisOf(first);
+  if (report.nextCaptures.empty())
+  {
+    return std::nullopt;
+  }
+  const msi::GapNextCapture& next = report.nextCaptures.front();
+  const std::vector<msi::CaptureCandidate> candidates =
+    msi::captureCandidates(dataOf(first), next.separates);
+  const auto taken = std::find_if(candidates.begin(), candidates.end(),
+    [&next](const msi::CaptureCandidate& candidate) { return candidate.name == next.capture; });
+  EXPECT_NE(taken, candidates.end()) << next.capture;
+  msi::GapReport after;
+  if (taken->known)
+  {
+    // What is known is taken into the simulated camera: where it was the cause, no gap is left.
+    if (taken->known(msi::requireEffect(planted.name)))
+    {
+      return true;
+    }
+    msi::GapOptions options;
+    for (const msi::EffectDefinition& effect : msi::effectLibrary())
+    {
+      if (taken->known(effect))
+      {
+        options.without.push_back(effect.name);
+      }
+    }
+    after = diagnosisOf(first, options);
+  }
+  else
+  {
+    after = diagnosisOf(joinedCapture(first, *taken, { planted }));
+  }
+  return !after.causes.empty() && after.causes.front().effect == planted.name;
+}
+
+TEST(NextCapture, TellsWhatTheFirstCaptureLeavesOpen)
+{
+  const std::vector<std::pair<const char*, double>> planted{ { "exposure_gain", 1.05 },
+    { "medium_gain", 1.05 }, { "filter_shift", 2.5 }, { "illuminant_drift", 0.05 },
+    { "filter_bandwidth", 1.2 }, { "channel_crosstalk", 0.03 }, { "veiling_glare", 0.02 },
+    { "dark_offset", 0.01 }, { "detector_nonlinearity", 0.05 }, { "filter_leak", 0.01 },
+    { "specular_component", 0.02 }, { "translucency", 0.05 }, { "fluorescence", 0.03 } };
+  int open = 0;
+  int told = 0;
+  for (const bool placed : { true, false })
+  {
+    msi::SceneSamples samples = rasterSamples(96);
+    samples.medium.assign(96, "paper");
+    if (!placed)
+    {
+      samples.x.resize(0);
+      samples.y.resize(0);
+      samples.order.resize(0);
+    }
+    for (const auto& [name, value] : planted)
+    {
+      const bool ofMedium = msi::requireEffect(name).need == msi::EffectNeed::Medium;
+      msi::CameraEffect effect =
+        msi::neutralEffect(name, sevenChannels().channels(), "", ofMedium ? "paper" : "");
+      effect.parameters.front() = value;
+      const std::optional<bool> outcome = toldByNext(samples, effect);
+      open += outcome ? 1 : 0;
+      told += outcome.value_or(false) ? 1 : 0;
+    }
+  }
+  EXPECT_GE(open, 8);
+  EXPECT_GE(told, 0.85 * open) << told << " of " << open;
+}
+
+}

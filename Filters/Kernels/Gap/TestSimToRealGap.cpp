@@ -155,7 +155,8 @@ TEST(SimToRealGap, WhatThisCaptureCannotTellApartIsSaid)
   // Any white tile tells: it is not of that medium. A dark frame tells nothing of gains.
   EXPECT_EQ(report.nextCaptures.front().capture, "flat field");
   EXPECT_TRUE(says(report.nextCaptures.front().separates, "medium_gain"));
-  EXPECT_GT(*report.nextCaptures.front().expectedBits, entropyOf(report, { "exposure_gain", "medium_gain" }) - 0.1);
+  EXPECT_GT(*report.nextCaptures.front().expectedBits,
+    entropyOf(report, { "exposure_gain", "medium_gain" }) - 0.1);
   for (const msi::GapNextCapture& next : report.nextCaptures)
   {
     EXPECT_NE(next.capture, "lens cap");

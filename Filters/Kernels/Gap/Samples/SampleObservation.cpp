@@ -105,8 +105,7 @@ EffectFit SampleObservation::whole(const ObservedFit& fit) const
 std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) const
 {
   std::vector<GapPreview> previews;
-  for (ScreenedEffect& screened :
-    screenEffects(Fitter, linearised(from), Choices, 0.0))
+  for (ScreenedEffect& screened : screenEffects(Fitter, linearised(from), Choices, 0.0))
   {
     const auto at = std::find_if(Choices.begin(), Choices.end(),
       [&screened](const EffectChoice& choice)

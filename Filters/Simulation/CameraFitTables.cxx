@@ -79,6 +79,12 @@ void writeSummary(const CameraModelFit& fit, vtkTable* table)
   setNumbers(table, "locality", one(fit.chosen.locality));
   setNumbers(table, "smoothness", one(fit.chosen.smoothness));
   setNumbers(table, "freedom", one(fit.chosen.freedom));
+  if (fit.curve)
+  {
+    setNumbers(table, "curve_square", one(fit.curve->square));
+    setNumbers(table, "curve_held_out_rms", one(fit.curve->heldOutRms));
+    setNumbers(table, "curve_deviations", one(fit.curve->deviations));
+  }
   addCount(table, "determined", fit.determined);
   addCount(table, "directions", fit.camera.wavelengths().size());
   setNumbers(table, "condition", one(fit.summary.condition));

@@ -10,6 +10,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 
+#include "Formats/EffectList.h"
 #include "Kernels/Camera/CameraModelFit.h"
 #include "Kernels/Camera/CameraResampling.h"
 #include "Kernels/Spectra/PossibleValues.h"
@@ -46,6 +47,7 @@ void vtkCameraModelFit::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Folds: " << this->Folds << "\n"
      << indent << "Draws: " << this->Draws << "\n"
      << indent << "Seed: " << this->Seed << "\n"
+     << indent << "DetectorCurve: " << this->DetectorCurve << "\n"
      << indent << "KeepDark: " << this->KeepDark << "\n";
 }
 
@@ -86,6 +88,7 @@ int vtkCameraModelFit::RequestData(
       options.passbandWidth = this->PassbandWidth;
       options.folds = this->Folds;
       options.draws = this->Draws;
+      options.detectorCurve = this->DetectorCurve;
       options.seed = static_cast<std::uint64_t>(this->Seed);
       double whiteLevel = 1.0;
       if (auto* table = vtkTable::GetData(inputs[1]))
@@ -108,6 +111,12 @@ int vtkCameraModelFit::RequestData(
         *reflectance.axis.wavelengths, reflectance.values, response.values, options);
       msi::CameraTable camera{ fit.camera };
       camera.whiteLevel = whiteLevel;
+      if (this->DetectorCurve && fit.curve && fit.curve->found())
+      {
+        camera.effects = msi::effectListText(
+          { { "detector_nonlinearity", "anchored", "", { fit.curve->square } } },
+          fit.camera.channels());
+      }
       msi::write(camera, vtkTable::GetData(outputs, 0));
       msi::writeUncertainty(fit, vtkTable::GetData(outputs, 1));
       msi::writeSummary(fit, vtkTable::GetData(outputs, 2));

@@ -62,6 +62,11 @@ public:
   /**
    * Take the dark response of the nominal camera instead of fitting it. Default off.
    */
+  // Straighten the responses by the detector's curve, where one is found; the camera then has it as an effect. Default
+  // off.
+  vtkSetMacro(DetectorCurve, bool);
+  vtkGetMacro(DetectorCurve, bool);
+  vtkBooleanMacro(DetectorCurve, bool);
   vtkSetMacro(KeepDark, bool);
   vtkGetMacro(KeepDark, bool);
   vtkBooleanMacro(KeepDark, bool);
@@ -85,6 +90,7 @@ private:
   int Folds = 5;
   int Draws = 100;
   int Seed = 1;
+  bool DetectorCurve = false;
   bool KeepDark = false;
 };
 

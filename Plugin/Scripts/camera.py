@@ -33,6 +33,8 @@ def arguments():
                         help="fit the camera to the samples; with --camera starting from it")
     parser.add_argument("--draws", metavar="N", type=command.whole_number(0), default=100,
                         help="bootstrap draws of the fit's uncertainty (default: %(default)s)")
+    parser.add_argument("--detector-curve", action="store_true",
+                        help="fit the camera behind the curve of its detector, where the samples show one")
     parser.add_argument("--effects", metavar="FILE",
                         help="list of effects (JSON) that the simulated camera has")
     options = parser.parse_args()
@@ -44,6 +46,8 @@ def arguments():
         parser.error("--image needs --labels and --patches")
     if not (options.fit or options.camera):
         parser.error("give --camera, --fit or both")
+    if options.detector_curve and not options.fit:
+        parser.error("--detector-curve needs --fit")
     return options
 
 
@@ -110,7 +114,7 @@ def main():
     camera, uncertainty, fit = designed, None, None
     pages = []
     if options.fit:
-        fit = cameras.fit(samples, designed, options.draws, folder)
+        fit = cameras.fit(samples, designed, options.draws, folder, options.detector_curve)
         camera, uncertainty = pipeline.port(fit, 0), pipeline.port(fit, 1)
         pages.append(report.table("The fit", *pipeline.table(pipeline.port(fit, 2))))
         pages.append(report.table("Channels", *pipeline.table(pipeline.port(fit, 3))))

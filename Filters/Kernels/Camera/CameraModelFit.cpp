@@ -130,9 +130,10 @@ struct Trials
   std::size_t chosen = 0;
 };
 
-// Held-out squared error per trial and sample, mean over the channels.
+// Held-out squared error per trial and sample, mean over the channels; slope: K x S, factors of the residuals.
 Eigen::MatrixXd heldOutErrors(const ChannelFitProblem& problem,
-  const std::vector<PenaltyWeights>& weights, const CameraModelFitOptions& options)
+  const std::vector<PenaltyWeights>& weights, const CameraModelFitOptions& options,
+  const Eigen::MatrixXd* slope = nullptr)
 {
   const auto trials = static_cast<Eigen::Index>(weights.size());
   Eigen::MatrixXd errors(trials, problem.samples());
@@ -147,8 +148,12 @@ Eigen::MatrixXd heldOutErrors(const ChannelFitProblem& problem,
       const FittedRows rows = problem.solve(moments, centers, weights[static_cast<std::size_t>(t)]);
       for (const Eigen::Index s : heldOut)
       {
-        errors(t, s) =
-          problem.residual(rows, s).squaredNorm() / static_cast<double>(rows.responsivity.rows());
+        Eigen::VectorXd residual = problem.residual(rows, s);
+        if (slope != nullptr)
+        {
+          residual.array() *= slope->col(s).array();
+        }
+        errors(t, s) = residual.squaredNorm() / static_cast<double>(rows.responsivity.rows());
       }
     }
   }
@@ -181,6 +186,70 @@ Trials tryWeights(const ChannelFitProblem& problem, const ChannelMoments& all,
     }
   }
   return trials;
+}
+
+constexpr double LargestSquare = 0.4;
+constexpr double LargestRelativeResponse = 2.0;
+constexpr int CurveSteps = 14; // of a golden section: 0.8 / 1.618^14 = 0.001
+
+// u of y = (1 - square) u + square u^2.
+Eigen::MatrixXd straightened(const Eigen::MatrixXd& response, double square)
+{
+  const double linear = 1.0 - square;
+  return 2.0 * response.array() /
+    (linear + (linear * linear + 4.0 * square * response.array()).max(0.0).sqrt());
+}
+
+std::optional<DetectorCurve> findCurve(const WavelengthGrid& wavelengths,
+  const Eigen::MatrixXd& reflectance, const Eigen::MatrixXd& response,
+  const PenaltyWeights& weights, const CameraModelFitOptions& options)
+{
+  if (response.cwiseAbs().maxCoeff() > LargestRelativeResponse)
+  {
+    return std::nullopt;
+  }
+  const auto errorsWith = [&](double square) -> Eigen::VectorXd
+  {
+    const Eigen::MatrixXd linear = straightened(response, square);
+    const Eigen::MatrixXd slope = (1.0 - square) + 2.0 * square * linear.array();
+    const ChannelFitProblem problem(wavelengths, reflectance, linear, options);
+    return heldOutErrors(problem, { weights }, options, &slope).row(0);
+  };
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double low = -LargestSquare;
+  double high = LargestSquare;
+  double left = high - golden * (high - low);
+  double right = low + golden * (high - low);
+  double ofLeft = errorsWith(left).mean();
+  double ofRight = errorsWith(right).mean();
+  for (int step = 0; step < CurveSteps; ++step)
+  {
+    if (ofLeft < ofRight)
+    {
+      high = right;
+      right = left;
+      ofRight = ofLeft;
+      left = high - golden * (high - low);
+      ofLeft = errorsWith(left).mean();
+    }
+    else
+    {
+      low = left;
+      left = right;
+      ofLeft = ofRight;
+      right = low + golden * (high - low);
+      ofRight = errorsWith(right).mean();
+    }
+  }
+  DetectorCurve curve;
+  curve.square = 0.5 * (low + high);
+  const Eigen::VectorXd errors = errorsWith(curve.square);
+  curve.heldOutRms = std::sqrt(errors.mean());
+  const Eigen::ArrayXd gain = errorsWith(0.0) - errors;
+  const auto count = static_cast<double>(gain.size());
+  const double deviation = std::sqrt((gain - gain.mean()).square().sum() / (count - 1.0) / count);
+  curve.deviations = deviation > 0.0 ? gain.mean() / deviation : 0.0;
+  return curve;
 }
 
 // Bootstrap over samples: means of products of (row, dark), channel by channel.
@@ -248,7 +317,8 @@ void addDetermination(CameraModelFit& fit, const Eigen::MatrixXd& reflectance)
   fit.summary.condition = determined > 0 ? singular[0] / singular[determined - 1] : 0.0;
 }
 
-std::string statusOf(const CameraModelFit& fit, bool nominal, Eigen::Index leftOut, bool converged)
+std::string statusOf(
+  const CameraModelFit& fit, bool nominal, Eigen::Index leftOut, bool converged, bool straight)
 {
   const Eigen::Index bands = fit.camera.wavelengths().size();
   const double range = fit.camera.wavelengths().back() - fit.camera.wavelengths().front();
@@ -273,6 +343,21 @@ std::string statusOf(const CameraModelFit& fit, bool nominal, Eigen::Index leftO
   if (leftOut > 0)
   {
     status << "; " << leftOut << " samples with values that are not finite were left out";
+  }
+  if (fit.curve && fit.curve->found())
+  {
+    const DetectorCurve& curve = *fit.curve;
+    status << "; the responses are curved, (1 - s) u + s u^2 with s = " << curve.square << ": ";
+    if (straight)
+    {
+      status << "that curve was taken out of them";
+    }
+    else
+    {
+      status << "without the curve the error on samples left out is " << curve.heldOutRms
+             << " instead of " << fit.heldOutRms
+             << "; linearise the responses or turn Detector Curve on";
+    }
   }
   if (!converged)
   {
@@ -321,6 +406,19 @@ CameraModelFit fitCameraModel(const WavelengthGrid& wavelengths,
   const Trials trials = tryWeights(problem, moments, centers, options);
   const CameraModelFitTrial chosen = trials.list[trials.chosen];
   const PenaltyWeights weights{ chosen.locality, chosen.smoothness };
+  const std::optional<DetectorCurve> curve =
+    findCurve(wavelengths, reflectance, response, weights, options);
+  if (options.detectorCurve && curve && curve->found())
+  {
+    CameraModelFitOptions straight = options;
+    straight.detectorCurve = false;
+    CameraModelFit fit =
+      fitCameraModel(wavelengths, reflectance, straightened(response, curve->square), straight);
+    fit.curve = curve;
+    fit.summary.status = statusOf(fit, options.nominal.has_value(), allResponse.cols() - samples,
+      fit.summary.complete || fit.determined < wavelengths.size(), true);
+    return fit;
+  }
   FittedRows rows = problem.solve(moments, centers, weights);
 
   CameraModelFit fit{ CameraModel(
@@ -329,6 +427,7 @@ CameraModelFit fitCameraModel(const WavelengthGrid& wavelengths,
   residual.colwise() -= fit.camera.dark();
   fit.channelRms = residual.rowwise().squaredNorm().cwiseSqrt() / std::sqrt(double(samples));
   fit.heldOutRms = chosen.heldOutRms;
+  fit.curve = curve;
   fit.trials = trials.list;
   fit.chosen = chosen;
   fit.summary.residualRms = std::sqrt(residual.squaredNorm() / double(residual.size()));
@@ -342,7 +441,7 @@ CameraModelFit fitCameraModel(const WavelengthGrid& wavelengths,
   addDetermination(fit, reflectance);
   fit.summary.complete = fit.determined == wavelengths.size() && rows.converged;
   fit.summary.status =
-    statusOf(fit, options.nominal.has_value(), allResponse.cols() - samples, rows.converged);
+    statusOf(fit, options.nominal.has_value(), allResponse.cols() - samples, rows.converged, false);
   return fit;
 }
 

@@ -25,6 +25,8 @@ struct CameraModelFitOptions
     15.0;          // nm from a channel's center at which the penalty on far light sets in
   int folds = 5;   // of the cross-validation that chooses the weights of the penalties
   int draws = 100; // of the bootstrap that gives the uncertainty; 0: none
+  // The responses are straightened by the curve that is found, where one is.
+  bool detectorCurve = false;
   std::uint64_t seed = 1;
 };
 
@@ -37,9 +39,23 @@ struct CameraModelFitTrial
   double freedom = 0.0; // effective number of coefficients a channel
 };
 
+// A curve of the detector, y = (1 - square) u + square u^2 with u = M r + b: white keeps its response.
+struct DetectorCurve
+{
+  double square = 0.0;     // the one whose camera predicts samples left out best, from -0.4 to 0.4
+  double heldOutRms = 0.0; // of that camera
+  double deviations =
+    0.0; // of the gain in squared error, sample by sample, over its standard error
+  bool found() const noexcept { return deviations > 3.0; }
+};
+
 struct CameraModelFit
 {
   CameraModel camera;
+
+  // Empty where responses are not relative to white (above 2). `camera` is linear all the same: with
+  // CameraModelFitOptions::detectorCurve and a curve found it is the camera before that curve.
+  std::optional<DetectorCurve> curve = std::nullopt;
 
   // Standard errors from the bootstrap over samples; empty without draws.
   Eigen::MatrixXd responsivityError = {}; // K x N
@@ -79,6 +95,8 @@ struct CameraModelFit
 // The weights are common to all channels: of those tried, the ones with the fewest effective coefficients
 // whose mean squared held-out error lies within one standard error of the smallest (Breiman's rule).
 // A sample with a value that is not finite takes no part.
+// Whether the detector is curved: with the weights chosen, the curve whose straightened responses are predicted best on
+// samples left out, errors taken back to the responses' own scale.
 //
 // Shapes: reflectance N x S, response K x S.
 // Errors: std::invalid_argument for shapes that disagree, a grid that is not uniform, fewer than 10 samples, folds

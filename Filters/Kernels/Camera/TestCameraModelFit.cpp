@@ -113,6 +113,50 @@ TEST(CameraModelFit, NominalFiltersHelpAPoorChart)
   EXPECT_LT(with, Noise);
 }
 
+TEST(CameraModelFit, ACurveOfTheDetectorIsFoundAndTakenOut)
+{
+  const Eigen::MatrixXd reflectance = chart(visibleGrid(), 120, 1);
+  const Eigen::MatrixXd linear = msi::cameraResponse(sevenChannels())(reflectance);
+  constexpr double Square = 0.1;
+  Eigen::MatrixXd response = (1.0 - Square) * linear.array() + Square * linear.array().square();
+  msi::CameraNoise noise;
+  noise.read = Noise;
+  msi::NoiseGenerator{ noise, 9 }(response, 0);
+  msi::CameraModelFitOptions options;
+  options.draws = 0;
+  const CameraModelFit seen = msi::fitCameraModel(visibleGrid(), reflectance, response, options);
+  ASSERT_TRUE(seen.curve && seen.curve->found());
+  EXPECT_NEAR(seen.curve->square, Square, 0.02);
+  EXPECT_LT(seen.curve->heldOutRms, seen.heldOutRms);
+  EXPECT_NE(seen.summary.status.find("Detector Curve"), std::string::npos);
+  options.detectorCurve = true;
+  const CameraModelFit straight =
+    msi::fitCameraModel(visibleGrid(), reflectance, response, options);
+  const Eigen::MatrixXd other = chart(visibleGrid(), 60, 2);
+  const Eigen::MatrixXd truth = msi::cameraResponse(sevenChannels())(other);
+  EXPECT_LT(rms(msi::cameraResponse(straight.camera)(other) - truth),
+    0.3 * rms(msi::cameraResponse(seen.camera)(other) - truth));
+}
+
+TEST(CameraModelFit, NoCurveIsSeenInALinearDetector)
+{
+  int seen = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+  {
+    const Eigen::MatrixXd reflectance = chart(visibleGrid(), 60, seed);
+    Eigen::MatrixXd response = msi::cameraResponse(sevenChannels())(reflectance);
+    msi::CameraNoise noise;
+    noise.read = Noise;
+    msi::NoiseGenerator{ noise, seed }(response, 0);
+    msi::CameraModelFitOptions options;
+    options.draws = 0;
+    const CameraModelFit fit = msi::fitCameraModel(visibleGrid(), reflectance, response, options);
+    ASSERT_TRUE(fit.curve);
+    seen += fit.curve->found() ? 1 : 0;
+  }
+  EXPECT_LE(seen, 1);
+}
+
 TEST(CameraModelFit, SaysWhatTheChartCannotDetermine)
 {
   // Mixtures of three spectra: three directions and no more.

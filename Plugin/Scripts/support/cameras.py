@@ -16,10 +16,10 @@ def read(path):
     return camera
 
 
-def fit(samples, nominal, draws, folder):
+def fit(samples, nominal, draws, folder, curve=False):
     """Fits the camera to the samples and keeps it with all that the fit knows; returns the fit's proxy."""
     inputs = {"NominalCamera": nominal} if nominal is not None else {}
-    fitted = pipeline.create("CameraModelFit", Input=samples, Draws=draws, **inputs)
+    fitted = pipeline.create("CameraModelFit", Input=samples, Draws=draws, DetectorCurve=int(curve), **inputs)
     pipeline.update(fitted)
     save(pipeline.port(fitted, 0), os.path.join(folder, "camera.json"))
     for index, name in ((1, "uncertainty"), (2, "fit"), (3, "channels")):

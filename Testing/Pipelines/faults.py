@@ -190,12 +190,22 @@ def names_with_meanings(launcher, base):
     expect(not os.path.exists(latin), "the output folder in Latin-1 was made")
 
 
+def no_threads_in_what_is_copied(launcher, base):
+    """The process that draws is a copy of the program: a thread that a library started before would be missing in it."""
+    package = pathlib.Path(os.environ["MULTISPECTRAL_PLUGIN"]).parents[2] / "python"
+    done = subprocess.run(
+        ["/usr/bin/python3", "-c", "import os, sys; sys.path.insert(0, sys.argv[1]); from support import command, estimation, "
+         "pictures; print(len(os.listdir('/proc/self/task')))", root / "Plugin" / "Scripts"],
+        env={**os.environ, "MULTISPECTRAL_PYTHON": str(package)}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    expect(done.stdout.strip() == "1", f"threads before the first copy: {done.stdout}{done.stderr}")
+
+
 def main():
     launcher, base = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(base, ignore_errors=True)
     base.mkdir(parents=True)
     for test in (outputs_over_inputs, killed_and_run_again, stopped_by_the_user, a_process_is_lost, nowhere_to_speak,
-                 names_with_meanings):
+                 names_with_meanings, no_threads_in_what_is_copied):
         if len(sys.argv) < 4 or test.__name__ in sys.argv[3:]:
             test(launcher, base)
     print("\n".join(faults) or "nothing lost, nothing that looks complete and is not")

@@ -9,6 +9,10 @@ import signal
 import sys
 import time
 
+# NumPy's OpenBLAS, where it is installed, starts threads as soon as it is loaded; a copy of the process (painter.py) may then
+# wait for them for ever.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 
 class Failure(Exception):
     """The work failed; the text is the one line that the user sees."""

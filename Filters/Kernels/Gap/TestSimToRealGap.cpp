@@ -139,6 +139,7 @@ TEST(SimToRealGap, ACurveBehindALinearFitIsOneCause)
   EXPECT_EQ(report.causes.front().effect, "detector_nonlinearity");
   EXPECT_EQ(report.causes.front().form, "fitted");
   EXPECT_NEAR(report.causes.front().parameters.front().value, Square, 0.01);
+  EXPECT_TRUE(says(report.notes, "linear fit to responses that are curved"));
 }
 
 // With one medium a gain of the medium and of the exposure are the same numbers.

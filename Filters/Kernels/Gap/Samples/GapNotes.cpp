@@ -145,6 +145,18 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
       "What the causes do shows in a few samples only, and the others cannot confirm it: "
       "more samples like these would.");
   }
+  const auto behindLine = [](const GapCause& cause)
+  {
+    const EffectDefinition* effect = findEffect(cause.effect);
+    const EffectForm* form = effect == nullptr ? nullptr : findForm(*effect, cause.form);
+    return form != nullptr && form->has(FormTrait::BesideLine);
+  };
+  if (std::any_of(report.causes.begin(), report.causes.end(), behindLine))
+  {
+    notes.push_back(
+      "The nominal camera seems to be a linear fit to responses that are curved: fit it "
+      "with the detector's curve (Camera Model Fit, Detector Curve).");
+  }
   noteUncredited(notes, report.uncredited);
 }
 

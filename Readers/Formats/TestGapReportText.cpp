@@ -68,7 +68,7 @@ TEST(GapReportText, AnEmptyReportHasEveryKey)
   const Json json = Json::parse(msi::gapReportText({}));
   EXPECT_EQ(json["verdict"], "no gap");
   EXPECT_EQ(json["causes"], Json::array());
-  EXPECT_EQ(json["next_capture"], Json::parse(R"({"capture": "", "separates": []})"));
+  EXPECT_EQ(json["next_capture"], Json::parse(R"({"capture": "", "separates": [], "others": []})"));
 }
 
 TEST(GapReportText, WhatIsNoNumberIsNull)

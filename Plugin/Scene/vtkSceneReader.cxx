@@ -280,9 +280,13 @@ int vtkSceneReader::RequestData(
         }
         if (port == ImagePort)
         {
+          auto* output = vtkDataObject::GetData(outputs, port);
           if (asked > 0)
           {
-            continue; // it is computed when it is asked for
+            // It is computed when it is asked for. Until then it stays as it was: VTK has emptied it, but for its scalars.
+            output->Initialize();
+            output->ShallowCopy(part->GetOutputDataObject(0));
+            continue;
           }
           int extent[6];
           outputs->GetInformationObject(port)->Get(

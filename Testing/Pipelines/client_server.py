@@ -92,7 +92,7 @@ class Pipelines:
     def __init__(self, simple, servermanager, folder):
         root = os.environ["MULTISPECTRAL_ROOT"]
         scene = os.path.join(root, "Data", "Images", "demo-fabric")
-        self.simple, self.manager, self.folder = simple, servermanager, folder
+        self.simple, self.manager, self.folder, self.scene = simple, servermanager, folder, scene
         simple.LoadPlugin(os.environ["MULTISPECTRAL_PLUGIN"], remote=True, ns=simple.__dict__)
         simple.LoadPlugin(os.environ["MULTISPECTRAL_PLUGIN"], remote=False, ns=simple.__dict__)
         self.chart = simple.SampleTableReader(FileName=os.path.join(root, "Data", "Samples", "demo-chart.csv"))
@@ -114,6 +114,14 @@ class Pipelines:
         fit = simple.MetamerismCorrection(Calibration=self.chart, Tuning=self.fabric, Method="Pooled")
         estimate = simple.ReflectanceEstimation(Input=cube, ReflectanceTransform=fit[0],
                                                 MetamerismTransform=fit[1], TrustResponses=True)
+        # The same counts without a word for them: refused, also where each rank has a part of the image.
+        refused = simple.ReflectanceEstimation(Input=cube, ReflectanceTransform=fit[0], MetamerismTransform=fit[1])
+        refused.UpdatePipeline()
+        # All parts of a scene, one after another: each keeps what it had.
+        scene = simple.SceneReader(FileName=self.scene)
+        of_scene = simple.ReflectanceEstimation(Input=scene[0], ReflectanceTransform=fit[0], MetamerismTransform=fit[1])
+        of_scene.UpdatePipeline()
+        simple.PatchReferenceImage(Input=scene[1], PatchTable=scene[2]).UpdatePipeline()
         reference = simple.PatchReferenceImage(Input=self.labels, PatchTable=self.patches)
         errors = simple.CIEDE2000Evaluator(Input=estimate, Reference=reference)
         self.write(estimate, "reflectance.exr")
@@ -121,8 +129,10 @@ class Pipelines:
         results = {
             "chart": self.table(self.chart), "samples": self.table(samples),
             "transform": self.table(fit[0]), "fit": self.table(fit[2]),
+            "profile of a scene": self.table(simple.SpectralProfile(Input=of_scene, Points=[21, 160, 190, 75])),
             "profile": self.table(simple.SpectralProfile(Input=estimate, Points=[5, 5, 100, 50])),
             "errors": self.table(simple.ErrorSummary(Input=errors)),
+            "refused": refused.PointData.GetNumberOfArrays(),
             "notes": self.notes(cube)}
         for name, source in (("cube", cube), ("estimate", estimate), ("errors", errors)):
             source.UpdatePipeline()
@@ -154,6 +164,8 @@ def client(folder, port):
     # Text first: NaN does not equal itself.
     faults = [f"{name} differs:\n{alone[name]}\n{served[name]}"
               for name in alone if repr(alone[name]) != repr(served[name])]
+    if alone["refused"] != 0:
+        faults.append("raw counts were estimated")
     files = sorted(os.listdir(folders[0]))
     faults += [f"{name} differs" for name in files
                if not filecmp.cmp(*(os.path.join(path, name) for path in folders), shallow=False)]

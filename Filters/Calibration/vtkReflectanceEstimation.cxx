@@ -251,25 +251,43 @@ int vtkReflectanceEstimation::RequestData(
         throw std::invalid_argument(
           "the first input is neither an image of camera responses nor a sample table");
       }
-      auto* responses = msi::requireSpectralArray(image, "the image", this->ResponseArray.c_str());
-      msi::requireSameChannels(msi::axisOf(image, responses), "the image", estimator.channels,
-        "the reflectance transform");
+      auto* controller = msi::controllerOfPieces(inputs[0]);
+      vtkDataArray* responses = nullptr;
+      msi::beforeRanksMeet(controller,
+        [&]
+        {
+          if (controller && image->GetNumberOfPoints() == 0)
+          {
+            return; // more ranks than rows
+          }
+          responses = msi::requireSpectralArray(image, "the image", this->ResponseArray.c_str());
+          msi::requireSameChannels(msi::axisOf(image, responses), "the image", estimator.channels,
+            "the reflectance transform");
+        });
       const auto range = msi::readResponseRange(
         vtkTable::GetData(inputs[1]), static_cast<Eigen::Index>(estimator.channels.size()));
-      if (msi::isWhole(inputs[0]->GetInformationObject(0), image))
+      // An image that is taken in blocks is judged by who takes it so.
+      auto* information = inputs[0]->GetInformationObject(0);
+      if (controller || msi::isWhole(information, image))
       {
-        const auto judgement =
-          msi::judgeResponses(responses, estimator.channels, range, this->TrustResponses);
+        const auto judgement = msi::judgeResponses(information, image, responses,
+          estimator.channels, range, this->TrustResponses, controller);
         this->OutOfRangeShare = judgement.outside;
         this->MissingShare = judgement.missing;
         if (!judgement.error.empty())
         {
           throw std::runtime_error(judgement.error);
         }
-        if (!judgement.warning.empty())
+        if (!judgement.warning.empty() && (!controller || controller->GetLocalProcessId() == 0))
         {
           vtkWarningMacro(<< judgement.warning);
         }
+      }
+      auto* output = vtkImageData::GetData(outputs, 0);
+      output->ShallowCopy(image);
+      if (!responses)
+      {
+        return;
       }
       QualityMapsOf maps;
       if (this->QualityMaps)
@@ -280,8 +298,6 @@ int vtkReflectanceEstimation::RequestData(
         maps.uncertainty =
           uncertainty ? newArray<vtkFloatArray>("UncertaintyRms", 1, pixels) : nullptr;
       }
-      auto* output = vtkImageData::GetData(outputs, 0);
-      output->ShallowCopy(image);
       if (responses->GetDataType() == VTK_DOUBLE)
       {
         estimateImage<vtkDoubleArray>(

@@ -1,10 +1,13 @@
 #include "ResponseRange.h"
 
+#include "ImagePieces.h"
+
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
@@ -12,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace msi
@@ -127,6 +131,59 @@ ResponseJudgement besideRange(
   }
   return judgement;
 }
+
+// The responses of the pixels that this rank looks at, one after another.
+std::vector<double> everyNth(
+  vtkInformation* input, vtkImageData* image, vtkDataArray* responses, std::size_t channels)
+{
+  std::vector<double> values;
+  if (!responses)
+  {
+    return values;
+  }
+  Extent whole{};
+  input->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
+  const Extent owned = ownedExtent(input, image);
+  const vtkIdType width = whole[1] - whole[0] + 1;
+  const vtkIdType height = whole[3] - whole[2] + 1;
+  const vtkIdType step =
+    std::max<vtkIdType>(1, width * height * (whole[5] - whole[4] + 1) / MostPixels);
+  for (int z = owned[4]; z <= owned[5]; ++z)
+  {
+    for (int y = owned[2]; y <= owned[3]; ++y)
+    {
+      const vtkIdType row = ((z - whole[4]) * height + y - whole[2]) * width;
+      const vtkIdType begin = row + owned[0] - whole[0];
+      const vtkIdType end = row + owned[1] - whole[0];
+      for (vtkIdType pixel = (begin + step - 1) / step * step; pixel <= end; pixel += step)
+      {
+        int place[] = { static_cast<int>(pixel - row) + whole[0], y, z };
+        const auto known = values.size();
+        values.resize(known + channels);
+        responses->GetTuple(image->ComputePointId(place), values.data() + known);
+      }
+    }
+  }
+  return values;
+}
+
+std::vector<double> onAllRanks(
+  const std::vector<double>& mine, vtkMultiProcessController* controller)
+{
+  if (!controller)
+  {
+    return mine;
+  }
+  const auto ranks = static_cast<std::size_t>(controller->GetNumberOfProcesses());
+  const auto count = static_cast<vtkIdType>(mine.size());
+  std::vector<vtkIdType> counts(ranks);
+  controller->AllGather(&count, counts.data(), 1);
+  std::vector<vtkIdType> offsets(ranks, 0);
+  std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
+  std::vector<double> all(static_cast<std::size_t>(offsets.back() + counts.back()));
+  controller->AllGatherV(mine.data(), all.data(), count, counts.data(), offsets.data());
+  return all;
+}
 }
 
 void writeResponseRange(vtkTable* transform, const std::vector<Eigen::MatrixXd>& responses)
@@ -166,22 +223,26 @@ std::optional<ResponseRange> readResponseRange(vtkTable* transform, Eigen::Index
   return range;
 }
 
-ResponseJudgement judgeResponses(vtkDataArray* responses, const SpectralAxis& channels,
-  const std::optional<ResponseRange>& range, bool trusted)
+ResponseJudgement judgeResponses(vtkInformation* input, vtkImageData* image,
+  vtkDataArray* responses, const SpectralAxis& channels, const std::optional<ResponseRange>& range,
+  bool trusted, vtkMultiProcessController* controller)
 {
-  const vtkIdType count = responses->GetNumberOfTuples();
-  const vtkIdType step = std::max<vtkIdType>(1, count / MostPixels);
   const auto size = static_cast<Eigen::Index>(channels.size());
-  Eigen::ArrayXXd pixels(size, count == 0 ? 0 : (count - 1) / step + 1);
-  Eigen::Index kept = 0;
-  for (vtkIdType pixel = 0; pixel < count; pixel += step)
-  {
-    responses->GetTuple(pixel, pixels.col(kept).data());
-    kept += pixels.col(kept).isFinite().all() ? 1 : 0;
-  }
-  if (count == 0)
+  const std::vector<double> values =
+    onAllRanks(everyNth(input, image, responses, channels.size()), controller);
+  const Eigen::Index looked = static_cast<Eigen::Index>(values.size()) / size;
+  if (looked == 0)
   {
     return {};
+  }
+  Eigen::ArrayXXd pixels = Eigen::Map<const Eigen::ArrayXXd>(values.data(), size, looked);
+  Eigen::Index kept = 0;
+  for (Eigen::Index pixel = 0; pixel < looked; ++pixel)
+  {
+    if (pixels.col(pixel).isFinite().all())
+    {
+      pixels.col(kept++) = pixels.col(pixel);
+    }
   }
   if (kept == 0)
   {
@@ -190,7 +251,7 @@ ResponseJudgement judgeResponses(vtkDataArray* responses, const SpectralAxis& ch
              "image, and of the same camera?",
       {} };
   }
-  const double missing = 1.0 - static_cast<double>(kept) / static_cast<double>(pixels.cols());
+  const double missing = 1.0 - static_cast<double>(kept) / static_cast<double>(looked);
   pixels.conservativeResize(Eigen::NoChange, kept);
   const Eigen::Array<bool, Eigen::Dynamic, 1> zero = (pixels == 0.0).rowwise().all();
   if (zero.all())

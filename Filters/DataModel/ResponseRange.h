@@ -13,6 +13,7 @@
 class vtkDataArray;
 class vtkImageData;
 class vtkInformation;
+class vtkMultiProcessController;
 class vtkTable;
 
 namespace msi
@@ -35,9 +36,13 @@ struct ResponseJudgement
   double missing = 0.0;
 };
 
-// Looks at up to 65536 pixels, evenly spread. trusted: responses that look like raw counts are a warning, no error.
-ResponseJudgement judgeResponses(vtkDataArray* responses, const SpectralAxis& channels,
-  const std::optional<ResponseRange>& range, bool trusted);
+// Looks at about 65536 pixels, evenly spread over the whole image: the same ones for any number of ranks. input: the
+// information of the input port that the image came through. controller: of the ranks that have the other pieces, null
+// where this one has the image whole; then collective, with the same judgement on every rank. responses is null where the
+// rank's piece is empty. trusted: responses that look like raw counts are a warning, no error.
+ResponseJudgement judgeResponses(vtkInformation* input, vtkImageData* image,
+  vtkDataArray* responses, const SpectralAxis& channels, const std::optional<ResponseRange>& range,
+  bool trusted, vtkMultiProcessController* controller);
 
 // How far a pixel's responses lie outside of the range: the largest excess of a channel, in units of that channel's range.
 // 0 within the range, NaN where a response is NaN.

@@ -8,12 +8,14 @@
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -235,34 +237,84 @@ int vtkFlatFieldCorrection::RequestUpdateExtent(
   return 1;
 }
 
-// Of a whole image: frames in each other's place give numbers all the same.
-void vtkFlatFieldCorrection::WarnOfUnlikelyFrames(vtkFloatArray* responses)
+// What the values are like, in all pieces of the image.
+struct vtkFlatFieldCorrection::Judgement
 {
-  constexpr double Unlikely = 1.5; // times the white
-  const float* values = responses->GetPointer(0);
-  vtkIdType finite = 0;
-  vtkIdType below = 0;
-  vtkIdType above = 0;
-  for (vtkIdType i = 0; i < responses->GetNumberOfValues(); ++i)
+  static constexpr double Unlikely = 1.5; // times the white
+  enum
   {
-    finite += std::isfinite(values[i]) ? 1 : 0;
-    below += values[i] < 0.0F ? 1 : 0;
-    above += values[i] > static_cast<float>(Unlikely * this->WhiteReflectance) ? 1 : 0;
+    VALUES,
+    DEAD_VALUES,
+    FINITE,
+    BELOW_DARK,
+    FAR_ABOVE_WHITE,
+    SIZE
+  };
+  std::array<vtkIdType, SIZE> counts{};
+  bool hasWhite = false;
+  bool hasDark = false;
+
+  void count(vtkFloatArray* responses, double white)
+  {
+    const float* values = responses->GetPointer(0);
+    for (vtkIdType i = 0; i < responses->GetNumberOfValues(); ++i)
+    {
+      counts[FINITE] += std::isfinite(values[i]) ? 1 : 0;
+      counts[BELOW_DARK] += values[i] < 0.0F ? 1 : 0;
+      counts[FAR_ABOVE_WHITE] += values[i] > static_cast<float>(Unlikely * white) ? 1 : 0;
+    }
   }
-  if (finite == 0)
+  vtkIdType percent(int part, int of) const
   {
-    return;
+    return (200 * counts[static_cast<std::size_t>(part)] + counts[static_cast<std::size_t>(of)]) /
+      (2 * counts[static_cast<std::size_t>(of)]);
   }
-  const auto percent = [finite](vtkIdType count) { return (200 * count + finite) / (2 * finite); };
-  if (2 * below > finite)
+};
+
+// Frames in each other's place give numbers all the same.
+void vtkFlatFieldCorrection::Judge(
+  const Judgement& judgement, vtkMultiProcessController* controller)
+{
+  std::array<vtkIdType, Judgement::SIZE> counts = judgement.counts;
+  if (controller)
   {
-    vtkWarningMacro(<< percent(below)
+    controller->AllReduce(
+      judgement.counts.data(), counts.data(), Judgement::SIZE, vtkCommunicator::SUM_OP);
+  }
+  Judgement all = judgement;
+  all.counts = counts;
+  if (counts[Judgement::VALUES] > 0 && counts[Judgement::DEAD_VALUES] == counts[Judgement::VALUES])
+  {
+    throw std::runtime_error(std::string(all.hasWhite ? "the white image" : "the WhiteLevel") +
+      " is above the " + (all.hasDark ? "dark image" : "dark level 0") +
+      " in no pixel and no channel; expected the white to be brighter; " +
+      (all.hasWhite ? "are white and dark swapped?" : "set WhiteLevel, or connect a white image"));
+  }
+  if (controller && controller->GetLocalProcessId() > 0)
+  {
+    return; // one rank speaks
+  }
+  if (2 * counts[Judgement::DEAD_VALUES] > counts[Judgement::VALUES])
+  {
+    vtkWarningMacro(<< all.percent(Judgement::DEAD_VALUES, Judgement::VALUES)
+                    << " % of the values have no result: the white is not above the dark there; "
+                       "are white and dark swapped?");
+  }
+  if (2 * counts[Judgement::BELOW_DARK] > counts[Judgement::FINITE])
+  {
+    vtkWarningMacro(<< all.percent(Judgement::BELOW_DARK, Judgement::FINITE)
                     << " % of the raw values are below the dark image; are the images swapped?");
   }
-  else if (2 * above > finite)
+  else if (2 * counts[Judgement::FAR_ABOVE_WHITE] > counts[Judgement::FINITE])
   {
-    vtkWarningMacro(<< percent(above) << " % of the raw values exceed the white " << Unlikely
+    vtkWarningMacro(<< all.percent(Judgement::FAR_ABOVE_WHITE, Judgement::FINITE)
+                    << " % of the raw values exceed the white " << Judgement::Unlikely
                     << " times; are the images swapped, or exposed differently (ExposureTimes)?");
+  }
+  if (all.hasDark && !all.hasWhite && this->WhiteLevel == 1.0)
+  {
+    vtkWarningMacro(<< "no white image is connected and WhiteLevel is 1: the responses are not "
+                       "relative to white; connect a white image, or set WhiteLevel");
   }
 }
 
@@ -274,124 +326,128 @@ int vtkFlatFieldCorrection::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      if (!(this->WhiteLevel > 0.0))
-      {
-        throw std::invalid_argument(
-          "WhiteLevel is " + std::to_string(this->WhiteLevel) + "; expected more than 0");
-      }
-      auto* rawImage = vtkImageData::GetData(inputs[0]);
-      auto* rawArray = msi::requireSpectralArray(rawImage, NameOfRaw);
-      const auto raw = msi::asFloats(rawArray);
-      const auto white = frame(inputs[1], NameOfFrame[1], rawImage, raw);
-      const auto dark = frame(inputs[2], NameOfFrame[2], rawImage, raw);
-      if (!white.values && !dark.values && this->WhiteLevel == 1.0 &&
-        this->WhiteReflectance == 1.0 && this->ExposureTimes.empty() &&
-        this->SaturationLevel <= 0.0)
-      {
-        throw std::invalid_argument(
-          "neither a white nor a dark image is connected, so the raw values "
-          "would pass unchanged; connect a white image, or set WhiteLevel");
-      }
-      const int channels = raw->GetNumberOfComponents();
-      const auto factors = exposureFactors(this->ExposureTimes, this->WhiteExposureTimes, channels);
-
-      auto* output = vtkImageData::GetData(outputs, 0);
-      output->ShallowCopy(rawImage);
-      vtkNew<vtkFloatArray> responses;
-      responses->SetName(msi::ResponsesArray);
-      responses->SetNumberOfComponents(channels);
-      responses->SetNumberOfTuples(raw->GetNumberOfTuples());
-      vtkNew<vtkUnsignedCharArray> mask;
-      mask->SetName(MaskArray);
-      mask->SetNumberOfComponents(channels);
-      mask->SetNumberOfTuples(this->ComputeMask ? raw->GetNumberOfTuples() : 0);
-      const float* rawValues = raw->GetPointer(0);
-      float* out = responses->GetPointer(0);
-      unsigned char* flags = this->ComputeMask ? mask->GetPointer(0) : nullptr;
-      const auto level = static_cast<float>(this->WhiteLevel);
-      const auto scale = static_cast<float>(this->WhiteReflectance);
-      const float saturation = this->SaturationLevel > 0.0
-        ? static_cast<float>(this->SaturationLevel)
-        : std::numeric_limits<float>::infinity();
-      const int* extent = rawImage->GetExtent();
-      const vtkIdType width = extent[1] - extent[0] + 1;
-      std::atomic<vtkIdType> dead{ 0 };
-      std::atomic<vtkIdType> saturated{ 0 };
-      msi::forBlocks(this, raw->GetNumberOfTuples(),
-        [&](vtkIdType begin, vtkIdType end)
+      auto* controller = msi::controllerOfPieces(inputs[0]);
+      const bool judged = controller ||
+        msi::isWhole(inputs[0]->GetInformationObject(0), vtkImageData::GetData(inputs[0]));
+      Judgement judgement;
+      msi::beforeRanksMeet(controller,
+        [&]
         {
-          vtkIdType deadHere = 0;
-          vtkIdType saturatedHere = 0;
-          for (vtkIdType pixel = begin; pixel < end; ++pixel)
+          auto* raw = vtkImageData::GetData(inputs[0]);
+          if (controller && raw->GetNumberOfPoints() == 0)
           {
-            const vtkIdType x = extent[0] + pixel % width;
-            const vtkIdType y = extent[2] + pixel / width;
-            const float* whites = white.at(x, y);
-            const float* darks = dark.at(x, y);
-            for (int k = 0; k < channels; ++k)
-            {
-              const vtkIdType i = pixel * channels + k;
-              const float black = darks ? darks[k] : 0.0f;
-              const float full = whites ? whites[k] : level;
-              const float span = full - black;
-              unsigned char flag = span > 0.0f ? 0 : DEAD;
-              flag |= rawValues[i] >= saturation ? RAW_SATURATED : 0;
-              flag |= whites && full >= saturation ? WHITE_SATURATED : 0;
-              deadHere += (flag & DEAD) != 0 ? 1 : 0;
-              saturatedHere += (flag & (RAW_SATURATED | WHITE_SATURATED)) != 0 ? 1 : 0;
-              out[i] = flag == 0
-                ? scale * factors[static_cast<std::size_t>(k)] * (rawValues[i] - black) / span
-                : std::numeric_limits<float>::quiet_NaN();
-              if (flags)
-              {
-                flags[i] = flag;
-              }
-            }
+            vtkImageData::GetData(outputs, 0)->ShallowCopy(raw); // more ranks than rows
+            return;
           }
-          dead += deadHere;
-          saturated += saturatedHere;
+          judgement = this->Correct(inputs, outputs, judged);
         });
-      if (msi::isWhole(inputs[0]->GetInformationObject(0), rawImage))
+      if (judged)
       {
-        const vtkIdType values = raw->GetNumberOfTuples() * channels;
-        if (values > 0 && dead == values)
-        {
-          throw std::runtime_error(
-            std::string(white.values ? "the white image" : "the WhiteLevel") + " is above the " +
-            (dark.values ? "dark image" : "dark level 0") +
-            " in no pixel and no channel; expected the white to be brighter; " +
-            (white.values ? "are white and dark swapped?"
-                          : "set WhiteLevel, or connect a white image"));
-        }
-        if (2 * dead > values)
-        {
-          vtkWarningMacro(
-            << (200 * dead + values) / (2 * values)
-            << " % of the values have no result: the white is not above the dark there; "
-               "are white and dark swapped?");
-        }
-        this->WarnOfUnlikelyFrames(responses);
-        if (dark.values && !white.values && this->WhiteLevel == 1.0)
-        {
-          vtkWarningMacro(
-            << "no white image is connected and WhiteLevel is 1: the responses are not "
-               "relative to white; connect a white image, or set WhiteLevel");
-        }
-      }
-      this->DeadCount = dead;
-      this->SaturatedCount = saturated;
-      const auto axis = msi::axisOf(rawImage, rawArray);
-      msi::nameComponents(responses, axis);
-      msi::replaceArray(output, rawArray, responses);
-      msi::removePicture(output);
-      if (this->Preview)
-      {
-        msi::setPicture(this, output, responses);
-      }
-      if (flags)
-      {
-        msi::nameComponents(mask, axis);
-        output->GetPointData()->AddArray(mask);
+        this->Judge(judgement, controller);
       }
     });
+}
+
+vtkFlatFieldCorrection::Judgement vtkFlatFieldCorrection::Correct(
+  vtkInformationVector** inputs, vtkInformationVector* outputs, bool judged)
+{
+  Judgement judgement;
+  if (!(this->WhiteLevel > 0.0))
+  {
+    throw std::invalid_argument(
+      "WhiteLevel is " + std::to_string(this->WhiteLevel) + "; expected more than 0");
+  }
+  auto* rawImage = vtkImageData::GetData(inputs[0]);
+  auto* rawArray = msi::requireSpectralArray(rawImage, NameOfRaw);
+  const auto raw = msi::asFloats(rawArray);
+  const auto white = frame(inputs[1], NameOfFrame[1], rawImage, raw);
+  const auto dark = frame(inputs[2], NameOfFrame[2], rawImage, raw);
+  if (!white.values && !dark.values && this->WhiteLevel == 1.0 && this->WhiteReflectance == 1.0 &&
+    this->ExposureTimes.empty() && this->SaturationLevel <= 0.0)
+  {
+    throw std::invalid_argument("neither a white nor a dark image is connected, so the raw values "
+                                "would pass unchanged; connect a white image, or set WhiteLevel");
+  }
+  const int channels = raw->GetNumberOfComponents();
+  const auto factors = exposureFactors(this->ExposureTimes, this->WhiteExposureTimes, channels);
+
+  auto* output = vtkImageData::GetData(outputs, 0);
+  output->ShallowCopy(rawImage);
+  vtkNew<vtkFloatArray> responses;
+  responses->SetName(msi::ResponsesArray);
+  responses->SetNumberOfComponents(channels);
+  responses->SetNumberOfTuples(raw->GetNumberOfTuples());
+  vtkNew<vtkUnsignedCharArray> mask;
+  mask->SetName(MaskArray);
+  mask->SetNumberOfComponents(channels);
+  mask->SetNumberOfTuples(this->ComputeMask ? raw->GetNumberOfTuples() : 0);
+  const float* rawValues = raw->GetPointer(0);
+  float* out = responses->GetPointer(0);
+  unsigned char* flags = this->ComputeMask ? mask->GetPointer(0) : nullptr;
+  const auto level = static_cast<float>(this->WhiteLevel);
+  const auto scale = static_cast<float>(this->WhiteReflectance);
+  const float saturation = this->SaturationLevel > 0.0 ? static_cast<float>(this->SaturationLevel)
+                                                       : std::numeric_limits<float>::infinity();
+  const int* extent = rawImage->GetExtent();
+  const vtkIdType width = extent[1] - extent[0] + 1;
+  std::atomic<vtkIdType> dead{ 0 };
+  std::atomic<vtkIdType> saturated{ 0 };
+  msi::forBlocks(this, raw->GetNumberOfTuples(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      vtkIdType deadHere = 0;
+      vtkIdType saturatedHere = 0;
+      for (vtkIdType pixel = begin; pixel < end; ++pixel)
+      {
+        const vtkIdType x = extent[0] + pixel % width;
+        const vtkIdType y = extent[2] + pixel / width;
+        const float* whites = white.at(x, y);
+        const float* darks = dark.at(x, y);
+        for (int k = 0; k < channels; ++k)
+        {
+          const vtkIdType i = pixel * channels + k;
+          const float black = darks ? darks[k] : 0.0f;
+          const float full = whites ? whites[k] : level;
+          const float span = full - black;
+          unsigned char flag = span > 0.0f ? 0 : DEAD;
+          flag |= rawValues[i] >= saturation ? RAW_SATURATED : 0;
+          flag |= whites && full >= saturation ? WHITE_SATURATED : 0;
+          deadHere += (flag & DEAD) != 0 ? 1 : 0;
+          saturatedHere += (flag & (RAW_SATURATED | WHITE_SATURATED)) != 0 ? 1 : 0;
+          out[i] = flag == 0
+            ? scale * factors[static_cast<std::size_t>(k)] * (rawValues[i] - black) / span
+            : std::numeric_limits<float>::quiet_NaN();
+          if (flags)
+          {
+            flags[i] = flag;
+          }
+        }
+      }
+      dead += deadHere;
+      saturated += saturatedHere;
+    });
+  if (judged)
+  {
+    judgement.hasWhite = white.values != nullptr;
+    judgement.hasDark = dark.values != nullptr;
+    judgement.counts[Judgement::VALUES] = raw->GetNumberOfTuples() * channels;
+    judgement.counts[Judgement::DEAD_VALUES] = dead;
+    judgement.count(responses, this->WhiteReflectance);
+  }
+  this->DeadCount = dead;
+  this->SaturatedCount = saturated;
+  const auto axis = msi::axisOf(rawImage, rawArray);
+  msi::nameComponents(responses, axis);
+  msi::replaceArray(output, rawArray, responses);
+  msi::removePicture(output);
+  if (this->Preview)
+  {
+    msi::setPicture(this, output, responses);
+  }
+  if (flags)
+  {
+    msi::nameComponents(mask, axis);
+    output->GetPointData()->AddArray(mask);
+  }
+  return judgement;
 }

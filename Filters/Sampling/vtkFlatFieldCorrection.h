@@ -19,7 +19,7 @@
 
 #include <vector>
 
-class vtkFloatArray;
+class vtkMultiProcessController;
 
 class MULTISPECTRALFILTERSSAMPLING_EXPORT vtkFlatFieldCorrection : public vtkImageAlgorithm
 {
@@ -113,7 +113,10 @@ private:
   vtkFlatFieldCorrection(const vtkFlatFieldCorrection&) = delete;
   void operator=(const vtkFlatFieldCorrection&) = delete;
 
-  void WarnOfUnlikelyFrames(vtkFloatArray* responses);
+  struct Judgement;
+  Judgement Correct(vtkInformationVector** inputs, vtkInformationVector* outputs, bool judged);
+  // Collective where there is a controller.
+  void Judge(const Judgement& judgement, vtkMultiProcessController* controller);
 
   double WhiteReflectance = 1.0;
   double WhiteLevel = 1.0;

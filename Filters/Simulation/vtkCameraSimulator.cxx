@@ -27,6 +27,7 @@
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 #include "Kernels/Spectra/PossibleValues.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <utility>
@@ -245,8 +246,21 @@ bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* informa
   options.media = msi::namesIn(this->Media);
   const auto window =
     msi::ImageExtent{ input.whole[1] - input.whole[0] + 1, input.whole[3] - input.whole[2] + 1 };
+  auto effects = work.effects;
+  if (this->Effects == OF_CAMERA)
+  {
+    // The corrected camera of a diagnosis may have it.
+    const auto drift = std::remove_if(effects.begin(), effects.end(),
+      [](const msi::CameraEffect& effect) { return effect.name == "session_drift"; });
+    if (drift != effects.end())
+    {
+      effects.erase(drift, effects.end());
+      vtkWarningMacro("the camera's session_drift is left out: it changes samples that are "
+                      "captured one after the other, and an image is captured at one time");
+    }
+  }
   const msi::ImageSimulator simulator(
-    msi::resampled(work.camera, *axis.wavelengths), work.effects, window, options);
+    msi::resampled(work.camera, *axis.wavelengths), effects, window, options);
   if (simulator.needsMedium() && options.media.empty())
   {
     throw std::invalid_argument("an effect acts on one medium, but the image's media are not "

@@ -174,6 +174,22 @@ TEST_F(CameraSimulatorImages, KeepsOtherArraysInTheirPlace)
   EXPECT_EQ(output->GetPointData()->GetArray("Number")->GetTuple1(0), Image->FindPoint(place));
 }
 
+TEST_F(CameraSimulatorImages, TheDriftOfACorrectedCameraIsLeftOutWithAWarning)
+{
+  Simulator->SetNoise(vtkCameraSimulator::NO_NOISE);
+  const auto shift = R"({"effect": "filter_shift", "parameters": {"shift": 2}})";
+  use(("[" + std::string(shift) + "]").c_str());
+  const Eigen::MatrixXd expected = responses();
+  Simulator->SetEffects(vtkCameraSimulator::OF_CAMERA);
+  Simulator->SetInputData(1,
+    cameraTable("[" + std::string(shift) +
+      R"(, {"effect": "session_drift", "parameters": {"change": 0.1}}])"));
+  MessageLog log(Simulator);
+  EXPECT_EQ(responses(), expected);
+  EXPECT_EQ(log.firstWarning().rfind("the camera's session_drift is left out", 0), 0u)
+    << log.firstWarning();
+}
+
 TEST_F(CameraSimulatorImages, CanBeStopped)
 {
   EXPECT_EQ(errorWhenStopped(Simulator), "stopped by the user");

@@ -1,13 +1,19 @@
 #include "vtkSMSpectralImageInitializationHelper.h"
 
+#include "SpectralColors.h"
+
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPVDataSetAttributesInformation.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSMTransferFunctionManager.h"
 
 #include <string>
 
@@ -15,21 +21,23 @@ vtkStandardNewMacro(vtkSMSpectralImageInitializationHelper);
 
 namespace
 {
-// The array to show at first; empty where there is nothing to prefer.
-std::string arrayToShow(vtkPVDataSetAttributesInformation* points)
+// The array to show at first; null where there is none.
+vtkPVArrayInformation* arrayToShow(vtkPVDataSetAttributesInformation* points)
 {
-  std::string chosen;
+  auto* chosen = points->GetAttributeInformation(vtkDataSetAttributes::SCALARS);
+  bool isDifference = false;
   for (int i = 0; i < points->GetNumberOfArrays(); ++i)
   {
     auto* array = points->GetArrayInformation(i);
-    std::string name = array->GetName() ? array->GetName() : "";
-    if (name == "sRGB" && array->GetNumberOfComponents() == 3)
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (msi::isPicture(array))
     {
-      return name;
+      return array;
     }
-    if (name == "dE00 D65" || (chosen.empty() && name.compare(0, 5, "dE00 ") == 0))
+    if (name == "dE00 D65" || name == "Gap" || (!isDifference && msi::isColorDifference(name)))
     {
-      chosen = name;
+      chosen = array;
+      isDifference = true;
     }
   }
   return chosen;
@@ -52,15 +60,24 @@ void vtkSMSpectralImageInitializationHelper::PostInitializeProxy(
   {
     return;
   }
-  const auto name = arrayToShow(source->GetDataInformation(input.GetOutputPort())
-                                  ->GetAttributeInformation(vtkDataObject::POINT));
-  if (!name.empty())
+  auto* data = source->GetDataInformation(input.GetOutputPort());
+  auto* array = arrayToShow(data->GetAttributeInformation(vtkDataObject::POINT));
+  if (!array)
   {
-    vtkSMPropertyHelper(color).SetInputArrayToProcess(vtkDataObject::POINT, name.c_str());
-    if (name == "sRGB")
-    {
-      vtkSMPropertyHelper(proxy, "MapScalars", true).Set(0);
-    }
-    proxy->UpdateVTKObjects();
+    return;
   }
+  vtkSMPropertyHelper(color).SetInputArrayToProcess(vtkDataObject::POINT, array->GetName());
+  if (msi::isPicture(array))
+  {
+    vtkSMPropertyHelper(proxy, "MapScalars", true).Set(0);
+  }
+  else
+  {
+    // ParaView takes the map of the array's name as it is then.
+    vtkNew<vtkSMTransferFunctionManager> manager;
+    auto* colors =
+      manager->GetColorTransferFunction(array->GetName(), proxy->GetSessionProxyManager());
+    msi::styleColors(colors, array, data, true);
+  }
+  proxy->UpdateVTKObjects();
 }

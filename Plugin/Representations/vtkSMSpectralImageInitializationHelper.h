@@ -2,8 +2,8 @@
  * @class   vtkSMSpectralImageInitializationHelper
  * @brief   Chooses what a view shows of a spectral image at first
  *
- * The picture "sRGB" where there is one, else a map of color differences ("dE00 D65", else the first "dE00 .."), else
- * what ParaView chooses.
+ * The picture ("sRGB" or another one) where there is one, else a map of color differences ("dE00 D65", else the first
+ * one) or of a gap ("Gap"), else the active scalars.
  */
 #ifndef vtkSMSpectralImageInitializationHelper_h
 #define vtkSMSpectralImageInitializationHelper_h

@@ -1,5 +1,7 @@
 #include "vtkSMSpectralImageRepresentationProxy.h"
 
+#include "SpectralColors.h"
+
 #include "vtkCommand.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -8,10 +10,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTransferFunctionManager.h"
-#include "vtkSMTransferFunctionProxy.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -19,22 +18,11 @@ vtkStandardNewMacro(vtkSMSpectralImageRepresentationProxy);
 
 namespace
 {
-// As vtkImageSlice takes them without a color map.
-bool areColors(vtkPVArrayInformation* array)
-{
-  return array && array->GetDataType() == VTK_UNSIGNED_CHAR && array->GetNumberOfComponents() >= 3;
-}
-
-bool startsWith(const std::string& text, const std::string& beginning)
-{
-  return text.compare(0, beginning.size(), beginning) == 0;
-}
-
 // A legend with the steps by which color differences are judged.
 void styleDifferenceLegend(vtkSMProxy* legend, const std::string& arrayName)
 {
   constexpr double Steps[] = { 0.0, 1.0, 2.0, 3.0, 5.0 };
-  vtkSMPropertyHelper(legend, "Title").Set(("\u0394E00 " + arrayName.substr(5)).c_str());
+  vtkSMPropertyHelper(legend, "Title").Set(("\u0394" + arrayName.substr(1)).c_str());
   vtkSMPropertyHelper(legend, "ComponentTitle").Set("");
   vtkSMPropertyHelper(legend, "AddRangeLabels", true).Set(0);
   vtkSMPropertyHelper(legend, "AutomaticLabelFormat", true).Set(0);
@@ -67,24 +55,31 @@ void vtkSMSpectralImageRepresentationProxy::PrintSelf(ostream& os, vtkIndent ind
   this->Superclass::PrintSelf(os, indent);
 }
 
+vtkPVDataInformation* vtkSMSpectralImageRepresentationProxy::InputInformation()
+{
+  vtkSMPropertyHelper helper(this, "Input", true);
+  auto* input = helper.GetNumberOfElements() > 0
+    ? vtkSMSourceProxy::SafeDownCast(helper.GetAsProxy())
+    : nullptr;
+  return input ? input->GetDataInformation(helper.GetOutputPort()) : nullptr;
+}
+
 vtkPVArrayInformation* vtkSMSpectralImageRepresentationProxy::ColorArray()
 {
   auto* property = this->GetProperty("ColorArrayName");
-  vtkSMPropertyHelper inputHelper(this, "Input", true);
-  if (!property || inputHelper.GetNumberOfElements() == 0)
+  auto* information = this->InputInformation();
+  if (!property || !information)
   {
     return nullptr;
   }
-  auto* input = vtkSMSourceProxy::SafeDownCast(inputHelper.GetAsProxy());
   vtkSMPropertyHelper color(property);
   const char* name =
     color.GetNumberOfElements() == 5 ? color.GetInputArrayNameToProcess() : nullptr;
-  if (!input || !name || !*name)
+  if (!name || !*name)
   {
     return nullptr;
   }
-  return input->GetDataInformation(inputHelper.GetOutputPort())
-    ->GetArrayInformation(name, color.GetInputArrayAssociation());
+  return information->GetArrayInformation(name, color.GetInputArrayAssociation());
 }
 
 void vtkSMSpectralImageRepresentationProxy::AdaptMapScalars()
@@ -95,7 +90,7 @@ void vtkSMSpectralImageRepresentationProxy::AdaptMapScalars()
   {
     return;
   }
-  const int wanted = areColors(array) ? 0 : 1;
+  const int wanted = msi::isPicture(array) ? 0 : 1;
   vtkSMPropertyHelper helper(property);
   if (helper.GetAsInt() != wanted)
   {
@@ -108,43 +103,23 @@ bool vtkSMSpectralImageRepresentationProxy::SetScalarColoringInternal(
 {
   const bool done =
     this->Superclass::SetScalarColoringInternal(arrayname, attribute_type, useComponent, component);
-  if (done && arrayname && std::string(arrayname) == "Difference")
+  auto* array = done ? this->ColorArray() : nullptr;
+  auto* colors = done ? vtkSMPropertyHelper(this, "LookupTable", true).GetAsProxy() : nullptr;
+  if (array && colors && !msi::isPicture(array))
   {
-    this->CenterRange();
+    msi::styleColors(colors, array, this->InputInformation(), !useComponent);
   }
   return done;
-}
-
-void vtkSMSpectralImageRepresentationProxy::CenterRange()
-{
-  auto* array = this->ColorArray();
-  vtkSMPropertyHelper lut(this, "LookupTable", true);
-  auto* colors = lut.GetNumberOfElements() > 0 ? lut.GetAsProxy() : nullptr;
-  if (!array || !colors)
-  {
-    return;
-  }
-  double largest = 0.0;
-  for (int i = 0; i < array->GetNumberOfComponents(); ++i)
-  {
-    double range[2] = { 0.0, 0.0 };
-    array->GetComponentFiniteRange(i, range);
-    largest = std::max({ largest, std::abs(range[0]), std::abs(range[1]) });
-  }
-  if (largest > 0.0 && std::isfinite(largest))
-  {
-    vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, -largest, largest, false);
-  }
 }
 
 bool vtkSMSpectralImageRepresentationProxy::SetScalarBarVisibility(vtkSMProxy* view, bool visible)
 {
   auto* array = this->ColorArray();
-  if (!this->Superclass::SetScalarBarVisibility(view, visible && !areColors(array)))
+  if (!this->Superclass::SetScalarBarVisibility(view, visible && !msi::isPicture(array)))
   {
     return false;
   }
-  if (visible && array && startsWith(array->GetName(), "dE00 "))
+  if (visible && array && msi::isColorDifference(array->GetName()))
   {
     vtkNew<vtkSMTransferFunctionManager> manager;
     auto* colors = vtkSMPropertyHelper(this, "LookupTable").GetAsProxy();

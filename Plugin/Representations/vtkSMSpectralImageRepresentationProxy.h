@@ -3,9 +3,8 @@
  * @brief   How ParaView shows a spectral image, its picture and its error maps
  *
  * Colors (3 or 4 bytes a pixel) are shown as they are and without a color legend; every other array is mapped by its
- * color map: Map Scalars follows the array that is chosen. Color differences ("dE00 ..") have a legend with the steps
- * 0, 1, 2, 3 and 5; signed differences ("Difference") have a range that is centered on zero. The color maps
- * themselves are in SpectralSettings.h.
+ * color map (SpectralColors.h): Map Scalars follows the array that is chosen. Color differences ("dE00 ..") have a legend
+ * with the steps 0, 1, 2, 3 and 5; signed differences ("Difference", "Gap") have a range that is centered on zero.
  */
 #ifndef vtkSMSpectralImageRepresentationProxy_h
 #define vtkSMSpectralImageRepresentationProxy_h
@@ -36,10 +35,11 @@ private:
   void operator=(const vtkSMSpectralImageRepresentationProxy&) = delete;
 
   void OnPropertyModified(vtkObject* caller, unsigned long event, void* name);
+  // Null where the data are not known.
+  vtkPVDataInformation* InputInformation();
   // The array that gives the colors, where its data are known.
   vtkPVArrayInformation* ColorArray();
   void AdaptMapScalars();
-  void CenterRange();
 };
 
 #endif

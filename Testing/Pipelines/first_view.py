@@ -3,6 +3,7 @@
 import os
 import pathlib
 import sys
+import tempfile
 
 import numpy as np
 from paraview import simple
@@ -88,6 +89,42 @@ def main():
     check(f"NaN is {list(colors.NanColor)}", len(set(colors.NanColor)) == 1)
     display.SetScalarBarVisibility(view, True)
     check("the legend has no title", "E00 D65" in simple.GetScalarBar(colors, view).Title)
+
+    # A lamp of the user's own: its errors have the same steps.
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "lamp.csv"
+        path.write_text("wavelength,power\n380,0.2\n450,0.6\n520,0.8\n600,1.0\n700,1.1\n780,1.1\n", encoding="ascii")
+        lamp = pipeline.create("CurveReader", FileNames=[str(path)])
+        pipeline.update(lamp)
+    errors = pipeline.create("CIEDE2000Evaluator", Input=estimate, Reference=reference, IlluminantTable=lamp,
+                             Illuminants="lamp", Metrics="cmc")
+    pipeline.update(errors)
+    display, view = show(errors)
+    check_colors(display, "dECMC lamp", 1)
+    steps = list(simple.GetColorTransferFunction("dECMC lamp").RGBPoints)[::4]
+    check(f"the steps of the error map under a lamp are {steps}", steps == [0.0, 1.0, 2.0, 3.0, 5.0])
+
+    # Signed: one band, centered on zero. Unsigned: viridis, which is dark at the low end.
+    difference = pipeline.create("ResponseDifference", Input=flat, Simulated=raw)
+    quality = pipeline.create("ReflectanceEstimation", Input=flat, ReflectanceTransform=fit[0], QualityMaps=1)
+    pipeline.update(difference, quality)
+    display, view = show(difference)
+    check_colors(display, "Difference", 1)
+    colors = simple.GetColorTransferFunction("Difference")
+    points = list(colors.RGBPoints)
+    check(f"the range of a signed difference is {points[0]} to {points[-4]}", points[0] == -points[-4] and points[0] < 0.0)
+    check(f"a signed difference is colored by its {colors.VectorMode}", colors.VectorMode == "Component")
+    display, view = show(quality)
+    simple.ColorBy(display, ("POINTS", "OutOfRange"))
+    colors = simple.GetColorTransferFunction("OutOfRange")
+    check(f"OutOfRange begins with the color {list(colors.RGBPoints)[1:4]}", max(list(colors.RGBPoints)[1:4]) < 0.4)
+    check(f"NaN of OutOfRange is {list(colors.NanColor)}", len(set(colors.NanColor)) == 1)
+    wide = pipeline.create("SpectralToColor", Input=estimate, Display="Display P3")
+    wide.Input.Preview = 0
+    pipeline.update(wide)
+    display, view = show(wide)
+    check_colors(display, "Display P3", 0)
+    wide.Input.Preview = 1
 
     # What the window does with the chart of a profile.
     sys.path.insert(0, str(root / "Plugin" / "Desktop"))

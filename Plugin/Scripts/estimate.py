@@ -179,7 +179,7 @@ def main():
                                  pipeline.port(judged.patches, 1))
         estimation.print_summary("Held-out pixels", judged.summary)
         pages += estimation.report_errors(judged, folder)
-    estimation.save_state(os.path.join(folder, "state.pvsm"), view[0], judged)
+    estimation.save_state(os.path.join(folder, "state.pvsm"), view[0], judged, viewed)
     lead, range_text = summarize(options, viewed, judged, outside, missing)
     command.say(range_text)
     report.write(folder, "Spectral reflectance of an image", pages, lead, pipeline.warnings)

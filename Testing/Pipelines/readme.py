@@ -14,7 +14,7 @@ import sys
 launcher, output = sys.argv[1], pathlib.Path(sys.argv[2])
 root = pathlib.Path(launcher).parent
 NEEDS_A_DISPLAY = "multispectral paraview"  # which the test Window runs
-PAGES = {"README.md": "## Use\n", "Documentation/Simulator.md": ""}  # page: where its commands begin
+PAGES = {"README.md": "## Use\n", "Documentation/Tutorial.md": "", "Documentation/Simulator.md": ""}  # page: where its commands begin
 
 
 def commands():
@@ -40,8 +40,8 @@ def lay_out(folder):
     rows = (samples / "demo-fabric.csv").read_text(encoding="utf-8").splitlines(keepends=True)
     (folder / "swatches.csv").write_text("".join(rows[:17]), encoding="utf-8")
     shutil.copytree(root / "Data" / "Captures" / "demo-warm-camera", folder / "capture")
-    page = (root / "Documentation" / "Simulator.md").read_text(encoding="utf-8")
-    (folder / "effects.json").write_text(re.search(r"```json\n(.*?)```", page, re.DOTALL).group(1), encoding="utf-8")
+    page = (root / "Documentation" / "Tutorial.md").read_text(encoding="utf-8")
+    (folder / "gallery.csv").write_text(re.search(r"```csv\n(.*?)```", page, re.DOTALL).group(1), encoding="utf-8")
 
 
 def main():
@@ -60,7 +60,7 @@ def main():
             sys.exit(f"{page}: {line}\nwrote nothing")
         ran += 1
     print(f"{ran} commands of {' and '.join(PAGES)} ran")
-    if ran < 7:
+    if ran < 12:
         sys.exit("the pages have fewer commands than expected")
 
 

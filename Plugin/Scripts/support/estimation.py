@@ -159,18 +159,20 @@ def print_summary(title, source):
         return
     at = names.index
     command.say(title)
-    for row in rows:
-        label = f"{row[at('metric')]} {row[at('illuminant')]}".strip()
+    labels = [f"{row[at('metric')]} {row[at('illuminant')]}".strip() for row in rows]
+    width = max(map(len, labels))
+    for label, row in zip(labels, rows):
         form = "{:.4f}" if row[at("metric")] == "rms" else "{:.2f}"
         figures = "   ".join(f"{name} {form.format(row[at(name)])}"
                              for name in ("mean", "median", "p95", "max"))
-        command.say(f"  {label:<10}{figures}   ({row[at('count')]:.0f})")
+        command.say(f"  {label:<{width}}  {figures}   ({row[at('count')]:.0f})")
 
 
 def top_errors(summary):
-    """The 95th percentile of each error: where the color scale of its map ends."""
+    """Where the color scale of each map ends: color differences always at the same value, rms at its 95th percentile."""
     names, rows = pipeline.table(summary)
-    return pipeline.share([row[names.index("p95")] for row in rows], pipeline.number_of_rows(summary))
+    tops = [pictures.DIFFERENCES[-1] if row[names.index("metric")].startswith("dE") else row[names.index("p95")] for row in rows]
+    return pipeline.share(tops, pipeline.number_of_rows(summary))
 
 
 def error_picture(folder, array):
@@ -180,7 +182,9 @@ def error_picture(folder, array):
 def report_errors(judged, folder):
     """The report's sections on where the result is wrong."""
     maps = {os.path.basename(error_picture(folder, array)):
-            f"{array} over the held-out patches; the color scale ends at the 95th percentile"
+            f"{array} over the held-out patches; " + (
+                "the color scale is the same for all maps of color differences" if array.startswith("dE") else
+                "the color scale ends at the 95th percentile")
             for array in judged.arrays}
     return [report.pictures("Where it is wrong", folder, maps),
             report.table("Errors of the held-out patches (mean spectrum of each)",
@@ -205,9 +209,9 @@ def mean_of(judged, metric, illuminant=""):
     return None
 
 
-def save_state(path, reflectance, judged=None):
+def save_state(path, reflectance, judged=None, colors=None):
     """The pipeline as a ParaView state that opens with the RGB view and the error map side by side."""
-    color = pipeline.create("SpectralToColor", Input=reflectance)
+    color = pipeline.create("SpectralToColor", Input=reflectance, **(colors or Colors()).of_view())
     pipeline.update(color)
     top = top_errors(judged.summary)[1] if judged else 1.0
     state.save(path, color, judged and judged.errors, top, judged.arrays[1] if judged else "")

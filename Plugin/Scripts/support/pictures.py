@@ -29,6 +29,7 @@ COLORS = {
     "tuning": (0.84, 0.37, 0.0),
     "estimated": (0.84, 0.37, 0.0),
 }
+DIFFERENCES = (0.0, 1.0, 2.0, 3.0, 5.0)  # the scale of every map of color differences, as in ParaView's window
 _NO_VALUE = "#D1D1D1"
 _GRID = "#E0E0E0"
 _DPI = 100
@@ -126,8 +127,9 @@ def _draw_image(path, pixels, title, value_range, shown):
     legend = round(_LEGEND * enlarged)
     figure = _figure((width + legend, height))
     plot = figure.add_axes((0.0, 0.0, width / (width + legend), 1.0))
-    drawn = _draw(plot, pixels, "viridis", value_range)
-    bar = figure.colorbar(drawn, cax=figure.add_axes(((width + 0.15 * legend) / (width + legend), 0.12,
+    fixed = title.startswith("dE") and value_range == (DIFFERENCES[0], DIFFERENCES[-1])
+    drawn = _draw(plot, pixels, "viridis", value_range, _even_steps() if fixed else None)
+    bar = figure.colorbar(drawn, ticks=DIFFERENCES if fixed else None, cax=figure.add_axes(((width + 0.15 * legend) / (width + legend), 0.12,
                                                       0.12 * legend / (width + legend), 0.76)))
     bar.set_label(title, fontsize=13 * enlarged)
     bar.ax.tick_params(labelsize=11 * enlarged)
@@ -135,13 +137,21 @@ def _draw_image(path, pixels, title, value_range, shown):
     _save(figure, path)
 
 
-def _draw(plot, pixels, colors, value_range):
+def _even_steps():
+    """As much color from one step of DIFFERENCES to the next."""
+    from matplotlib.colors import FuncNorm
+    place = numpy.linspace(0.0, 1.0, len(DIFFERENCES))
+    return FuncNorm((lambda x: numpy.interp(x, DIFFERENCES, place), lambda y: numpy.interp(y, place, DIFFERENCES)),
+                    DIFFERENCES[0], DIFFERENCES[-1])
+
+
+def _draw(plot, pixels, colors, value_range, norm=None):
     """One pixel of the image is a whole number of pixels; no value is grey."""
     import matplotlib
     plot.set_axis_off()
-    low, high = value_range or (None, None)
+    low, high = (None, None) if norm else value_range or (None, None)
     shades = matplotlib.colormaps[colors].with_extremes(bad=_NO_VALUE)
-    return plot.imshow(numpy.ma.masked_invalid(pixels), cmap=shades, vmin=low, vmax=high, aspect="auto",
+    return plot.imshow(numpy.ma.masked_invalid(pixels), cmap=shades, norm=norm, vmin=low, vmax=high, aspect="auto",
                        interpolation="nearest")
 
 

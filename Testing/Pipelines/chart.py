@@ -21,6 +21,29 @@ def labels(path):
     return image if image.ndim == 2 else image[:, :, 0]
 
 
+def inner(drawn):
+    """The labels without six pixels at each patch's edge, where the chart's black frame shines in."""
+    for _ in range(6):
+        same = np.ones(drawn.shape, bool)
+        for axis in (0, 1):
+            for step in (-1, 1):
+                same &= np.roll(drawn, step, axis) == drawn
+        drawn = np.where(same, drawn, 0)
+    return drawn
+
+
+def check_responses(rows, capture, drawn, options):
+    """Against the means of the pixels that were labelled by hand."""
+    from PIL import Image
+    names = [name for name in rows[0] if name.startswith("C") and name[1:].isdigit()]
+    labelled = inner(drawn)
+    for name in names:
+        pixels = np.array(Image.open(capture / f"channel_{name[1:]}nm.tif"))
+        off = [abs(float(row[name]) / pixels[labelled == int(row["label"])].mean() - 1.0) for row in rows]
+        if not (np.mean(off) < 0.01 and max(off) < 0.03):
+            faults.append(f"{options or 'search'}: {name} is {100 * np.mean(off):.1f} % off on average, {100 * max(off):.1f} % at most")
+
+
 def run(launcher, capture, output, *options):
     done = subprocess.run([launcher, "chart", "--image", *sorted(map(str, capture.glob("channel_*.tif"))), "--chart",
                            "colorchecker", "--reference", str(capture / "patches.csv"), "--output", str(output), *options],
@@ -38,6 +61,8 @@ def run(launcher, capture, output, *options):
         rows = list(csv.DictReader(file))
     if len(rows) != 24 or "R400" not in rows[0] or "C400" not in rows[0]:
         faults.append(f"chart.csv has {len(rows)} rows and the columns {list(rows[0])[:12]} ..")
+    else:
+        check_responses(rows, capture, drawn, options)
     for name in ("overlay.png", "report.html"):
         if not (output / name).is_file():
             faults.append(f"no {name}")

@@ -1,14 +1,18 @@
 """ParaView's window, driven by mouse and keys as a user does: the main job and its faults, spectra of pixels and regions, bands, files
 that are written and opened, a chart whose corners are dragged.
 
-Arguments: a folder for screenshots and logs."""
+Arguments: a folder for screenshots and logs; nothing more, or
+  server PVSERVER MPIEXEC   the main job, its fault and the spectra with a server on two ranks
+  examples LAUNCHER         the commands of Documentation/Window.md that open the window"""
 
 import csv
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -16,6 +20,7 @@ import time
 ROOT = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
 SCENE = ROOT / "Data" / "Images" / "demo-fabric"
 SAMPLES = ROOT / "Data" / "Samples"
+WATCH = f"--script={ROOT / 'Testing' / 'Pipelines' / 'window_state.py'}"
 PATIENCE = 120.0  # seconds for one step on a busy machine
 MOST_CLICKS = 10
 
@@ -27,7 +32,7 @@ class Failed(Exception):
 class Window:
     def __init__(self, folder):
         self.folder, self.clicks, self.faults_end = folder, 0, 0
-        self.state_file = folder / "state.json"
+        self.state_file, self.labels = folder / "state.json", set()
         self.processes = []
         self.environment = dict(
             os.environ, HOME=str(folder / "home"), XDG_RUNTIME_DIR=str(folder / "run"), QT_QPA_PLATFORM="xcb",
@@ -41,24 +46,54 @@ class Window:
             f'<?xml version="1.0"?>\n<Plugins>\n  <Plugin name="Multispectral" '
             f'filename="{os.environ["MULTISPECTRAL_PLUGIN"]}" auto_load="1"/>\n</Plugins>\n')
 
-    def start(self):
+    def start(self, *command, server=()):
+        """command: what opens the window, where it is not ParaView alone; server: pvserver and mpiexec."""
         told, tell = os.pipe()
         self.run(["Xvfb", "-displayfd", str(tell), "-screen", "0", "1400x900x24"], pass_fds=[tell])
         os.close(tell)
         with os.fdopen(told) as display:
             self.environment["DISPLAY"] = ":" + display.readline().strip()
         self.run(["openbox"])
+        if server:
+            command = "paraview", self.serve(*server), WATCH
         self.log = open(self.folder / "paraview.log", "w", encoding="utf-8")
-        self.run(["paraview", f"--script={ROOT / 'Testing' / 'Pipelines' / 'window_state.py'}"], stdout=self.log,
-                 stderr=subprocess.STDOUT)
+        self.run(command or ["paraview", WATCH], stdout=self.log, stderr=subprocess.STDOUT)
         self.wait("the panel and the toolbar", lambda s: "MultispectralMainJob" in s["named"])
         self.xdotool("search", "--onlyvisible", "--name", "ParaView 5", "windowmove", "0", "0", "windowsize", "1400", "880")
-        self.wait("the larger window", lambda s: s["frames"] and (len(s["frames"]) > 1 or s["frames"][0][2] > 500))
+        self.wait("the larger window", lambda s: s["width"] > 1300)
         self.settle()
 
     def run(self, command, **options):
         options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, **options}
         self.processes.append(subprocess.Popen(command, env=self.environment, start_new_session=True, **options))
+
+    def serve(self, pvserver, mpiexec):
+        """A server on two ranks; returns how ParaView is told of it."""
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
+        as_root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
+        log = self.folder / "server.log"
+        with open(log, "w", encoding="utf-8") as file:
+            self.run([mpiexec, "-q", *as_root, "--oversubscribe", "-np", "2", pvserver, f"--server-port={port}"], stdout=file,
+                     stderr=subprocess.STDOUT)
+        end = time.monotonic() + PATIENCE
+        while "Accepting connection" not in log.read_text(encoding="utf-8"):
+            if time.monotonic() > end:
+                raise Failed("the server does not listen: " + log.read_text(encoding="utf-8"))
+            time.sleep(0.2)
+        return f"--server-url=cs://127.0.0.1:{port}"
+
+    def watch_from_python(self):
+        """For a command that runs a script of its own: Python reads this when ParaView starts it."""
+        folder = self.folder / "python"
+        folder.mkdir()
+        (folder / "sitecustomize.py").write_text(
+            "import sys\nfrom PyQt5 import QtCore, QtWidgets\n"
+            "if QtWidgets.QApplication.instance() is not None:\n"
+            f"    sys.path.insert(0, {str(ROOT / 'Testing' / 'Pipelines')!r})\n"
+            "    QtCore.QTimer.singleShot(3000, lambda: __import__('window_watch'))\n", encoding="utf-8")
+        self.environment["PYTHONPATH"] = str(folder)
 
     def stop(self):
         for process in reversed(self.processes):
@@ -73,7 +108,9 @@ class Window:
 
     def state(self):
         try:
-            return json.loads(self.state_file.read_text(encoding="utf-8"))
+            state = json.loads(self.state_file.read_text(encoding="utf-8"))
+            self.labels.update(state["labels"])
+            return state
         except FileNotFoundError:
             return None
 
@@ -153,13 +190,16 @@ def one_message(window):
     window.clicks, window.faults_end = 0, len((window.folder / "paraview.log").read_text(encoding="utf-8", errors="replace"))
 
 
-def ask_main_job(window, scene):
+def ask_main_job(window, scene, light=None):
     window.click(window.state()["named"]["MultispectralMainJob"])
     state = window.wait("the dialog", lambda s: "MultispectralScene" in s["named"])
     window.click(state["named"]["MultispectralScene"])
     for path in (scene, SAMPLES / "demo-chart.csv", SAMPLES / "demo-fabric.csv"):
         window.type(path)
         window.key("Tab", "Tab")
+    if light is not None:
+        window.key("ctrl+a")
+        window.type(light)
     window.click(window.state()["named"]["MultispectralRun"])
 
 
@@ -176,6 +216,22 @@ def main_job(window):
     arrays = sorted(array for view in state["views"].values() for array in view["arrays"])
     if arrays != [["POINTS", "dE00 D65", 1]] * 2 + [["POINTS", "sRGB", 0]] * 2:
         raise Failed(f"the views are colored by {arrays}")
+
+
+def own_lamp(window):
+    """The main job under a lamp of the user's own, read from a file."""
+    lamp = window.folder / "gallery.csv"
+    lamp.write_text("wavelength,power\n380,0.2\n450,0.6\n520,0.8\n600,1.0\n700,1.1\n780,1.1\n", encoding="ascii")
+    before = set(window.state()["views"])
+    ask_main_job(window, SCENE, lamp)
+    state = window.wait("four views under the lamp", lambda s: len(s["frames"]) == 4 and not s["dialogs"] and
+                        sum(len(view["texts"]) for key, view in s["views"].items() if key not in before) == 4)
+    views = [view for key, view in state["views"].items() if key not in before]
+    arrays = sorted(array for view in views for array in view["arrays"])
+    captions = sorted(text for view in views for text in view["texts"])
+    if arrays != [["POINTS", "dE00 gallery", 1]] * 2 + [["POINTS", "sRGB", 0]] * 2 or \
+            sum("(gallery)" in text for text in captions) != 2:
+        raise Failed(f"under the lamp the views show {arrays}, {captions}")
 
 
 def spectra(window):
@@ -270,6 +326,23 @@ def help_page(window):
     window.wait("the page closed", lambda s: not s["help"])
 
 
+def menus(window):
+    """The plugin's sources and filters stand in groups, each entry with an icon."""
+    for menu, first, count in (("Sources", "Synthetic Scene", 2), ("Filters", "Flat Field Correction", 21)):
+        window.click(window.state()["named"][menu])
+        state = window.wait(f"the menu {menu}", lambda s: "Multispectral menu" in s["named"])
+        window.click(state["named"]["Multispectral menu"])
+        entries = window.wait("its entries", lambda s: s["menu"])["menu"]
+        window.picture(f"menu {menu}")
+        window.key("Escape", "Escape", "Escape")
+        window.wait("the menu closed", lambda s: "Multispectral menu" not in s["named"])
+        titles = [text for text, separator, _ in entries if separator]
+        filters = [text for text, separator, icon in entries if not separator and icon]
+        if len(titles) < 2 or "Other" in titles or filters[0] != first or len(filters) + len(titles) != len(entries) or \
+                len(filters) != count:
+            raise Failed(f"the menu {menu} > Multispectral has {entries}")
+
+
 def open_files(window):
     """No question stays, and the right reader is taken, also where only the content tells."""
     shutil.copy(SAMPLES / "demo-fabric.csv", window.folder / "measured.csv")
@@ -290,6 +363,75 @@ def open_files(window):
             raise Failed(f"File > Open took {found} for {name}")
 
 
+def page_names_what_is_there(window):
+    """Every name in italics on the page about the window is written somewhere in the window."""
+    page = re.sub(r"`[^`]*`", "", (ROOT / "Documentation" / "Window.md").read_text(encoding="utf-8"))
+    names = {part for name in re.findall(r"(?<!\*)\*{1,2}([^*\n]+)\*{1,2}(?!\*)", page) for part in name.split(" > ")}
+    missing = sorted(names - window.labels)
+    if len(names) < 15 or missing:
+        raise Failed(f"Documentation/Window.md names {missing} (of {len(names)}), which the window has not shown")
+
+
+def shows_scene(state):
+    return state["sources"] == {"demo-fabric": "SceneReader"} and \
+        [view["arrays"] for view in state["views"].values()] == [[["POINTS", "sRGB", 0]]]
+
+
+def shows_fabric(state):
+    return len(state["frames"]) == 4 and sum(len(view["texts"]) for view in state["views"].values()) == 4
+
+
+def shows_capture(state):
+    return state["tables"] == 2 and state["sources"].get("warm camera: gap") == "SimToRealGap"
+
+
+EXAMPLES = {"scene": shows_scene, "fabric": shows_fabric, "capture": shows_capture}
+
+
+def examples(folder, launcher):
+    """Each example by its command; the page and the launcher name them all."""
+    page = (ROOT / "Documentation" / "Window.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"^multispectral paraview (\w+)", page, re.MULTILINE))
+    if named != set(EXAMPLES):
+        return f"Documentation/Window.md names the examples {sorted(named)}, expected {sorted(EXAMPLES)}"
+    for name, shown in EXAMPLES.items():
+        window = Window(folder / name)
+        window.watch_from_python()
+        try:
+            window.start(launcher, "paraview", name)
+            window.wait(f"the example {name}", lambda s, shown=shown: shown(s) and not s["dialogs"])
+            window.picture("shown")
+            if window.errors():
+                return f"{name}: ParaView said: " + "\n".join(window.errors()[:10])
+        except Failed as failed:
+            return f"{name}: {failed}"
+        finally:
+            window.stop()
+    return None
+
+
+def run_steps(window, steps):
+    """What went wrong, or None."""
+    try:
+        for step in steps:
+            step(window)
+            window.picture(step.__name__)
+        return "ParaView said: " + "\n".join(window.errors()[:10]) if window.errors() else None
+    except Failed as failed:
+        return "\n".join([str(failed), *window.errors()[:10]])
+
+
+def in_window(folder, steps, server=()):
+    window = Window(folder)
+    try:
+        window.start(server=server)
+        return run_steps(window, steps)
+    except Failed as failed:
+        return str(failed)
+    finally:
+        window.stop()
+
+
 def main():
     for tool in ("xdotool", "openbox", "Xvfb"):
         if shutil.which(tool) is None:
@@ -298,19 +440,14 @@ def main():
     folder = pathlib.Path(sys.argv[1]).resolve()
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    window, fault = Window(folder), None
-    try:
-        window.start()
-        for step in (one_message, main_job, spectra, region_and_files, help_page, open_files, chart):
-            step(window)
-            window.picture(step.__name__)
-        if window.errors():
-            fault = "ParaView said: " + "\n".join(window.errors()[:10])
-    except Failed as failed:
-        fault = "\n".join([str(failed), *window.errors()[:10]])
-    finally:
-        window.stop()
-    print(fault or "main job, spectra and files: as a user expects")
+    if "examples" in sys.argv[2:3]:
+        fault = examples(folder, sys.argv[3])
+    elif "server" in sys.argv[2:3]:
+        fault = in_window(folder, (one_message, main_job, spectra), sys.argv[3:])
+    else:
+        fault = in_window(folder, (one_message, main_job, spectra, region_and_files, help_page, menus, open_files, own_lamp, chart,
+                                   page_names_what_is_there))
+    print(fault or "the window does as a user expects")
     sys.exit(1 if fault else 0)
 
 

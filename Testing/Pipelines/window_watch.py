@@ -54,6 +54,24 @@ def _corners(placement, frame):
     return [[int(frame[0] + x), int(frame[1] + frame[3] - y)] for x, y in map(placement.on_screen, placement.corners)]
 
 
+def _plain(text):
+    return text.replace("&", "").rstrip(".\u2026").strip()
+
+
+def _labels(main, windows):
+    """What is written on all that a user sees or opens."""
+    found = {dock.windowTitle() for dock in main.findChildren(QtWidgets.QDockWidget)}
+    found.update(bar.windowTitle() for bar in main.findChildren(QtWidgets.QToolBar))
+    for window in windows:
+        for kind in (QtWidgets.QAbstractButton, QtWidgets.QLabel):
+            found.update(widget.text() for widget in window.findChildren(kind) if widget.isVisible())
+    for title in main.menuBar().actions():
+        found.add(title.text())
+        if title.menu() is not None:
+            found.update(action.text() for action in title.menu().actions())
+    return sorted({_plain(text) for text in found} - {""})
+
+
 def _state():
     application = QtWidgets.QApplication.instance()
     windows = [w for w in application.topLevelWidgets() if w.isVisible()]
@@ -72,6 +90,19 @@ def _state():
     button = main.findChild(QtWidgets.QAbstractButton, "Help")
     if button is not None:
         named["Help"] = _middle(button)
+    # Menus: those of the bar, and the entries of the one that is open.
+    entries = []
+    for action in main.menuBar().actions():
+        title = action.text().replace("&", "")
+        if title in ("Sources", "Filters") and action.menu() is not None:
+            place = main.menuBar().mapToGlobal(main.menuBar().actionGeometry(action).center())
+            named[title] = [place.x(), place.y()]
+            ours = next((a for a in action.menu().actions() if a.menu() is not None and a.text() == "Multispectral"), None)
+            if ours is not None and action.menu().isVisible():
+                place = action.menu().mapToGlobal(action.menu().actionGeometry(ours).center())
+                named["Multispectral menu"] = [place.x(), place.y()]
+                if ours.menu().isVisible():
+                    entries = [[a.text(), a.isSeparator(), not a.icon().isNull()] for a in ours.menu().actions()]
     pages = main.findChild(QtWidgets.QDialog, "MultispectralHelp")
     views = {}
     for view in simple.GetRenderViews():
@@ -90,6 +121,10 @@ def _state():
     return {
         "messages": [w.text() for w in windows if isinstance(w, QtWidgets.QMessageBox)],
         "output": [tree.model().index(row, 0).data() for row in range(tree.model().rowCount())],
+        "width": main.width(),
+        "menu": entries,
+        "labels": _labels(main, windows),
+        "tables": sum(view.SMProxy.GetXMLName() == "SpreadSheetView" for view in simple.GetViews()),
         "band": panel.band_text.text(),
         "corners": _corners(placement, frames[0]) if frames else [],
         "status": placement.status.text() if placement is not None else "",

@@ -6,7 +6,8 @@ import os
 
 from paraview import servermanager, simple
 
-from . import messages
+from . import lights, messages
+from .messages import Missing
 
 METHOD = "Transfer"
 _MOST_PIXELS_WITH_UNCERTAINTY = 1_000_000
@@ -16,22 +17,19 @@ _BESIDE_LEGEND = 0.08  # of the image's width: as far all views are moved, so th
 warnings = []  # of the filters of the last job, to be shown with its result
 
 
-class Missing(Exception):
-    """A part of the main job is not there; the text says which and what to do."""
-
-
 def open_scene(folder):
     """The folder as one source, named after it."""
     name = os.path.basename(os.path.normpath(folder))
     return name, _make(lambda: simple.SceneReader(registrationName=name, FileName=folder), 0, "The scene could not be opened")
 
 
-def build(folder, chart=None, swatches=None, method=METHOD):
-    """chart, swatches: files; None: those of the scene. Returns the views; where a part fails, nothing of the job stays."""
+def build(folder, chart=None, swatches=None, method=METHOD, light=lights.LIGHT, observer=lights.OBSERVER):
+    """chart, swatches: files; None: those of the scene. light, observer: names or files (module lights). Returns the views;
+    where a part fails, nothing of the job stays."""
     warnings.clear()
     known = set(simple.GetSources())
     try:
-        return _build(folder, chart, swatches, method)
+        return _build(folder, chart, swatches, method, light, observer)
     except Missing:
         made = [source for key, source in simple.GetSources().items() if key not in known]
         for source in sorted(made, key=lambda source: -source.SMProxy.GetGlobalID()):
@@ -39,8 +37,9 @@ def build(folder, chart=None, swatches=None, method=METHOD):
         raise
 
 
-def _build(folder, chart, swatches, method):
+def _build(folder, chart, swatches, method, light, observer):
     name, scene = open_scene(folder)
+    conditions = lights.Conditions(name, light, observer, _make)
     calibration = _table(scene, 3, chart, f"{name}: chart",
                          "the chart's samples (reflectance and camera responses) are missing; name their file, or put "
                          "chart.csv into the scene's folder")
@@ -53,8 +52,8 @@ def _build(folder, chart, swatches, method):
                                                         Tuning=tuning, Method=method), 0, "The correction by swatches failed")
         jobs.append(("corrected by swatches", fit, 1))
     reference = _reference(name, scene)
-    rows = [_row(name, scene, title, fit, second, reference) for title, fit, second in jobs]
-    return _show(name, rows)
+    rows = [_row(name, scene, title, fit, second, reference, conditions) for title, fit, second in jobs]
+    return _show(name, rows, conditions)
 
 
 def _has_data(source, port):
@@ -92,8 +91,8 @@ def _reference(name, scene):
                                                     PatchTable=scene[2]), 0, "The measured patches could not be placed")
 
 
-def _row(name, scene, title, fit, second, reference):
-    """One estimate and its errors: (title, estimate, errors or None)."""
+def _row(name, scene, title, fit, second, reference, conditions):
+    """One estimate in its colors, and its errors: (title, estimate, errors or None)."""
     transforms = {"ReflectanceTransform": fit[0]}
     if second is not None:
         transforms["MetamerismTransform"] = fit[second]
@@ -101,26 +100,31 @@ def _row(name, scene, title, fit, second, reference):
     estimate = _make(lambda: simple.ReflectanceEstimation(
         registrationName=f"{name}: {title}", Input=scene[0], **transforms,
         Uncertainty="On" if points <= _MOST_PIXELS_WITH_UNCERTAINTY else "Automatic"), 0, f"{title}: nothing was estimated")
+    if not conditions.standard:
+        estimate = _make(lambda: simple.SpectralToColor(
+            registrationName=f"{name}: {title}, {conditions.text}", Input=estimate, **conditions.of_picture()), 0,
+            f"{title}: the colors could not be computed")
     errors = None
     if reference is not None:
         errors = _make(lambda: simple.CIEDE2000Evaluator(registrationName=f"{name}: errors, {title}", Input=estimate,
-                                                         Reference=reference), 0, f"{title}: no color difference was computed")
+                                                         Reference=reference, **conditions.of_errors()), 0,
+                       f"{title}: no color difference was computed")
     return title, estimate, errors
 
 
-def mean_difference(errors):
-    """The mean CIEDE2000 under D65 over all pixels with a reference, or None."""
+def mean_difference(errors, light):
+    """The mean CIEDE2000 under a light over all pixels with a reference, or None."""
     summary = servermanager.Fetch(errors, idx=1)
     names = [summary.GetColumnName(i) for i in range(summary.GetNumberOfColumns())]
     metric, illuminant, mean = (summary.GetColumnByName(n) if n in names else None
                                 for n in ("metric", "illuminant", "mean"))
     for row in range(summary.GetNumberOfRows()):
-        if metric.GetValue(row) == "dE00" and illuminant.GetValue(row) == "D65":
+        if metric.GetValue(row) == "dE00" and illuminant.GetValue(row) == light:
             return mean.GetValue(row)
     return None
 
 
-def _show(name, rows):
+def _show(name, rows, conditions):
     """A view for each estimate and, below it, for its errors; all turn and zoom together."""
     layout = simple.CreateLayout(name=f"{name}: result")
     columns = [0]
@@ -135,8 +139,8 @@ def _show(name, rows):
             cells = [top, top + 1]
         views.append(_view(layout, cells[0], estimate, title[0].upper() + title[1:]))
         if errors is not None:
-            mean = mean_difference(errors)
-            text = "Errors" + ("" if mean is None or math.isnan(mean) else f": mean \u0394E00 {mean:.2f} (D65)")
+            mean = mean_difference(errors, conditions.light)
+            text = "Errors" + ("" if mean is None or math.isnan(mean) else f": mean \u0394E00 {mean:.2f} ({conditions.text})")
             view = _view(layout, cells[1], errors, text)
             display = simple.GetDisplayProperties(errors, view)
             display.SetScalarBarVisibility(view, True)

@@ -9,6 +9,10 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 _MESSAGE = re.compile(r"(ERROR|Warning): In [^\n]*, line \d+\n[^\n]*? \(0x[0-9a-f]+\): (.*?)\n\n", re.DOTALL)
 
 
+class Missing(Exception):
+    """A step of the window's own cannot be done; the text says why and what to do."""
+
+
 class Heard:
     def __init__(self):
         self.errors, self.warnings = [], []

@@ -193,10 +193,9 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             self.chart.show_band(None)
             return
         array = source.PointData[name] if port == 0 else simple.OutputPort(source, port).PointData[name]
-        data = pixel.data_of(source, port)
-        known = pixel.wavelengths_of(data, data.GetPointData().GetArray(name)) if data is not None else None
-        self.band_text.setText(f"{known[number - 1]:g} nm" if known else array.GetComponentName(number - 1))
-        self.chart.show_band(known[number - 1] if known else number)
+        band = array.GetComponentName(number - 1)  # "550 nm", or the channel's name
+        self.band_text.setText(band)
+        self.chart.show_band(float(band[:-3]) if band.endswith(" nm") else number)
 
     def _show_band(self, number):
         shown = self._shown_image()
@@ -262,7 +261,7 @@ def place_of(pin):
 def describe(pin):
     parts = [f"{pin.name}, column {pin.column}, row {pin.row}" if pin.region is None else
              f"{pin.name}, mean of {pin.count} pixels around column {pin.column}, row {pin.row}"]
-    parts += [f"\u0394E00 {value:.2f} ({name[5:]})" for name, value in pin.errors.items()]
+    parts += [f"\u0394{name.partition(' ')[0][1:]} {value:.2f} ({name.partition(' ')[2]})" for name, value in pin.errors.items()]
     if pin.deviation:
         parts.append("band: \u00b12 standard deviations" + (" of the pixels" if pin.region is not None else ""))
     if pin.measured:

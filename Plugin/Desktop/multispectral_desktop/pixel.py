@@ -129,7 +129,7 @@ def _local(source, data, point):
         elif xml == "CIEDE2000Evaluator" and _judges(other, source):
             for i in range(arrays.GetNumberOfArrays()):
                 name = arrays.GetArrayName(i)
-                if name.startswith("dE00 ") and math.isfinite(arrays.GetArray(i).GetTuple1(number)):
+                if name.startswith("dE") and math.isfinite(arrays.GetArray(i).GetTuple1(number)):
                     errors[name] = arrays.GetArray(i).GetTuple1(number)
     top = data.GetExtent()[3] - row  # as images count rows: from the top
     return Pixel(name_of(source), column, top, point, array.GetName(), wavelengths, values, deviation, measured, errors)
@@ -188,13 +188,18 @@ _profiles = {}
 _Profile = collections.namedtuple("_Profile", "kind across values deviation count")
 
 
-def _profile(source, port, **places):
-    """What the filter Spectral Profile gives of a place: one row per wavelength; None where there is no spectrum."""
+def _arrays(source, port):
+    """The names of the point arrays behind a port."""
     arrays = source.GetDataInformation(port).DataInformation.GetPointDataInformation()
-    kind = next((name for name in SPECTRA if arrays.GetArrayInformation(name) is not None), None)
+    return [arrays.GetArrayInformation(i).GetName() for i in range(arrays.GetNumberOfArrays())]
+
+
+def _profile(source, port, array=None, **places):
+    """What the filter Spectral Profile gives of a place: one row per wavelength; None where there is no spectrum."""
+    kind = array or next((name for name in SPECTRA if name in _arrays(source, port)), None)
     if kind is None:
         return None
-    key = source.SMProxy.GetGlobalID(), port
+    key = source.SMProxy.GetGlobalID(), port, kind
     try:
         if key not in _profiles:
             _profiles[key] = servermanager.filters.SpectralProfile(
@@ -216,10 +221,32 @@ def _profile(source, port, **places):
 
 
 def _remote(source, port, point):
-    """The data are with a server."""
-    profile = _profile(source, port, Points=point[:2])
-    return profile and Pixel(name_of(source), round(point[0]), round(point[1]), point, profile.kind, profile.across,
-                             profile.values, None, None, {})
+    """The same of data that a server holds."""
+    extent, origin, spacing = grid(source, port)
+    if extent is None:
+        return None
+    column, row = (math.floor((point[i] - origin[i]) / spacing[i] + 0.5) for i in range(2))
+    if not (extent[0] <= column <= extent[1] and extent[2] <= row <= extent[3]):
+        return None
+    here = {"Points": list(point[:2])}
+    profile = _profile(source, port, **here)
+    if profile is None:
+        return None
+    deviation = _profile(source, port, "Uncertainty", **here) if "Uncertainty" in _arrays(source, port) else None
+    measured, errors = None, {}
+    for (_, _), other in simple.GetSources().items():
+        xml = other.SMProxy.GetXMLName()
+        if xml == "PatchReferenceImage" and profile.kind == "Reflectance" and grid(other, 0)[0] == extent:
+            reference = _profile(other, 0, **here)
+            if reference is not None and any(map(math.isfinite, reference.values)):
+                measured = reference.across, reference.values
+        elif xml == "CIEDE2000Evaluator" and _judges(other, source):
+            for name in _arrays(other, 0):
+                error = _profile(other, 0, name, **here) if name.startswith("dE") else None
+                if error is not None and math.isfinite(error.values[0]):
+                    errors[name] = error.values[0]
+    return Pixel(name_of(source), column, extent[3] - row, list(point), profile.kind, profile.across, profile.values,
+                 deviation and deviation.values, measured, errors)
 
 
 def name_of(source):

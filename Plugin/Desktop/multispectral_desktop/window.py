@@ -4,9 +4,9 @@ import os
 import traceback
 
 from PyQt5 import QtCore, QtWidgets
-from paraview import simple
+from paraview import servermanager, simple
 
-from . import help, main_job, message_window, reader_choice
+from . import help, lights, main_job, menus, message_window, messages, reader_choice
 from .chart_placement import Placement
 from .panel import SpectrumPanel
 
@@ -20,24 +20,26 @@ def install(window):
     window.addDockWidget(QtCore.Qt.RightDockWidgetArea, panel)
     toolbar = QtWidgets.QToolBar("Multispectral", window)
     toolbar.setObjectName("MultispectralToolbar")
-    for name, label, tip, act in (
-            ("OpenScene", "Open scene", "Open the folder of an image with its white and dark frames", open_scene),
-            ("MainJob", "Main job", "Estimate an image with a chart, correct it by swatches, see where it is wrong",
+    toolbar.setToolButtonStyle(QtCore.Qt.ToolButtonTextBesideIcon)
+    for name, label, picture, tip, act in (
+            ("OpenScene", "Open scene", "scene", "Open the folder of an image with its white and dark frames", open_scene),
+            ("MainJob", "Main job", "job", "Estimate an image with a chart, correct it by swatches, see where it is wrong",
              run_main_job),
-            ("FindChart", "Find chart", "Find a color chart in the selected image and save its samples as a table", place_chart)):
-        action = toolbar.addAction(label)
+            ("FindChart", "Find chart", "chart", "Find a color chart in the selected image and save its samples as a table", place_chart)):
+        action = toolbar.addAction(menus.icon(picture), label)
         action.setObjectName(f"Multispectral{name}")
         action.setToolTip(tip)
         action.triggered.connect(lambda _checked, act=act: _guarded(window, act))
     window.addToolBar(toolbar)
-    return panel, toolbar, help.install(window), message_window.install(window), reader_choice.ReaderChoice(window)
+    return (panel, toolbar, help.install(window), message_window.install(window), reader_choice.ReaderChoice(window),
+            menus.Order(window))
 
 
 def _guarded(window, act):
     """A fault is one message, not a trace that nobody sees."""
     try:
         act(window)
-    except main_job.Missing as missing:
+    except messages.Missing as missing:
         QtWidgets.QMessageBox.warning(window, "Multispectral", str(missing))
     except Exception as error:
         traceback.print_exc()
@@ -48,6 +50,10 @@ def _guarded(window, act):
 def _ask_folder(parent, start=""):
     return QtWidgets.QFileDialog.getExistingDirectory(
         parent, "The folder of the scene", start, QtWidgets.QFileDialog.DontUseNativeDialog)
+
+
+def _is_remote():
+    return servermanager.ActiveConnection is not None and servermanager.ActiveConnection.IsRemote()
 
 
 def open_scene(window):
@@ -67,7 +73,9 @@ def run_main_job(window):
     if dialog.exec_() == QtWidgets.QDialog.Accepted:
         QtWidgets.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
         try:
-            main_job.build(dialog.scene.text(), dialog.chart.text() or None, dialog.swatches.text() or None)
+            main_job.build(dialog.scene.text(), dialog.chart.text() or None, dialog.swatches.text() or None,
+                           light=dialog.light.currentText().strip() or lights.LIGHT,
+                           observer=dialog.observer.currentText().strip() or lights.OBSERVER)
         finally:
             QtWidgets.QApplication.restoreOverrideCursor()
         if main_job.warnings:
@@ -97,6 +105,11 @@ class MainJobDialog(QtWidgets.QDialog):
                                 lambda: self._browse_table(self.chart))
         self.swatches = self._line(form, "Swatches", "table of a few samples of the material; empty: swatches.csv of "
                                    "the scene, or none", lambda: self._browse_table(self.swatches))
+        self.light = self._choice(form, "Light", lights.LIGHTS, "Under which colors are shown and compared: a CIE illuminant "
+                                  "(A, D50, D5500K, FL1 to FL12, LED-B1, ..), or a file with the lamp's power: wavelength in "
+                                  "nm, then one column per lamp", "The lamp's power")
+        self.observer = self._choice(form, "Observer", tuple(lights.OBSERVERS), "A CIE standard observer, or a file with one: "
+                                     "wavelength in nm, x-bar, y-bar, z-bar", "The observer's curves")
         buttons = QtWidgets.QDialogButtonBox(QtWidgets.QDialogButtonBox.Cancel)
         self.run = buttons.addButton("Run", QtWidgets.QDialogButtonBox.AcceptRole)
         self.run.setObjectName("MultispectralRun")
@@ -105,13 +118,28 @@ class MainJobDialog(QtWidgets.QDialog):
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         form.addRow(buttons)
-        self.scene.textChanged.connect(lambda folder: self.run.setEnabled(os.path.isdir(folder)))
+        # A server's folders are not known here.
+        self.scene.textChanged.connect(
+            lambda folder: self.run.setEnabled(bool(folder) and (_is_remote() or os.path.isdir(folder))))
 
     def _line(self, form, label, hint, browse):
-        line, button = QtWidgets.QLineEdit(), QtWidgets.QPushButton("Browse\u2026")
+        line = QtWidgets.QLineEdit()
+        line.setPlaceholderText(hint)
+        return self._row(form, label, line, browse)
+
+    def _choice(self, form, label, names, tip, title):
+        """A list of names that also takes a file."""
+        box = QtWidgets.QComboBox()
+        box.setEditable(True)
+        box.addItems(names)
+        box.setToolTip(tip)
+        return self._row(form, label, box, lambda: self._browse_curves(box, title))
+
+    @staticmethod
+    def _row(form, label, line, browse):
+        button = QtWidgets.QPushButton("Browse\u2026")
         line.setObjectName(f"Multispectral{label}")
         button.setObjectName(f"Multispectral{label}Browse")
-        line.setPlaceholderText(hint)
         button.setAutoDefault(False)
         button.clicked.connect(lambda _checked: browse())
         row = QtWidgets.QHBoxLayout()
@@ -124,6 +152,13 @@ class MainJobDialog(QtWidgets.QDialog):
         folder = _ask_folder(self, self.scene.text())
         if folder:
             self.scene.setText(folder)
+
+    def _browse_curves(self, box, title):
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(
+            self, title, self.scene.text(), "Curves over wavelength (*.csv *.txt *.ti3 *.sp *.spd);;All files (*)",
+            options=QtWidgets.QFileDialog.DontUseNativeDialog)
+        if path:
+            box.setEditText(path)
 
     def _browse_table(self, line):
         path, _ = QtWidgets.QFileDialog.getOpenFileName(

@@ -331,7 +331,7 @@ def menus(window):
     for menu, first, count in (("Sources", "Synthetic Scene", 2), ("Filters", "Flat Field Correction", 21)):
         window.click(window.state()["named"][menu])
         state = window.wait(f"the menu {menu}", lambda s: "Multispectral menu" in s["named"])
-        window.click(state["named"]["Multispectral menu"])
+        window.xdotool("mousemove", *state["named"]["Multispectral menu"])  # opens it
         entries = window.wait("its entries", lambda s: s["menu"])["menu"]
         window.picture(f"menu {menu}")
         window.key("Escape", "Escape", "Escape")

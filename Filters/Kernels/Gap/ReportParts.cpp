@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -70,6 +71,17 @@ std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxi
   std::stable_sort(
     sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   return sorted;
+}
+
+void requireKnown(const std::vector<std::string>& without)
+{
+  for (const std::string& name : without)
+  {
+    if (findEffect(name) == nullptr)
+    {
+      throw std::invalid_argument("there is no effect '" + name + "' to leave out");
+    }
+  }
 }
 
 GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept

@@ -14,6 +14,9 @@ namespace msi
 inline constexpr double ExplainedShrink = 0.85;
 inline constexpr double PartlyShrink = 0.25;
 
+// Errors: std::invalid_argument for the name of an effect that may not be blamed and that the library does not have.
+void requireKnown(const std::vector<std::string>& without);
+
 // Of a gap with causes. noiseAlone: nothing but noise is left.
 GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept;
 

@@ -19,7 +19,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <stdexcept>
 
 namespace msi
 {
@@ -105,13 +104,7 @@ void credit(
 
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
 {
-  for (const std::string& name : options.without)
-  {
-    if (findEffect(name) == nullptr)
-    {
-      throw std::invalid_argument("there is no effect '" + name + "' to leave out");
-    }
-  }
+  requireKnown(options.without);
   GapData data = prepareGapData(capture, options);
   NoiseFinding noise = findNoise(data, capture.noise);
   if (noise.unknown)

@@ -1,7 +1,8 @@
 #include "Kernels/Gap/Field/FieldFit.h"
 
+#include "Kernels/Gap/ReportParts.h"
+
 #include <algorithm>
-#include <stdexcept>
 
 namespace msi
 {
@@ -14,13 +15,7 @@ constexpr Eigen::Index ProfileParameters = 3;
 
 std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
 {
-  for (const std::string& name : without)
-  {
-    if (findEffect(name) == nullptr)
-    {
-      throw std::invalid_argument("there is no effect '" + name + "' to leave out");
-    }
-  }
+  requireKnown(without);
   std::vector<FieldChoice> choices;
   for (const EffectDefinition& effect : effectLibrary())
   {

@@ -40,6 +40,33 @@ Eigen::MatrixXd channelPriorFactor(Eigen::Index channels)
   }
   return prior.llt().matrixL();
 }
+
+// Rows that are worked on together where half of a matrix is zero.
+constexpr Eigen::Index PanelRows = 48;
+
+// Inverts the lower triangle in place: both halves, then what couples them is multiplied by both
+// inverses. 'work' is as large; above the diagonal nothing is read, and what is there is lost.
+void invertLower(Eigen::Ref<Eigen::MatrixXd> factor, Eigen::Ref<Eigen::MatrixXd> work)
+{
+  const Eigen::Index size = factor.rows();
+  const Eigen::Index upper = size / 2;
+  const Eigen::Index lower = size - upper;
+  if (size <= PanelRows)
+  {
+    work.setIdentity();
+    factor.triangularView<Eigen::Lower>().solveInPlace(work);
+    factor = work;
+    return;
+  }
+  invertLower(factor.topLeftCorner(upper, upper), work.topLeftCorner(upper, upper));
+  invertLower(factor.bottomRightCorner(lower, lower), work.topLeftCorner(lower, lower));
+  auto coupled = work.topLeftCorner(lower, upper);
+  coupled.noalias() = factor.bottomLeftCorner(lower, upper) *
+    factor.topLeftCorner(upper, upper).triangularView<Eigen::Lower>();
+  coupled *= -1.0;
+  factor.bottomLeftCorner(lower, upper).noalias() =
+    factor.bottomRightCorner(lower, lower).triangularView<Eigen::Lower>() * coupled;
+}
 }
 
 TransferObjective::TransferObjective(const TransferFeatures& start,
@@ -94,21 +121,53 @@ TransferFeatures TransferObjective::featuresAt(const Eigen::VectorXd& at) const
   return features;
 }
 
-double TransferObjective::likelihood(
-  const Eigen::MatrixXd& covarianceMatrix, Eigen::MatrixXd& sensitivity) const
+auto TransferObjective::squaredDistancesBelow(Eigen::Index j) const
+{
+  const Eigen::Index below = Chart + Tuning - j;
+  return (Norms.tail(below) + Norms[j] - 2.0 * Products.col(j).tail(below).array()).max(0.0);
+}
+
+void TransferObjective::computeCovariance(const TransferKernel& kernel)
 {
   const Eigen::Index samples = Chart + Tuning;
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(covarianceMatrix);
+  const double perChannel = 1.0 / static_cast<double>(Channels);
+  const double length = kernel[Kernel::Length];
+  Norms = X.colwise().squaredNorm().transpose() * perChannel;
+  Products.setZero(samples, samples);
+  Products.selfadjointView<Eigen::Lower>().rankUpdate(X.transpose(), perChannel);
+  Smooth.resize(samples, samples);
+  Matrix.resize(samples, samples);
+  for (Eigen::Index j = 0; j < samples; ++j)
+  {
+    const bool ofTarget = j >= Chart; // and so is every row below
+    const double constant =
+      kernel[Kernel::Constant] + (ofTarget ? kernel[Kernel::TargetConstant] : 0.0);
+    const double linear = kernel[Kernel::Linear] + (ofTarget ? kernel[Kernel::TargetLinear] : 0.0);
+    const double smooth = kernel[Kernel::Smooth] + (ofTarget ? kernel[Kernel::TargetSmooth] : 0.0);
+    auto similar = Smooth.col(j).tail(samples - j).array();
+    similar = (squaredDistancesBelow(j) * (-0.5 / (length * length))).exp();
+    Matrix.col(j).tail(samples - j).array() =
+      constant + linear * Products.col(j).tail(samples - j).array() + smooth * similar;
+    Matrix(j, j) += kernel[ofTarget ? Kernel::TargetNoise : Kernel::ChartNoise] + Jitter;
+  }
+}
+
+double TransferObjective::likelihood()
+{
+  const Eigen::Index samples = Chart + Tuning;
+  Eigen::Ref<Eigen::MatrixXd> inPlace(Matrix);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(inPlace);
   if (cholesky.info() != Eigen::Success)
   {
     return std::numeric_limits<double>::infinity();
   }
-  const Eigen::MatrixXd inverseFactor =
-    cholesky.matrixL().solve(Eigen::MatrixXd::Identity(samples, samples));
-  const Eigen::VectorXd logDiagonal = cholesky.matrixLLT().diagonal().array().log();
+  const Eigen::VectorXd logDiagonal = Matrix.diagonal().array().log();
+  Work.resize(samples, samples);
+  invertLower(inPlace, Work);
+  const auto inverseFactor = Matrix.triangularView<Eigen::Lower>();
 
   // The chart's own factor is the leading block.
-  const Eigen::MatrixXd white = inverseFactor.triangularView<Eigen::Lower>() * Y;
+  const Eigen::MatrixXd white = inverseFactor * Y;
   const double chartFit = white.topRows(Chart).squaredNorm();
   const double tuningFit = white.bottomRows(Tuning).squaredNorm();
   const double count = static_cast<double>(Tuning) + ChartShare * static_cast<double>(Chart);
@@ -116,25 +175,49 @@ double TransferObjective::likelihood(
   const double fit = std::max(tuningFit + ChartShare * chartFit, LeastFit * count);
   const double logDeterminant =
     logDiagonal.tail(Tuning).sum() + ChartShare * logDiagonal.head(Chart).sum();
+  const double scale = 0.5 * EffectiveOutputs * count / fit;
+  const Eigen::MatrixXd whole = Matrix.transpose().triangularView<Eigen::Upper>() * white;
+  const Eigen::MatrixXd chartOnly =
+    Matrix.topLeftCorner(Chart, Chart).transpose().triangularView<Eigen::Upper>() *
+    white.topRows(Chart);
 
   // Rows of the inverse factor weighted by their share turn K^-1 and the chart's K_A^-1 into one
-  // product: sum over rows i of share_i l_i l_i'.
-  Eigen::VectorXd share(samples);
-  share << Eigen::VectorXd::Constant(Chart, std::sqrt(ChartShare)), Eigen::VectorXd::Ones(Tuning);
-  const Eigen::MatrixXd weighted = share.asDiagonal() * inverseFactor;
-  sensitivity = Eigen::MatrixXd::Zero(samples, samples);
-  sensitivity.selfadjointView<Eigen::Lower>().rankUpdate(
-    weighted.transpose(), 0.5 * EffectiveOutputs);
-  const Eigen::MatrixXd whole = inverseFactor.transpose() * white;
-  const Eigen::MatrixXd chartOnly =
-    inverseFactor.topLeftCorner(Chart, Chart).transpose() * white.topRows(Chart);
-  const double scale = 0.5 * EffectiveOutputs * count / fit;
-  sensitivity.selfadjointView<Eigen::Lower>().rankUpdate(whole, -scale);
-  sensitivity.topLeftCorner(Chart, Chart)
+  // product: sum over rows i of share_i l_i l_i', each of which ends at its diagonal.
+  Matrix.topRows(Chart) *= std::sqrt(ChartShare);
+  Sensitivity.setZero(samples, samples);
+  for (Eigen::Index first = 0; first < samples; first += PanelRows)
+  {
+    const Eigen::Index rows = std::min(PanelRows, samples - first);
+    const Eigen::Index columns = first + rows;
+    Matrix.block(first, first, rows, rows).triangularView<Eigen::StrictlyUpper>().setZero();
+    Sensitivity.topLeftCorner(columns, columns)
+      .selfadjointView<Eigen::Lower>()
+      .rankUpdate(Matrix.block(first, 0, rows, columns).transpose(), 0.5 * EffectiveOutputs);
+  }
+  Sensitivity.selfadjointView<Eigen::Lower>().rankUpdate(whole, -scale);
+  Sensitivity.topLeftCorner(Chart, Chart)
     .selfadjointView<Eigen::Lower>()
     .rankUpdate(chartOnly, scale * (1.0 - ChartShare));
-  sensitivity = Eigen::MatrixXd(sensitivity.selfadjointView<Eigen::Lower>());
   return EffectiveOutputs * (0.5 * count * std::log(fit) + logDeterminant);
+}
+
+TransferObjective::Sums TransferObjective::sumsOver(Eigen::Index first, Eigen::Index end) const
+{
+  Sums sums;
+  for (Eigen::Index j = first; j < end; ++j)
+  {
+    const Eigen::Index below = Chart + Tuning - j;
+    const auto pull = Sensitivity.col(j).tail(below).array();
+    const auto similar = Smooth.col(j).tail(below).array();
+    const auto products = Products.col(j).tail(below).array();
+    const double diagonal = Sensitivity(j, j); // counts once, what is below twice
+    sums.noise += diagonal;
+    sums.constant += 2.0 * pull.sum() - diagonal;
+    sums.linear += 2.0 * (pull * products).sum() - diagonal * Products(j, j);
+    sums.smooth += 2.0 * (pull * similar).sum() - diagonal * Smooth(j, j);
+    sums.length += 2.0 * (pull * similar * squaredDistancesBelow(j)).sum();
+  }
+  return sums;
 }
 
 double TransferObjective::operator()(const Eigen::VectorXd& at, Eigen::VectorXd& gradient)
@@ -142,56 +225,48 @@ double TransferObjective::operator()(const Eigen::VectorXd& at, Eigen::VectorXd&
   const TransferKernel kernel = kernelAt(at);
   const TransferFeatures features = featuresAt(at);
   X.rightCols(Tuning) = features.ofTarget(TuningResponses);
-
-  const double length = kernel[Kernel::Length];
-  const Eigen::MatrixXd products = scaledProducts(X, X);
-  const Eigen::MatrixXd exponents = scaledDistances(X, X, products) * (1.0 / (length * length));
-  const Eigen::MatrixXd smooth = (-0.5 * exponents.array()).exp();
-  Eigen::MatrixXd linearWeight =
-    Eigen::MatrixXd::Constant(X.cols(), X.cols(), kernel[Kernel::Linear]);
-  Eigen::MatrixXd smoothWeight =
-    Eigen::MatrixXd::Constant(X.cols(), X.cols(), kernel[Kernel::Smooth]);
-  linearWeight.bottomRightCorner(Tuning, Tuning).array() += kernel[Kernel::TargetLinear];
-  smoothWeight.bottomRightCorner(Tuning, Tuning).array() += kernel[Kernel::TargetSmooth];
-  const Eigen::MatrixXd smoothPart = smoothWeight.cwiseProduct(smooth);
-  Eigen::MatrixXd matrix =
-    (linearWeight.cwiseProduct(products) + smoothPart).array() + kernel[Kernel::Constant];
-  matrix.bottomRightCorner(Tuning, Tuning).array() += kernel[Kernel::TargetConstant];
-  matrix.diagonal().head(Chart).array() += kernel[Kernel::ChartNoise] + Jitter;
-  matrix.diagonal().tail(Tuning).array() += kernel[Kernel::TargetNoise] + Jitter;
-
-  Eigen::MatrixXd sensitivity;
-  double value = likelihood(matrix, sensitivity);
+  computeCovariance(kernel);
+  double value = likelihood();
   if (!std::isfinite(value))
   {
     return value;
   }
-  const auto ofTarget = [&](const Eigen::MatrixXd& m)
-  { return m.bottomRightCorner(Tuning, Tuning); };
+  const Sums chart = sumsOver(0, Chart);
+  const Sums target = sumsOver(Chart, Chart + Tuning);
+  const double inverseSquare = 1.0 / (kernel[Kernel::Length] * kernel[Kernel::Length]);
+  const double targetLinear = kernel[Kernel::Linear] + kernel[Kernel::TargetLinear];
+  const double targetSmooth = kernel[Kernel::Smooth] + kernel[Kernel::TargetSmooth];
   gradient.resize(at.size());
-  gradient[Kernel::Constant] = kernel[Kernel::Constant] * sensitivity.sum();
-  gradient[Kernel::Linear] = kernel[Kernel::Linear] * sensitivity.cwiseProduct(products).sum();
-  gradient[Kernel::Smooth] = kernel[Kernel::Smooth] * sensitivity.cwiseProduct(smooth).sum();
-  gradient[Kernel::Length] = sensitivity.cwiseProduct(smoothPart).cwiseProduct(exponents).sum();
-  gradient[Kernel::TargetConstant] = kernel[Kernel::TargetConstant] * ofTarget(sensitivity).sum();
-  gradient[Kernel::TargetLinear] =
-    kernel[Kernel::TargetLinear] * ofTarget(sensitivity).cwiseProduct(ofTarget(products)).sum();
-  gradient[Kernel::TargetSmooth] =
-    kernel[Kernel::TargetSmooth] * ofTarget(sensitivity).cwiseProduct(ofTarget(smooth)).sum();
-  gradient[Kernel::ChartNoise] =
-    kernel[Kernel::ChartNoise] * sensitivity.diagonal().head(Chart).sum();
-  gradient[Kernel::TargetNoise] =
-    kernel[Kernel::TargetNoise] * sensitivity.diagonal().tail(Tuning).sum();
+  gradient[Kernel::Constant] = kernel[Kernel::Constant] * (chart.constant + target.constant);
+  gradient[Kernel::Linear] = kernel[Kernel::Linear] * (chart.linear + target.linear);
+  gradient[Kernel::Smooth] = kernel[Kernel::Smooth] * (chart.smooth + target.smooth);
+  gradient[Kernel::Length] =
+    inverseSquare * (kernel[Kernel::Smooth] * chart.length + targetSmooth * target.length);
+  gradient[Kernel::TargetConstant] = kernel[Kernel::TargetConstant] * target.constant;
+  gradient[Kernel::TargetLinear] = kernel[Kernel::TargetLinear] * target.linear;
+  gradient[Kernel::TargetSmooth] = kernel[Kernel::TargetSmooth] * target.smooth;
+  gradient[Kernel::ChartNoise] = kernel[Kernel::ChartNoise] * chart.noise;
+  gradient[Kernel::TargetNoise] = kernel[Kernel::TargetNoise] * target.noise;
 
-  // Through the target's features: d/dx of x.x'/K and of the smooth part, twice for symmetry.
+  // Through the target's features: d/dx of x.x'/K and of the smooth part, twice for symmetry. One row a
+  // tuning sample.
   const double perChannel = 2.0 / static_cast<double>(Channels);
-  const Eigen::MatrixXd linearPull =
-    perChannel * sensitivity.rightCols(Tuning).cwiseProduct(linearWeight.rightCols(Tuning));
-  const Eigen::MatrixXd smoothPull = (perChannel / (length * length)) *
-    sensitivity.rightCols(Tuning).cwiseProduct(smoothPart.rightCols(Tuning));
-  Eigen::MatrixXd pull = X * (linearPull + smoothPull);
-  pull -= X.rightCols(Tuning) * smoothPull.colwise().sum().asDiagonal();
-  chainThroughFeatures(features, pull, gradient);
+  Eigen::MatrixXd pulls(Tuning, Chart + Tuning);
+  pulls << Sensitivity.bottomLeftCorner(Tuning, Chart),
+    Eigen::MatrixXd(Sensitivity.bottomRightCorner(Tuning, Tuning).selfadjointView<Eigen::Lower>());
+  Eigen::MatrixXd smooths(Tuning, Chart + Tuning);
+  smooths << Smooth.bottomLeftCorner(Tuning, Chart),
+    Eigen::MatrixXd(Smooth.bottomRightCorner(Tuning, Tuning).selfadjointView<Eigen::Lower>());
+  Eigen::VectorXd linear(Chart + Tuning);
+  linear << Eigen::VectorXd::Constant(Chart, perChannel * kernel[Kernel::Linear]),
+    Eigen::VectorXd::Constant(Tuning, perChannel * targetLinear);
+  Eigen::VectorXd smooth(Chart + Tuning);
+  smooth << Eigen::VectorXd::Constant(Chart, perChannel * inverseSquare * kernel[Kernel::Smooth]),
+    Eigen::VectorXd::Constant(Tuning, perChannel * inverseSquare * targetSmooth);
+  const Eigen::MatrixXd smoothPulls = pulls.cwiseProduct(smooths) * smooth.asDiagonal();
+  Eigen::MatrixXd byFeatures = X * (pulls * linear.asDiagonal() + smoothPulls).transpose();
+  byFeatures -= X.rightCols(Tuning) * smoothPulls.rowwise().sum().asDiagonal();
+  chainThroughFeatures(features, byFeatures, gradient);
 
   const Eigen::VectorXd fromPrior = (at.head<Kernel::Count>() - Center) / PriorDeviation;
   value += 0.5 * fromPrior.squaredNorm() + 0.5 * at.tail(2 * Channels).squaredNorm();

@@ -6,13 +6,30 @@
 #include "Kernels/Difference/ErrorSummary.h"
 
 #include <cmath>
+#include <utility>
 
 namespace msi
 {
 
 namespace
 {
-constexpr double TwoSidedNormal95 = 1.959963984540054;
+// Shares of values, and the normal deviates within which they lie.
+const std::pair<const char*, double> Intervals[msi::IntervalCount] = {
+  { "coverage90", 1.6448536269514722 }, { "coverage95", 1.959963984540054 }
+};
+
+// Every value is zero on all ranks but one.
+void sumValues(std::vector<double>& values, vtkMultiProcessController* controller)
+{
+  if (!controller)
+  {
+    return;
+  }
+  std::vector<double> all(values.size());
+  controller->AllReduce(
+    values.data(), all.data(), static_cast<vtkIdType>(values.size()), vtkCommunicator::SUM_OP);
+  values = std::move(all);
+}
 
 Figures figuresOf(const Eigen::VectorXd& errors)
 {
@@ -36,13 +53,16 @@ HeldOutJudge::HeldOutJudge(const WavelengthGrid& bands, const std::vector<std::s
     space.fromXYZ(lab, lab);
     Colors.push_back({ tristimulus, space, std::move(lab) });
   }
-  Metrics.push_back({ "coverage95", "" });
+  for (const auto& interval : Intervals)
+  {
+    Metrics.push_back({ interval.first, "" });
+  }
 }
 
-std::vector<Figures> HeldOutJudge::operator()(
+HeldOutErrors HeldOutJudge::operator()(
   const MethodEstimate& estimate, const std::vector<Eigen::Index>& heldOut) const
 {
-  std::vector<Figures> figures{ figuresOf(estimate.rms) };
+  HeldOutErrors errors{ { figuresOf(estimate.rms) }, { estimate.rms } };
   for (const auto& color : Colors)
   {
     Eigen::Matrix3Xd lab = color.tristimulus(estimate.reflectance);
@@ -50,19 +70,23 @@ std::vector<Figures> HeldOutJudge::operator()(
     Eigen::VectorXd difference(lab.cols());
     const Eigen::Matrix3Xd reference = color.targetLab(Eigen::all, heldOut);
     Difference.apply(reference, lab, difference);
-    figures.push_back(figuresOf(difference));
+    errors.figures.push_back(figuresOf(difference));
+    errors.samples.push_back(std::move(difference));
   }
-  Figures coverage;
-  coverage.fill(std::nan(""));
-  if (estimate.standardDeviation.size() > 0)
+  for (const auto& interval : Intervals)
   {
-    const Eigen::ArrayXXd error =
-      (estimate.reflectance - Target(Eigen::all, heldOut)).array().abs();
-    const auto within = error <= TwoSidedNormal95 * estimate.standardDeviation.array();
-    coverage[0] = within.cast<double>().mean();
+    Figures coverage;
+    coverage.fill(std::nan(""));
+    if (estimate.standardDeviation.size() > 0)
+    {
+      const Eigen::ArrayXXd error =
+        (estimate.reflectance - Target(Eigen::all, heldOut)).array().abs();
+      const auto within = error <= interval.second * estimate.standardDeviation.array();
+      coverage[0] = within.cast<double>().mean();
+    }
+    errors.figures.push_back(coverage);
   }
-  figures.push_back(coverage);
-  return figures;
+  return errors;
 }
 
 FigureStore::FigureStore(
@@ -82,14 +106,36 @@ double* FigureStore::at(std::size_t count, std::size_t draw, std::size_t method,
 
 void FigureStore::sumOverRanks(vtkMultiProcessController* controller)
 {
-  if (!controller)
+  sumValues(Values, controller);
+}
+
+SampleErrorStore::SampleErrorStore(
+  std::vector<Count> counts, std::size_t methods, std::size_t samples)
+  : Counts(std::move(counts))
+  , Methods(methods)
+  , Samples(samples)
+{
+  std::size_t size = 0;
+  for (const auto& count : Counts)
   {
-    return;
+    Offsets.push_back(size);
+    size += count.draws * count.metrics * Methods * Samples;
   }
-  std::vector<double> all(Values.size());
-  controller->AllReduce(
-    Values.data(), all.data(), static_cast<vtkIdType>(Values.size()), vtkCommunicator::SUM_OP);
-  Values = std::move(all);
+  Values.resize(size);
+}
+
+Eigen::Map<Eigen::MatrixXd> SampleErrorStore::at(
+  std::size_t count, std::size_t method, std::size_t metric)
+{
+  const auto& sizes = Counts[count];
+  return { Values.data() + Offsets[count] +
+      (method * sizes.metrics + metric) * sizes.draws * Samples,
+    static_cast<Eigen::Index>(sizes.draws), static_cast<Eigen::Index>(Samples) };
+}
+
+void SampleErrorStore::sumOverRanks(vtkMultiProcessController* controller)
+{
+  sumValues(Values, controller);
 }
 
 } // namespace msi

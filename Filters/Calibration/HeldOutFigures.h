@@ -24,7 +24,17 @@ namespace msi
 
 // mean, median, p95, max
 constexpr std::size_t FigureCount = 4;
+// coverage90 and coverage95, which are of no single sample
+constexpr std::size_t IntervalCount = 2;
 using Figures = std::array<double, FigureCount>;
+
+// What one method did on the held-out samples of one draw.
+struct HeldOutErrors
+{
+  std::vector<Figures> figures; // of every metric
+  std::vector<Eigen::VectorXd>
+    samples; // of every metric but coverage: one error per held-out sample
+};
 
 // Immutable. The constructor throws std::invalid_argument for an illuminant or color difference not known.
 class HeldOutJudge
@@ -35,11 +45,11 @@ public:
     const ViewingConditions& conditions, const std::string& difference,
     const Eigen::MatrixXd& target);
 
-  // rms, the color difference of each illuminant, coverage95.
+  // rms, the color difference of each illuminant, coverage90, coverage95.
   const std::vector<ErrorName>& metrics() const { return Metrics; }
 
   // In the order of metrics(); coverage is NaN for a method that does not know its uncertainty.
-  std::vector<Figures> operator()(
+  HeldOutErrors operator()(
     const MethodEstimate& estimate, const std::vector<Eigen::Index>& heldOut) const;
 
 private:
@@ -54,6 +64,33 @@ private:
   ColorDifference Difference;
   std::vector<Color> Colors;
   std::vector<ErrorName> Metrics;
+};
+
+// One error per draw and sample of the target: draws x samples, NaN where the sample was not held out. Every task writes
+// its own rows.
+class SampleErrorStore
+{
+public:
+  // A number of tuning samples with its draws and its leading metrics.
+  struct Count
+  {
+    std::size_t draws = 0;
+    std::size_t metrics = 0;
+  };
+  SampleErrorStore(std::vector<Count> counts, std::size_t methods, std::size_t samples);
+
+  std::size_t metrics(std::size_t count) const { return Counts[count].metrics; }
+  Eigen::Map<Eigen::MatrixXd> at(std::size_t count, std::size_t method, std::size_t metric);
+
+  // As FigureStore's.
+  void sumOverRanks(vtkMultiProcessController* controller);
+
+private:
+  std::vector<Count> Counts;
+  std::size_t Methods;
+  std::size_t Samples;
+  std::vector<std::size_t> Offsets;
+  std::vector<double> Values;
 };
 
 // All figures of all draws: [tuning count][draw][method][metric][figure].

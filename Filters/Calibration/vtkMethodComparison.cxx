@@ -13,6 +13,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include "Kernels/Estimation/CrossedErrors.h"
 #include "Kernels/Estimation/MethodComparison.h"
 
 #include <algorithm>
@@ -27,21 +28,18 @@ vtkStandardNewMacro(vtkMethodComparison);
 
 namespace
 {
-std::vector<Eigen::Index> countsOf(const std::string& text)
+// Numbers of tuning samples in a property's text.
+std::vector<Eigen::Index> countsOf(const std::string& text, const std::string& property)
 {
   std::vector<Eigen::Index> counts;
   for (const auto& word : msi::namesIn(text))
   {
     if (word.find_first_not_of("0123456789") != std::string::npos || word.size() > 6)
     {
-      throw std::invalid_argument("TuningSamples holds '" + word +
+      throw std::invalid_argument(property + " holds '" + word +
         "'; expected whole numbers separated by commas, like 6, 16, 36");
     }
     counts.push_back(std::stol(word));
-  }
-  if (counts.empty())
-  {
-    throw std::invalid_argument("TuningSamples is empty; expected at least one number, like 16");
   }
   return counts;
 }
@@ -104,6 +102,31 @@ private:
   vtkNew<vtkDoubleArray> Values[msi::FigureCount];
 };
 
+// The names of the target's samples; their numbers where it has none.
+std::vector<std::string> sampleNames(vtkTable* table)
+{
+  auto* names = table->GetColumnByName("sample");
+  std::vector<std::string> result;
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    result.push_back(names ? names->GetVariantValue(row).ToString() : std::to_string(row + 1));
+  }
+  return result;
+}
+
+std::string titleOf(const msi::ErrorName& name)
+{
+  return name.illuminant.empty() ? name.metric : name.metric + " " + name.illuminant;
+}
+
+// A number of tuning samples, how often it is drawn, and the metrics of which every sample's error is kept.
+struct TuningCount
+{
+  Eigen::Index samples = 0;
+  std::size_t draws = 0;
+  std::size_t metrics = 0;
+};
+
 // The held-out sample whose rms is the (lower) median.
 Eigen::Index typicalSample(const Eigen::VectorXd& rms)
 {
@@ -123,13 +146,13 @@ struct LeftOutMethod
 };
 
 // Why the method has no estimate at the first such number and draw. All draws were judged before.
-LeftOutMethod leftOut(const std::vector<msi::MethodComparison>& comparisons, std::size_t method,
-  std::size_t draws, msi::FigureStore& store)
+LeftOutMethod leftOut(const std::vector<msi::MethodComparison>& comparisons,
+  const std::vector<TuningCount>& counts, std::size_t method, msi::FigureStore& store)
 {
   LeftOutMethod result;
   for (std::size_t count = 0; count < comparisons.size(); ++count)
   {
-    for (std::size_t draw = 0; draw < draws; ++draw)
+    for (std::size_t draw = 0; draw < counts[count].draws; ++draw)
     {
       if (!std::isnan(*store.at(count, draw, method, 0)))
       {
@@ -147,7 +170,7 @@ LeftOutMethod leftOut(const std::vector<msi::MethodComparison>& comparisons, std
 }
 
 std::string textOf(
-  const LeftOutMethod& method, const std::string& name, const std::vector<Eigen::Index>& counts)
+  const LeftOutMethod& method, const std::string& name, const std::vector<TuningCount>& counts)
 {
   std::ostringstream text;
   text << "the method " << name << " is left out";
@@ -156,13 +179,157 @@ std::string textOf(
     const char* separator = " with ";
     for (const auto count : method.counts)
     {
-      text << std::exchange(separator, ", ") << counts[count];
+      text << std::exchange(separator, ", ") << counts[count].samples;
     }
     text << " tuning samples";
   }
   text << ": " << method.reason;
   return text.str();
 }
+
+// The rms of every method against the number of tuning samples.
+template <typename TakesPart>
+void writeCurves(const std::vector<std::size_t>& order, const std::vector<TuningCount>& counts,
+  const std::vector<std::string>& methods, const TakesPart& takesPart,
+  msi::SampleErrorStore& errors, const msi::HeldOutErrors& ofOwnMedium, vtkTable* table)
+{
+  const auto rows = static_cast<Eigen::Index>(order.size());
+  Eigen::VectorXd tuning(rows);
+  Eigen::VectorXd draws(rows);
+  const auto size = static_cast<Eigen::Index>(methods.size());
+  Eigen::MatrixXd means = Eigen::MatrixXd::Constant(rows, size, std::nan(""));
+  Eigen::MatrixXd lows = means;
+  Eigen::MatrixXd highs = means;
+  std::vector<bool> shown(methods.size(), false);
+  for (Eigen::Index row = 0; row < rows; ++row)
+  {
+    const auto count = order[static_cast<std::size_t>(row)];
+    tuning[row] = static_cast<double>(counts[count].samples);
+    draws[row] = static_cast<double>(counts[count].draws);
+    for (std::size_t method = 0; method < methods.size(); ++method)
+    {
+      if (takesPart(count, method))
+      {
+        const auto column = static_cast<Eigen::Index>(method);
+        const auto interval = msi::meanError(errors.at(count, method, 0));
+        means(row, column) = interval.value;
+        lows(row, column) = interval.low;
+        highs(row, column) = interval.high;
+        shown[method] = true;
+      }
+    }
+  }
+  msi::setNumbers(table, "tuning", tuning);
+  for (const auto& [values, suffix] :
+    { std::pair(&means, ""), std::pair(&lows, " low"), std::pair(&highs, " high") })
+  {
+    for (std::size_t method = 0; method < methods.size(); ++method)
+    {
+      if (shown[method])
+      {
+        msi::setNumbers(
+          table, methods[method] + suffix, values->col(static_cast<Eigen::Index>(method)));
+      }
+    }
+  }
+  if (!ofOwnMedium.figures.empty())
+  {
+    msi::setNumbers(
+      table, "own-medium", Eigen::VectorXd::Constant(rows, ofOwnMedium.figures[0][0]));
+  }
+  msi::setNumbers(table, "draws", draws);
+}
+
+// The errors of every sample, at the first number of tuning samples.
+template <typename TakesPart>
+void writeSamples(vtkTable* target, const std::vector<msi::ErrorName>& metrics,
+  const std::vector<std::string>& methods, const TakesPart& takesPart,
+  msi::SampleErrorStore& errors, const msi::HeldOutErrors& ofOwnMedium, vtkTable* table)
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName("sample");
+  for (const auto& name : sampleNames(target))
+  {
+    names->InsertNextValue(name);
+  }
+  table->AddColumn(names);
+  bool counted = false;
+  for (std::size_t metric = 0; metric < errors.metrics(0); ++metric)
+  {
+    for (std::size_t method = 0; method < methods.size(); ++method)
+    {
+      if (!takesPart(0, method))
+      {
+        continue;
+      }
+      const auto known = errors.at(0, method, metric).array();
+      const Eigen::ArrayXd heldOut =
+        (!known.isNaN()).template cast<double>().colwise().sum().transpose();
+      if (!std::exchange(counted, true))
+      {
+        msi::setNumbers(table, "held out", heldOut.matrix());
+      }
+      const Eigen::ArrayXd sums = known.isNaN().select(0.0, known).colwise().sum().transpose();
+      msi::setNumbers(
+        table, methods[method] + " " + titleOf(metrics[metric]), (sums / heldOut).matrix());
+    }
+    if (!ofOwnMedium.samples.empty())
+    {
+      msi::setNumbers(table, "own-medium " + titleOf(metrics[metric]), ofOwnMedium.samples[metric]);
+    }
+  }
+}
+
+// Which of two methods is better, a row a pair and metric.
+class PairTable
+{
+public:
+  explicit PairTable(vtkTable* table)
+  {
+    const auto name = [table](vtkAbstractArray* column, const char* text)
+    {
+      column->SetName(text);
+      table->AddColumn(column);
+    };
+    name(Method, "method");
+    name(Against, "against");
+    name(Tuning, "tuning");
+    name(MetricName, "metric");
+    name(Illuminant, "illuminant");
+    name(Ratio, "ratio");
+    name(Low, "low");
+    name(High, "high");
+    name(Wins, "wins");
+    name(Better, "better");
+  }
+
+  void add(const std::string& method, const std::string& against, Eigen::Index tuning,
+    const msi::ErrorName& metric, const msi::PairedErrors& pair)
+  {
+    Method->InsertNextValue(method);
+    Against->InsertNextValue(against);
+    Tuning->InsertNextValue(static_cast<int>(tuning));
+    MetricName->InsertNextValue(metric.metric);
+    Illuminant->InsertNextValue(metric.illuminant);
+    Ratio->InsertNextValue(pair.ratio.value);
+    Low->InsertNextValue(pair.ratio.low);
+    High->InsertNextValue(pair.ratio.high);
+    Wins->InsertNextValue(pair.wins);
+    Better->InsertNextValue(pair.sign() < 0 ? method : pair.sign() > 0 ? against : "");
+  }
+
+private:
+  vtkNew<vtkStringArray> Method;
+  vtkNew<vtkStringArray> Against;
+  vtkNew<vtkIntArray> Tuning;
+  vtkNew<vtkStringArray> MetricName;
+  vtkNew<vtkStringArray> Illuminant;
+  vtkNew<vtkDoubleArray> Ratio;
+  vtkNew<vtkDoubleArray> Low;
+  vtkNew<vtkDoubleArray> High;
+  vtkNew<vtkDoubleArray> Wins;
+  vtkNew<vtkStringArray> Better;
+};
 
 void writeSpectra(const msi::WavelengthGrid& bands, msi::ComparisonDraw draw,
   const Eigen::MatrixXd& target, vtkTable* table)
@@ -196,7 +363,7 @@ void writeSpectra(const msi::WavelengthGrid& bands, msi::ComparisonDraw draw,
 vtkMethodComparison::vtkMethodComparison()
 {
   this->SetNumberOfInputPorts(4);
-  this->SetNumberOfOutputPorts(4);
+  this->SetNumberOfOutputPorts(6);
 }
 
 void vtkMethodComparison::PrintSelf(ostream& os, vtkIndent indent)
@@ -204,6 +371,8 @@ void vtkMethodComparison::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Methods: " << this->Methods << "\n"
      << indent << "TuningSamples: " << this->TuningSamples << "\n"
+     << indent << "CurveSamples: " << this->CurveSamples << "\n"
+     << indent << "CurveDraws: " << this->CurveDraws << "\n"
      << indent << "Draws: " << this->Draws << "\n"
      << indent << "Seed: " << this->Seed << "\n"
      << indent << "Difference: " << this->Difference << "\n"
@@ -265,33 +434,63 @@ int vtkMethodComparison::RequestData(
       options.seed = static_cast<std::uint64_t>(this->Seed);
       options.channelWavelengths = chart.channels.wavelengths;
 
-      const auto counts = countsOf(this->TuningSamples);
-      std::vector<msi::MethodComparison> comparisons;
-      for (const auto count : counts)
-      {
-        options.tuningSamples = count;
-        comparisons.emplace_back(chart.samples, medium.samples, options);
-      }
       const auto& target = medium.samples.reflectance;
       const msi::ViewingConditions conditions(
         vtkTable::GetData(inputs[2]), vtkTable::GetData(inputs[3]), this->Observer);
       const msi::HeldOutJudge judge(*chart.bands.wavelengths, msi::namesIn(this->Illuminants),
         conditions, this->Difference, target);
+      const std::size_t judged = judge.metrics().size() - msi::IntervalCount;
       const auto draws = static_cast<std::size_t>(this->Draws);
+
+      std::vector<TuningCount> counts;
+      for (const auto samples : countsOf(this->TuningSamples, "TuningSamples"))
+      {
+        counts.push_back({ samples, draws, judged });
+      }
+      if (counts.empty())
+      {
+        throw std::invalid_argument(
+          "TuningSamples is empty; expected at least one number, like 16");
+      }
+      const std::size_t whole = counts.size(); // what follows is for the curves alone
+      for (const auto samples : countsOf(this->CurveSamples, "CurveSamples"))
+      {
+        if (std::none_of(counts.begin(), counts.end(),
+              [samples](const TuningCount& known) { return known.samples == samples; }))
+        {
+          counts.push_back(
+            { samples, std::min(draws, static_cast<std::size_t>(this->CurveDraws)), 1 });
+        }
+      }
+      std::vector<msi::MethodComparison> comparisons;
+      std::vector<msi::SampleErrorStore::Count> kept;
+      std::vector<std::pair<std::size_t, std::size_t>> tasks; // number of tuning samples, draw
+      for (std::size_t count = 0; count < counts.size(); ++count)
+      {
+        options.tuningSamples = counts[count].samples;
+        comparisons.emplace_back(chart.samples, medium.samples, options);
+        kept.push_back({ counts[count].draws, counts[count].metrics });
+        for (std::size_t draw = 0; draw < counts[count].draws; ++draw)
+        {
+          tasks.emplace_back(count, draw);
+        }
+      }
       msi::FigureStore store(counts.size(), draws, options.methods.size(), judge.metrics().size());
+      msi::SampleErrorStore errors(
+        kept, options.methods.size(), static_cast<std::size_t>(target.cols()));
+      msi::ComparisonDraw firstDraw; // on the rank that has the outputs
 
       // Exceptions must not leave a thread; the first one is kept for the caller.
       auto* controller = msi::controllerOfTables();
       const vtkIdType ranks = controller ? controller->GetNumberOfProcesses() : 1;
       const vtkIdType rank = controller ? controller->GetLocalProcessId() : 0;
-      const auto tasks = static_cast<vtkIdType>(counts.size()) * static_cast<vtkIdType>(draws);
+      const auto taskCount = static_cast<vtkIdType>(tasks.size());
       std::mutex failureLock;
       std::string failure;
       const auto runTask = [&](vtkIdType task)
       {
-        const auto count = static_cast<std::size_t>(task) / draws;
-        const auto draw = static_cast<std::size_t>(task) % draws;
-        const auto result = comparisons[count].run(draw);
+        const auto [count, draw] = tasks[static_cast<std::size_t>(task)];
+        auto result = comparisons[count].run(draw);
         for (std::size_t method = 0; method < result.estimates.size(); ++method)
         {
           if (!result.estimates[method].failure.empty())
@@ -300,19 +499,29 @@ int vtkMethodComparison::RequestData(
               std::nan(""));
             continue;
           }
-          const auto figures = judge(result.estimates[method], result.heldOut);
-          for (std::size_t metric = 0; metric < figures.size(); ++metric)
+          const auto found = judge(result.estimates[method], result.heldOut);
+          for (std::size_t metric = 0; metric < found.figures.size(); ++metric)
           {
-            std::copy(figures[metric].begin(), figures[metric].end(),
+            std::copy(found.figures[metric].begin(), found.figures[metric].end(),
               store.at(count, draw, method, metric));
           }
+          for (std::size_t metric = 0; metric < counts[count].metrics; ++metric)
+          {
+            auto row = errors.at(count, method, metric).row(static_cast<Eigen::Index>(draw));
+            row.setConstant(std::nan(""));
+            row(result.heldOut) = found.samples[metric].transpose();
+          }
+        }
+        if (task == 0)
+        {
+          firstDraw = std::move(result);
         }
       };
       const vtkIdType round =
-        std::max<vtkIdType>(2 * ranks * vtkSMPTools::GetEstimatedNumberOfThreads(), tasks / 50);
-      for (vtkIdType first = 0; first < tasks && !this->GetAbortExecute(); first += round)
+        std::max<vtkIdType>(4 * ranks * vtkSMPTools::GetEstimatedNumberOfThreads(), taskCount / 50);
+      for (vtkIdType first = 0; first < taskCount && !this->GetAbortExecute(); first += round)
       {
-        const auto last = std::min(first + round, tasks);
+        const auto last = std::min(first + round, taskCount);
         vtkSMPTools::For(first, last, 1,
           [&](vtkIdType begin, vtkIdType end)
           {
@@ -332,7 +541,7 @@ int vtkMethodComparison::RequestData(
               }
             }
           });
-        this->UpdateProgress(static_cast<double>(last) / static_cast<double>(tasks));
+        this->UpdateProgress(static_cast<double>(last) / static_cast<double>(taskCount));
       }
       if (failure.empty() && this->GetAbortExecute())
       {
@@ -340,11 +549,12 @@ int vtkMethodComparison::RequestData(
       }
       msi::throwOnAnyRank(failure, controller);
       store.sumOverRanks(controller);
+      errors.sumOverRanks(controller);
       std::vector<LeftOutMethod> without;
       std::size_t complete = 0;
       for (std::size_t method = 0; method < options.methods.size(); ++method)
       {
-        without.push_back(leftOut(comparisons, method, draws, store));
+        without.push_back(leftOut(comparisons, counts, method, store));
         complete += without.back().counts.size() < counts.size() ? 1 : 0;
       }
       if (complete == 0)
@@ -359,14 +569,9 @@ int vtkMethodComparison::RequestData(
 
       RowTable results(vtkTable::GetData(outputs, 0), false);
       RowTable perDraw(vtkTable::GetData(outputs, 1), true);
-      auto* curves = vtkTable::GetData(outputs, 3);
-      Eigen::VectorXd tuning(counts.size());
-      Eigen::MatrixXd meanRms = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(counts.size()),
-        static_cast<Eigen::Index>(options.methods.size()), std::nan(""));
       const auto channels = chart.samples.channels();
-      for (std::size_t count = 0; count < counts.size(); ++count)
+      for (std::size_t count = 0; count < whole; ++count)
       {
-        tuning[static_cast<Eigen::Index>(count)] = static_cast<double>(counts[count]);
         for (std::size_t method = 0; method < options.methods.size(); ++method)
         {
           const std::string& name = options.methods[method];
@@ -387,29 +592,56 @@ int vtkMethodComparison::RequestData(
             }
             for (std::size_t draw = 0; draw < draws; ++draw)
             {
-              perDraw.add(name, channels, counts[count], draw + 1, judge.metrics()[metric],
+              perDraw.add(name, channels, counts[count].samples, draw + 1, judge.metrics()[metric],
                 store.at(count, draw, method, metric));
             }
-            results.add(name, channels, counts[count], 0, judge.metrics()[metric], mean);
-            if (metric == 0)
+            results.add(name, channels, counts[count].samples, 0, judge.metrics()[metric], mean);
+          }
+        }
+      }
+
+      const auto takesPart = [&](std::size_t count, std::size_t method)
+      {
+        const auto& out = without[method].counts;
+        return std::find(out.begin(), out.end(), count) == out.end();
+      };
+      msi::HeldOutErrors ofOwnMedium;
+      const auto own = comparisons.front().ownMedium();
+      if (own.failure.empty())
+      {
+        std::vector<Eigen::Index> all(static_cast<std::size_t>(target.cols()));
+        std::iota(all.begin(), all.end(), 0);
+        ofOwnMedium = judge(own, all);
+      }
+      std::vector<std::size_t> order(counts.size());
+      std::iota(order.begin(), order.end(), std::size_t{ 0 });
+      std::sort(order.begin(), order.end(),
+        [&](std::size_t a, std::size_t b) { return counts[a].samples < counts[b].samples; });
+      writeCurves(order, counts, options.methods, takesPart, errors, ofOwnMedium,
+        vtkTable::GetData(outputs, 3));
+      writeSamples(vtkTable::GetData(inputs[1]), judge.metrics(), options.methods, takesPart,
+        errors, ofOwnMedium, vtkTable::GetData(outputs, 4));
+      PairTable pairs(vtkTable::GetData(outputs, 5));
+      for (std::size_t count = 0; count < whole; ++count)
+      {
+        for (std::size_t first = 0; first < options.methods.size(); ++first)
+        {
+          for (std::size_t second = 0; second < options.methods.size(); ++second)
+          {
+            const bool both =
+              first != second && takesPart(count, first) && takesPart(count, second);
+            for (std::size_t metric = 0; both && metric < judged; ++metric)
             {
-              meanRms(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(method)) =
-                mean[0];
+              pairs.add(options.methods[first], options.methods[second], counts[count].samples,
+                judge.metrics()[metric],
+                msi::compareErrors(
+                  errors.at(count, first, metric), errors.at(count, second, metric)));
             }
           }
         }
       }
-      msi::setNumbers(curves, "tuning", tuning);
-      for (std::size_t method = 0; method < options.methods.size(); ++method)
-      {
-        if (without[method].counts.size() < counts.size())
-        {
-          msi::setNumbers(
-            curves, options.methods[method], meanRms.col(static_cast<Eigen::Index>(method)));
-        }
-      }
-      writeSpectra(*chart.bands.wavelengths, comparisons.front().run(0), target,
-        vtkTable::GetData(outputs, 2));
+      writeSpectra(
+        *chart.bands.wavelengths, std::move(firstDraw), target, vtkTable::GetData(outputs, 2));
       for (const auto& warning : { dead, deadOfTarget })
       {
         if (!warning.empty())

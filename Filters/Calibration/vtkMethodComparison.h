@@ -9,12 +9,17 @@
  *
  * Output 0, results: method, channels, tuning, metric, illuminant, mean, median, p95, max; each figure is
  * the mean over draws of that statistic over the held-out samples. Metrics: rms (reflectance factor), dE00 (or
- * the color difference asked for) per illuminant, and coverage95 of methods that know their uncertainty (the share of held-out values
- * within 1.96 standard deviations; in mean).
+ * the color difference asked for) per illuminant, and coverage90 and coverage95 of methods that know their uncertainty (the share of held-out values
+ * within 1.645 and 1.96 standard deviations; in mean).
  * Output 1, draws: the same per draw. Output 2, spectra: wavelength, measured and one column per method,
  * for a typical held-out sample (median rms of the first method) of draw 1; with "transfer -2s" and
- * "transfer +2s". Output 3, curves: one row per number of tuning samples, "tuning" and the mean rms of each
- * method.
+ * "transfer +2s". Output 3, curves: one row per number of tuning samples, those of CurveSamples too, increasing: "tuning", the mean rms of
+ * each method, its 95 % interval in "METHOD low" and "METHOD high", "own-medium": the rms of a calibration on the target's own samples, and "draws".
+ * Output 4, samples: one row per sample of the target, for the first number of tuning samples: "sample", "held out" (in how many draws), and
+ * the mean error of each method and metric, "METHOD METRIC ILLUMINANT". Output 5, pairs: each method against each other: method, against, tuning,
+ * metric, illuminant, ratio of the mean errors with low and high (95 %), wins (share of the errors where the first is smaller), better (the
+ * better method, empty where the interval holds 1). Intervals are about other draws and other samples of the medium
+ * (Kernels/Estimation/CrossedErrors.h).
  *
  * A method that cannot be fitted to the samples of some draw is left out at that number of tuning samples, with a
  * warning that gives the reason; where no method is left the reason is the error.
@@ -52,6 +57,16 @@ public:
    */
   vtkSetStdStringFromCharMacro(TuningSamples);
   vtkGetCharFromStdStringMacro(TuningSamples);
+  ///@}
+
+  ///@{
+  /**
+   * Further numbers of tuning samples, for the output curves alone; with at most CurveDraws draws. Default "".
+   */
+  vtkSetStdStringFromCharMacro(CurveSamples);
+  vtkGetCharFromStdStringMacro(CurveSamples);
+  vtkSetClampMacro(CurveDraws, int, 1, 100000);
+  vtkGetMacro(CurveDraws, int);
   ///@}
 
   ///@{
@@ -114,6 +129,8 @@ private:
 
   std::string Methods = "direct, pinv, pooled, r-model, banded, transfer";
   std::string TuningSamples = "16";
+  std::string CurveSamples;
+  int CurveDraws = 10;
   int Draws = 10;
   int Seed = 1;
   std::string Difference = "ciede2000";

@@ -93,7 +93,7 @@ def main():
     chart, fabric = sample_table("demo-chart.csv"), sample_table("demo-fabric.csv")
     pipeline.update(chart, fabric)
 
-    names, rows = compare_methods(chart, fabric, folder)
+    names, rows, _ = compare_methods(chart, fabric, folder)
     results = estimate_image(chart, fabric, folder)
     gap_folder = os.path.join(folder, "gap")
     gap = diagnose_capture(gap_folder)

@@ -38,7 +38,7 @@ from support import comparison, pipeline, report  # noqa: E402
 
 # All that it writes into the output folder.
 WRITES = (
-    "results.csv", "draws.csv", "rms-against-tuning.csv", "spectra.png", "rms-against-tuning.png",
+    "results.csv", "draws.csv", "samples.csv", "pairs.csv", "rms-against-tuning.csv", "spectra.png", "rms-against-tuning.png",
     "ab-distribution.png", "report.html")
 
 
@@ -54,14 +54,19 @@ def main():
               for path in (options.calibration, options.target)]
     pipeline.update(*tables)
     tables = [comparison.select_channels(table, options.channels) for table in tables]
-    names, rows = comparison.compare(*tables, folder=folder, methods=",".join(chosen), tuning=options.tuning,
-                                     draws=options.draws, seed=options.seed, colors=judged)
+    names, rows, pairs = comparison.compare(*tables, folder=folder, methods=",".join(chosen), tuning=options.tuning,
+                                            draws=options.draws, seed=options.seed, colors=judged)
     report.write(folder, "Methods compared", [
         report.table("Errors of the held-out samples", *comparison.condensed(names, rows),
                      note=f"Mean / median / largest over the held-out samples, mean over {options.draws} draws of "
                           f"{options.tuning} tuning samples; rms of reflectance factor, {judged.label}."),
+        report.table("Is the best method better?", *comparison.against_best(names, rows, pairs),
+                     note="Ratio of the mean errors with its 95 % interval, and in how many held-out samples the error is "
+                          "smaller. 'open': the interval holds 1. Intervals are about other draws of tuning samples and other "
+                          "samples of the medium; all pairs of methods are in pairs.csv, the errors of every sample in "
+                          "samples.csv."),
         report.pictures("In pictures", folder, {
-            "spectra.png": "A typical held-out sample", "rms-against-tuning.png": "Error against the number of tuning samples",
+            "spectra.png": "A typical held-out sample", "rms-against-tuning.png": "Error against the number of tuning samples; bands: 95 % intervals",
             "ab-distribution.png": "Where the three sets lie in a*b*"})],
         comparison.best(names, rows, judged), pipeline.warnings)
     command.say(f"report, results, draws and pictures: {os.path.join(folder, 'report.html')}")

@@ -1,6 +1,7 @@
 #include "Kernels/Estimation/MethodComparison.h"
 
 #include "Kernels/Estimation/EstimationMethod.h"
+#include "Kernels/Estimation/PseudoinverseCalibration.h"
 
 #include <sstream>
 #include <stdexcept>
@@ -8,6 +9,17 @@
 
 namespace msi
 {
+
+namespace
+{
+constexpr Eigen::Index Folds = 10;
+
+// Over bands, one per sample.
+Eigen::VectorXd rmsOf(const Eigen::MatrixXd& errors)
+{
+  return errors.array().square().colwise().mean().sqrt().transpose();
+}
+}
 
 std::vector<std::string> allMethodNames()
 {
@@ -46,6 +58,39 @@ MethodComparison::MethodComparison(
   }
 }
 
+MethodEstimate MethodComparison::ownMedium() const
+{
+  MethodEstimate estimate;
+  estimate.method = "own-medium";
+  const Eigen::Index unknowns = Target.channels() + 1;
+  const Eigen::Index fitted = Target.size() - (Target.size() + Folds - 1) / Folds;
+  if (fitted < unknowns)
+  {
+    std::ostringstream message;
+    message << "nine tenths of the target are " << fitted << " samples for " << unknowns
+            << " unknowns per band; expected at least " << unknowns << " samples";
+    estimate.failure = message.str();
+    return estimate;
+  }
+  estimate.reflectance.resize(Target.bands(), Target.size());
+  for (Eigen::Index fold = 0; fold < Folds; ++fold)
+  {
+    std::vector<Eigen::Index> left;
+    for (Eigen::Index i = fold; i < Target.size(); i += Folds)
+    {
+      left.push_back(i);
+    }
+    if (!left.empty())
+    {
+      const SampleSet others = Target.subset(remainingSamples(Target.size(), left));
+      estimate.reflectance(Eigen::all, left) =
+        fitPseudoinverse(others).transform(Target.subset(left).response);
+    }
+  }
+  estimate.rms = rmsOf(estimate.reflectance - Target.reflectance);
+  return estimate;
+}
+
 MethodComparison MethodComparison::only(std::size_t method) const
 {
   ComparisonOptions options = Options;
@@ -71,13 +116,7 @@ ComparisonDraw MethodComparison::run(std::uint64_t draw) const
       const EstimationFit fit = estimationMethodNamed(name).fit(Calibration, tuning, estimation);
       estimate.reflectance = (*fit.estimator)(heldOut.response);
       estimate.standardDeviation = fit.estimator->standardDeviation(heldOut.response);
-      estimate.rms = (estimate.reflectance - heldOut.reflectance)
-                       .array()
-                       .square()
-                       .colwise()
-                       .mean()
-                       .sqrt()
-                       .transpose();
+      estimate.rms = rmsOf(estimate.reflectance - heldOut.reflectance);
       estimate.summary = fit.summary;
       requireFinite(estimate.reflectance, "the estimate of held-out");
       requireFinite(estimate.standardDeviation, "the standard deviation of held-out");

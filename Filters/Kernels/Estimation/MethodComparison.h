@@ -60,6 +60,10 @@ public:
 
   ComparisonDraw run(std::uint64_t draw) const;
 
+  // Every sample of the target as a calibration on that medium itself would estimate it: least squares on the other nine
+  // tenths of the target. A failure where those do not determine it.
+  MethodEstimate ownMedium() const;
+
   // The same draws with one of the methods, by its place in the options.
   MethodComparison only(std::size_t method) const;
 

@@ -51,6 +51,22 @@ TEST(MethodComparison, RmsIsTheRootMeanSquareOverBands)
   EXPECT_NEAR(draw.estimates[0].rms.maxCoeff(), std::sqrt(12.5), 1e-12);
 }
 
+TEST(MethodComparison, OwnMediumIsLeastSquaresOnTheTargetItself)
+{
+  // The target is affine in its responses, and the chart is not: only the target's own samples tell.
+  msi::SampleSet chart = affineSamples(20, 1);
+  chart.reflectance.setRandom();
+  msi::ComparisonOptions options;
+  options.tuningSamples = 3;
+  const auto own = msi::MethodComparison(chart, affineSamples(13, 2), options).ownMedium();
+  EXPECT_EQ(own.failure, "");
+  ASSERT_EQ(own.rms.size(), 13);
+  EXPECT_LT(own.rms.maxCoeff(), 1e-12);
+  const auto few = msi::MethodComparison(chart, affineSamples(4, 2), options).ownMedium();
+  EXPECT_EQ(few.failure,
+    "nine tenths of the target are 3 samples for 4 unknowns per band; expected at least 4 samples");
+}
+
 TEST(MethodComparison, SaysWhichMethodCannotRunAndRunsTheOthers)
 {
   msi::ComparisonOptions options;

@@ -71,7 +71,7 @@ TEST(TransferEstimation, LearnsTheGainAndOffsetOfTheTarget)
 
 TEST(TransferEstimation, CoversHeldOutSamples)
 {
-  // 20 targets of their own gain and offset; coverage of 95 % intervals over all of them.
+  // 20 targets of their own gain and offset; coverage of 90 % intervals over all of them.
   double inside = 0.0;
   double total = 0.0;
   for (unsigned i = 0; i < 20; ++i)
@@ -83,11 +83,11 @@ TEST(TransferEstimation, CoversHeldOutSamples)
     const auto fit = msi::fitTransfer(chart, tuning);
     const Eigen::ArrayXXd z = (fit.estimator(target.response) - target.reflectance).array() /
       fit.estimator.standardDeviation(target.response).array();
-    inside += static_cast<double>((z.abs() < 1.96).count());
+    inside += static_cast<double>((z.abs() < 1.6449).count());
     total += static_cast<double>(z.size());
   }
-  EXPECT_GT(inside / total, 0.91);
-  EXPECT_LT(inside / total, 0.99);
+  EXPECT_GT(inside / total, 0.87);
+  EXPECT_LT(inside / total, 0.93);
 }
 
 TEST(TransferEstimation, DoesNotDependOnTheUnitOfTheResponse)

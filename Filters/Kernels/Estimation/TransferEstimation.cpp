@@ -1,9 +1,11 @@
 #include "Kernels/Estimation/TransferEstimation.h"
 
+#include "Kernels/Difference/ErrorSummary.h"
 #include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/MetamerismCorrection.h"
 #include "Kernels/Estimation/MixtureShares.h"
 #include "Kernels/Estimation/SampleDraw.h"
+#include "Kernels/Estimation/StudentQuantile.h"
 #include "Kernels/Estimation/TransferExpert.h"
 
 #include <algorithm>
@@ -25,6 +27,9 @@ constexpr double BandPriorSamples = 10.0;
 // Left-out errors are optimistic, for the sample left out has taken part in the fit of the
 // hyperparameters: as if that many samples of variance were missing.
 constexpr double HyperparameterSamples = 3.0;
+// The share of measured values that intervals are calibrated to hold, and the normal deviate below which that share lies.
+constexpr double CalibratedShare = 0.9;
+constexpr double NormalQuantile = 1.6448536269514722;
 constexpr Eigen::Index LargestFoldCount = 32;
 
 // The affine expert: the source's metamerism correction with a diagonal transform, which few samples
@@ -92,33 +97,29 @@ Eigen::MatrixXd unitVariance(const TransferExpertFit& fit)
   return slopes.cwiseAbs2() * fit.leftOutVariance.asDiagonal();
 }
 
-// 97.5 % point of Student's t over that of the normal distribution: the level of the uncertainty is
-// itself known from a few samples only. Cornish-Fisher, Abramowitz and Stegun 26.7.5.
-double studentFactor(double degrees)
-{
-  constexpr double z = 1.959963984540054;
-  const double z2 = z * z;
-  return 1.0 + (z2 + 1.0) / (4.0 * degrees) +
-    ((5.0 * z2 + 16.0) * z2 + 3.0) / (96.0 * degrees * degrees) +
-    (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / (384.0 * degrees * degrees * degrees);
-}
-
-// Factor by which squared left-out errors exceed what the model expects, per band: that of the tuning
-// samples, drawn toward the chart's pattern over the bands.
+// Variance per band in units of what the model expects: of squared left-out errors of the tuning samples, drawn toward
+// the chart's pattern over the bands; then scaled so that the normal 90 % interval holds 90 % of the left-out errors, whose
+// tails are heavier than the normal distribution's. The level is itself known from few samples: Student's t.
 Eigen::VectorXd calibratedBandVariance(const Eigen::MatrixXd& chartErrors,
   const Eigen::MatrixXd& tuningErrors, const Eigen::MatrixXd& unitVariances)
 {
   const Eigen::ArrayXXd variances = unitVariances.array().max(1e-300);
+  const auto ofTuningSamples = variances.rightCols(tuningErrors.cols());
   const Eigen::VectorXd ofChart =
     (chartErrors.array().square() / variances.leftCols(chartErrors.cols())).rowwise().mean();
   const Eigen::VectorXd ofTuning =
-    (tuningErrors.array().square() / variances.rightCols(tuningErrors.cols())).rowwise().mean();
+    (tuningErrors.array().square() / ofTuningSamples).rowwise().mean();
   const double samples = static_cast<double>(tuningErrors.cols());
   const double level = ofChart.mean() > 0.0 ? ofTuning.mean() / ofChart.mean() : 0.0;
-  const double factor =
-    std::pow(studentFactor(samples), 2) * (1.0 + HyperparameterSamples / samples);
-  return factor * (samples * ofTuning + BandPriorSamples * level * ofChart) /
-    (samples + BandPriorSamples);
+  const Eigen::VectorXd pattern =
+    (samples * ofTuning + BandPriorSamples * level * ofChart) / (samples + BandPriorSamples);
+  const Eigen::ArrayXXd scores =
+    tuningErrors.array().abs() / (ofTuningSamples.colwise() * pattern.array().max(1e-300)).sqrt();
+  const double tail =
+    percentile(scores.reshaped().matrix(), 100.0 * CalibratedShare) / NormalQuantile;
+  const double student =
+    studentQuantile(CalibratedShare, static_cast<int>(tuningErrors.cols())) / NormalQuantile;
+  return std::pow(tail * student, 2) * (1.0 + HyperparameterSamples / samples) * pattern;
 }
 
 // Root mean square of each channel over the chart; 1 for a channel that is zero throughout.

@@ -46,7 +46,7 @@ public:
   bool knowsUncertainty() const noexcept override { return true; }
 
   // standardDeviation may be null. It is of the error to expect against a measurement, scaled so that
-  // mean +- 1.96 standard deviations holds about 95 % of the measured values.
+  // mean +- 1.645 standard deviations holds about 90 % of the measured values.
   void apply(const double* response, double* mean, double* standardDeviation,
     Eigen::Index pixels) const noexcept override;
   void apply(const float* response, float* mean, float* standardDeviation,

@@ -33,27 +33,27 @@ def select_channels(table, count):
 
 
 def compare(calibration, target, folder, methods, tuning, draws, seed, colors=None):
-    """Writes results.csv, draws.csv and the pictures; prints the table. Returns names and rows."""
+    """Writes the tables and pictures; prints the results. Returns their names and rows, and those of the pairs."""
     conditions = (colors or Colors()).of_comparison()
+    most = pipeline.number_of_rows(target) // 2
+    steps = [count for count in TUNING_STEPS if count <= most]
     comparison = pipeline.create("MethodComparison", Calibration=calibration, Target=target, Methods=methods,
-                                 TuningSamples=str(tuning), Draws=draws, Seed=seed, **conditions)
+                                 TuningSamples=str(tuning), Draws=draws, Seed=seed,
+                                 CurveSamples=", ".join(map(str, steps)), CurveDraws=MOST_DRAWS_OF_PICTURE,
+                                 **conditions)
     pipeline.update(comparison)
     pipeline.save_table(pipeline.port(comparison, 0), os.path.join(folder, "results.csv"))
     pipeline.save_table(pipeline.port(comparison, 1), os.path.join(folder, "draws.csv"))
     names, rows = pipeline.table(pipeline.port(comparison, 0))
     print_results(names, rows)
 
-    most = pipeline.number_of_rows(target) // 2
-    steps = [count for count in TUNING_STEPS if count <= most]
-    curves = pipeline.create("MethodComparison", Calibration=calibration, Target=target,
-                             Methods=methods, TuningSamples=", ".join(map(str, steps or [tuning])),
-                             Draws=min(draws, MOST_DRAWS_OF_PICTURE), Seed=seed)
-    pipeline.update(curves)
-    pipeline.save_table(pipeline.port(curves, 0), os.path.join(folder, "rms-against-tuning.csv"))
+    pipeline.save_table(pipeline.port(comparison, 3), os.path.join(folder, "rms-against-tuning.csv"))
+    pipeline.save_table(pipeline.port(comparison, 4), os.path.join(folder, "samples.csv"))
+    pipeline.save_table(pipeline.port(comparison, 5), os.path.join(folder, "pairs.csv"))
     _draw_spectra(comparison, _methods_in(comparison, 2), os.path.join(folder, "spectra.png"))
-    _draw_curves(curves, _methods_in(curves, 3), os.path.join(folder, "rms-against-tuning.png"))
+    _draw_curves(comparison, _methods_in(comparison, 3), os.path.join(folder, "rms-against-tuning.png"))
     _draw_colors(calibration, target, tuning, seed, os.path.join(folder, "ab-distribution.png"))
-    return names, rows
+    return names, rows, pipeline.table(pipeline.port(comparison, 5))
 
 
 def _methods_in(comparison, index):
@@ -69,17 +69,39 @@ def condensed(names, rows):
     for row in rows:
         metric, illuminant = row[column["metric"]], row[column["illuminant"]]
         figures = [row[column[name]] for name in ("mean", "median", "max")]
-        if metric == "coverage95":
+        interval = metric[8:] if metric.startswith("coverage") else ""
+        if interval:
             cell = f"{100 * figures[0]:.0f} %"
         else:
             digits = 4 if metric == "rms" else 2
             cell = " / ".join(f"{figure:.{digits}f}" for figure in figures)
-        title = "within 95 % interval" if metric == "coverage95" else f"{metric} {illuminant}"
+        title = f"within {interval} % interval" if interval else f"{metric} {illuminant}"
         by_method.setdefault(row[column["method"]], {})[title.strip()] = cell
     titles = list(dict.fromkeys(title for cells in by_method.values() for title in cells))
     return (["method"] + titles,
             [[method] + [cells.get(title, "") for title in titles]
              for method, cells in by_method.items()])
+
+
+def against_best(names, rows, pairs):
+    """The paired comparison of the method with the least rms with all others, as titles and lines of a table."""
+    column = {name: i for i, name in enumerate(names)}
+    means = {row[column["method"]]: row[column["mean"]] for row in rows if row[column["metric"]] == "rms"}
+    if not means:
+        return [], []
+    first = min(means, key=means.get)
+    titles, pair_rows = pairs
+    at = {name: i for i, name in enumerate(titles)}
+    metrics = list(dict.fromkeys((row[at["metric"]], row[at["illuminant"]]) for row in pair_rows))
+    lines = {}
+    for row in pair_rows:
+        if row[at["method"]] == first:
+            verdict = {first: "better", "": "open"}.get(row[at["better"]], "worse")
+            values = [row[at[name]] for name in ("ratio", "low", "high", "wins")]
+            lines.setdefault(row[at["against"]], {})[row[at["metric"]], row[at["illuminant"]]] = (
+                "{:.2f} ({:.2f} .. {:.2f}), smaller in {:.0%}: {}".format(*values, verdict))
+    return ([f"{first} against"] + [" ".join(filter(None, metric)) for metric in metrics],
+            [[other] + [cells.get(metric, "") for metric in metrics] for other, cells in lines.items()])
 
 
 def best(names, rows, judged=None):
@@ -137,11 +159,16 @@ def _top_of_spectra(spectra, methods):
 
 
 def _draw_curves(curves, methods, path):
-    chart = pictures.Chart("Error against the number of tuning samples", "Tuning samples",
+    chart = pictures.Chart("Error against the number of tuning samples, with 95 % intervals", "Tuning samples",
                            "Spectral rms, mean over held-out samples", log_y=True)
-    chart.add(pipeline.port(curves, 3), "tuning",
-              {method: (method, pictures.COLORS[method]) for method in methods},
+    source = pipeline.port(curves, 3)
+    chart.add(source, "tuning", {method: (method, pictures.COLORS[method]) for method in methods},
               marker=pictures.Marker.CIRCLE)
+    for method in methods:
+        chart.band(source, "tuning", f"{method} low", f"{method} high", pictures.COLORS[method])
+    if "own-medium" in pipeline.column_names(source):
+        chart.add(source, "tuning", {"own-medium": ("least squares on the target's own samples",
+                                                    pictures.COLORS["measured"], pictures.LineStyle.DOT, 1.5)})
     chart.save(path)
 
 

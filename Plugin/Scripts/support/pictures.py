@@ -188,7 +188,7 @@ class Chart:
     def __init__(self, title, x_title, y_title, log_y=False, size=(1000, 640)):
         self._titles = title, x_title, y_title
         self._log_y, self._size = log_y, size
-        self._series = []
+        self._series, self._bands = [], []
         self._limits = {}
         self._legend = "best"
 
@@ -202,6 +202,11 @@ class Chart:
                 label=label or "_", color=color, linestyle=_LINES[style[0] if style else line],
                 linewidth=style[1] if len(style) > 1 else width, marker=_MARKERS[marker],
                 markersize=marker_size)))
+
+    def band(self, source, x, low, high, color):
+        """A shaded band between two columns; none where a value is missing."""
+        data = pipeline.whole(source)
+        self._bands.append(([_column(data, name) for name in (x, low, high)], color))
 
     def limits(self, left=None, bottom=None):
         self._limits.update({axis: bounds for axis, bounds in (("y", left), ("x", bottom)) if bounds})
@@ -218,6 +223,8 @@ class Chart:
         with matplotlib.rc_context(_STYLE):
             figure = _figure(self._size, layout="constrained")
             plot = figure.subplots()
+            for columns, color in self._bands:
+                plot.fill_between(*columns, color=color, alpha=0.15, linewidth=0.0)
             for across, upwards, style in self._series:
                 plot.plot(across, upwards, **style)
             title, x_title, y_title = self._titles

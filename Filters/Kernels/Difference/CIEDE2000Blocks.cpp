@@ -150,17 +150,31 @@ Vector difference(const CIEDE2000Factors& factors, const Colors& lab1, const Col
   const Direction hue2 = direction(a2, lab2.third, chroma2);
   const Mask forward = turnsForward(lab1.second, lab1.third, lab2.second, lab2.third);
 
-  // Eqs. 8, 9 and 11; the chord of the hue angle is twice the sine of its half.
+  // Eqs. 8, 9 and 11. Differences of nearly equal colors are taken before they are squared or multiplied, so that no digits
+  // cancel; every line changes its sign alone when the colors change places.
   const Vector deltaL = hn::Sub(lab2.first, lab1.first);
-  const Vector deltaC = hn::Sub(chroma2, chroma1);
+  const Vector deltaA = hn::Mul(stretch, hn::Sub(lab2.second, lab1.second));
+  const Vector deltaB = hn::Sub(lab2.third, lab1.third);
+  const Vector sumA = hn::Add(a1, a2);
+  const Vector sumB = hn::Add(lab1.third, lab2.third);
+  const Vector sumChroma = hn::Add(chroma1, chroma2);
+  const Vector zero = hn::Zero(Doubles());
+  const Vector deltaC = hn::IfThenZeroElse(hn::Eq(sumChroma, zero),
+    hn::Div(hn::Add(hn::Mul(deltaA, sumA), hn::Mul(deltaB, sumB)), sumChroma));
+  const Vector chromaProduct = hn::Mul(chroma1, chroma2);
+  const Vector inner = hn::Add(hn::Mul(a1, a2), hn::Mul(lab1.third, lab2.third));
+  // Hues less than 90 degrees apart: twice the sine of the half angle is the sine over the cosine of the half.
+  const Vector outer = hn::Mul(half, hn::Sub(hn::Mul(sumA, deltaB), hn::Mul(sumB, deltaA)));
+  const Vector narrowH = hn::Div(outer, hn::Sqrt(hn::Mul(half, hn::Add(chromaProduct, inner))));
+  // Others: the chord of the hue angle.
   const Vector chordX = hn::Sub(hue2.cosine, hue1.cosine);
   const Vector chordY = hn::Sub(hue2.sine, hue1.sine);
-  const Vector chromaProduct = hn::Mul(chroma1, chroma2);
   const Vector hueDistance =
     hn::Sqrt(hn::Mul(chromaProduct, hn::Add(square(chordX), square(chordY))));
-  const Vector deltaH = hn::IfThenElse(forward, hueDistance, hn::Neg(hueDistance));
+  const Vector wideH = hn::IfThenElse(forward, hueDistance, hn::Neg(hueDistance));
+  const Vector deltaH = hn::IfThenElse(hn::Gt(inner, zero), narrowH, wideH);
 
-  const Vector meanPrimedChroma = hn::Mul(half, hn::Add(chroma1, chroma2));
+  const Vector meanPrimedChroma = hn::Mul(half, sumChroma);
   const Direction hue = meanHue(hue1, hue2, forward);
   // Eqs. 18, 19 and 20.
   const Vector fromMiddle =

@@ -167,7 +167,7 @@ def _draw_curves(curves, methods, path):
     for method in methods:
         chart.band(source, "tuning", f"{method} low", f"{method} high", pictures.COLORS[method])
     if "own-medium" in pipeline.column_names(source):
-        chart.add(source, "tuning", {"own-medium": ("least squares on the target's own samples",
+        chart.add(source, "tuning", {"own-medium": ("own medium, least squares",
                                                     pictures.COLORS["measured"], pictures.LineStyle.DOT, 1.5)})
     chart.save(path)
 

@@ -88,7 +88,7 @@ TEST_P(MediaTable, AgreesWithTheSeparateProgram)
 
 // The project's own method on the same data: better than those of the source in the same draws, and
 // with 16 channels better than calibrating on 100 samples of the medium itself (0.0054 on cotton, by a
-// separate NumPy program); its intervals hold about what they promise.
+// separate NumPy program); its intervals of 90 % hold about what they promise.
 TEST_P(MediaTable, TransferIsBetterThanAllOfThem)
 {
   const MediaCase& media = GetParam();
@@ -115,7 +115,7 @@ TEST_P(MediaTable, TransferIsBetterThanAllOfThem)
     const Eigen::MatrixXd measured = target->subset(result.heldOut).reflectance;
     const Eigen::ArrayXXd z =
       (transfer.reflectance - measured).array() / transfer.standardDeviation.array();
-    inside += (z.abs() < 1.96).cast<double>().mean() / draws;
+    inside += (z.abs() < 1.6449).cast<double>().mean() / draws;
   }
   const double transfer = means.at("transfer");
   for (const auto& [method, mean] : means)
@@ -126,8 +126,9 @@ TEST_P(MediaTable, TransferIsBetterThanAllOfThem)
     }
   }
   EXPECT_LT(transfer, media.transferLimit);
-  EXPECT_GT(inside, 0.88);
-  EXPECT_LT(inside, 0.99);
+  // .90 +- .03 and two standard errors of the mean over 8 draws, which scatter by .055.
+  EXPECT_GT(inside, 0.83);
+  EXPECT_LT(inside, 0.97);
   RecordProperty("transfer", std::to_string(transfer));
   RecordProperty("coverage", std::to_string(inside));
 }

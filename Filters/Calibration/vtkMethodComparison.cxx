@@ -478,7 +478,7 @@ int vtkMethodComparison::RequestData(
       msi::FigureStore store(counts.size(), draws, options.methods.size(), judge.metrics().size());
       msi::SampleErrorStore errors(
         kept, options.methods.size(), static_cast<std::size_t>(target.cols()));
-      msi::ComparisonDraw firstDraw; // on the rank that has the outputs
+      msi::ComparisonDraw firstDraw; // on the rank that runs it
 
       // Exceptions must not leave a thread; the first one is kept for the caller.
       auto* controller = msi::controllerOfTables();
@@ -639,6 +639,10 @@ int vtkMethodComparison::RequestData(
             }
           }
         }
+      }
+      if (firstDraw.estimates.empty()) // another rank ran it
+      {
+        firstDraw = comparisons.front().run(0);
       }
       writeSpectra(
         *chart.bands.wavelengths, std::move(firstDraw), target, vtkTable::GetData(outputs, 2));

@@ -153,7 +153,7 @@ def _draw_spectra(comparison, methods, path):
 def _top_of_spectra(spectra, methods):
     """Room for the measured spectrum and the last method; a wild one may leave the chart."""
     names, rows = pipeline.table(spectra)
-    shown = [name for name in ("measured", methods[-1]) if name in names]
+    shown = [name for name in ("measured", *methods[-1:]) if name in names]
     largest = max((row[names.index(name)] for row in rows for name in shown), default=1.0)
     return 1.3 * pipeline.share([largest], 1)[0]
 

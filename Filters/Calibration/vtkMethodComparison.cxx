@@ -36,8 +36,10 @@ std::vector<Eigen::Index> countsOf(const std::string& text, const std::string& p
   {
     if (word.find_first_not_of("0123456789") != std::string::npos || word.size() > 6)
     {
-      throw std::invalid_argument(property + " holds '" + word +
-        "'; expected whole numbers separated by commas, like 6, 16, 36");
+      std::ostringstream message;
+      message << property << " holds '" << word
+              << "'; expected whole numbers separated by commas, like 6, 16, 36";
+      throw std::invalid_argument(message.str());
     }
     counts.push_back(std::stol(word));
   }

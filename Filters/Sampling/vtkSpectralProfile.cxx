@@ -211,6 +211,15 @@ void vtkSpectralProfile::AddBlock(vtkInformationVector** inputs)
   const auto& block = sampling.blocks.block();
   const auto image = msi::partOf(vtkImageData::GetData(inputs[0]), block);
   auto* array = msi::requireSpectralArray(image, "the image", this->SpectralArray.c_str());
+  if (!std::equal(block.begin(), block.end(), image->GetExtent()))
+  {
+    const int* has = image->GetExtent();
+    throw std::runtime_error("the image came without some of the pixels asked for: columns " +
+      std::to_string(has[0]) + " to " + std::to_string(has[1]) + " of " + std::to_string(block[0]) +
+      " to " + std::to_string(block[1]) + ", rows " + std::to_string(has[2]) + " to " +
+      std::to_string(has[3]) + " of " + std::to_string(block[2]) + " to " +
+      std::to_string(block[3]));
+  }
   if (auto* labelImage = vtkImageData::GetData(inputs[1]))
   {
     const auto labels = msi::partOf(labelImage, block);

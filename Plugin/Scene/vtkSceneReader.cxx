@@ -263,6 +263,20 @@ int vtkSceneReader::RequestInformation(
     });
 }
 
+vtkTypeBool vtkSceneReader::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // The image is computed when it is asked for, not with the labels and tables; VTK then leaves what stands there, and knows
+  // which part of the image that is.
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()) &&
+    request->Get(vtkExecutive::FROM_OUTPUT_PORT()) > ImagePort)
+  {
+    outputs->GetInformationObject(ImagePort)->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
+    return 1;
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
 int vtkSceneReader::RequestData(
   vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
@@ -280,13 +294,9 @@ int vtkSceneReader::RequestData(
         }
         if (port == ImagePort)
         {
-          auto* output = vtkDataObject::GetData(outputs, port);
           if (asked > 0)
           {
-            // It is computed when it is asked for. Until then it stays as it was: VTK has emptied it, but for its scalars.
-            output->Initialize();
-            output->ShallowCopy(part->GetOutputDataObject(0));
-            continue;
+            continue; // ProcessRequest
           }
           int extent[6];
           outputs->GetInformationObject(port)->Get(

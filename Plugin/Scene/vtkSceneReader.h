@@ -59,6 +59,9 @@ public:
    */
   virtual int CanReadFile(const char* name);
 
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
 protected:
   vtkSceneReader();
   ~vtkSceneReader() override;

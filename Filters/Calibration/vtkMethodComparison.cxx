@@ -557,7 +557,12 @@ int vtkMethodComparison::RequestData(
       for (std::size_t method = 0; method < options.methods.size(); ++method)
       {
         without.push_back(leftOut(comparisons, counts, method, store));
-        complete += without.back().counts.size() < counts.size() ? 1 : 0;
+        // Numbers beyond those asked for are of the curves alone.
+        const std::vector<std::size_t>& missing = without.back().counts;
+        complete += std::lower_bound(missing.begin(), missing.end(), whole) - missing.begin() <
+            static_cast<std::ptrdiff_t>(whole)
+          ? 1
+          : 0;
       }
       if (complete == 0)
       {

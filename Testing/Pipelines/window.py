@@ -331,7 +331,10 @@ def menus(window):
     for menu, first, count in (("Sources", "Synthetic Scene", 2), ("Filters", "Flat Field Correction", 21)):
         window.click(window.state()["named"][menu])
         state = window.wait(f"the menu {menu}", lambda s: "Multispectral menu" in s["named"])
-        window.xdotool("mousemove", *state["named"]["Multispectral menu"])  # opens it
+        x, y = state["named"]["Multispectral menu"]
+        for shift in (-40, -20, 0):  # a menu opens under a pointer that moves over it, not under one that is there at once
+            window.xdotool("mousemove", x + shift, y)
+            time.sleep(0.4)
         entries = window.wait("its entries", lambda s: s["menu"])["menu"]
         window.picture(f"menu {menu}")
         window.key("Escape", "Escape", "Escape")

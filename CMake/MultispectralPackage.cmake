@@ -39,7 +39,8 @@ install(FILES "${packaging}/copyright" DESTINATION "${documents}" COMPONENT Pack
 install(FILES "${packaging}/lintian-overrides" DESTINATION "${CMAKE_INSTALL_DATADIR}/lintian/overrides"
   RENAME multispectral COMPONENT Package EXCLUDE_FROM_ALL)
 find_program(GZIP_PROGRAM gzip REQUIRED)
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/Packaging")
 execute_process(COMMAND "${GZIP_PROGRAM}" -9nc "${packaging}/changelog"
-  OUTPUT_FILE "${PROJECT_BINARY_DIR}/Packaging/changelog.gz")
+  OUTPUT_FILE "${PROJECT_BINARY_DIR}/Packaging/changelog.gz" COMMAND_ERROR_IS_FATAL ANY)
 install(FILES "${PROJECT_BINARY_DIR}/Packaging/changelog.gz" DESTINATION "${documents}" COMPONENT Package EXCLUDE_FROM_ALL)
 include(CPack)

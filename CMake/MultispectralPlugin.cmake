@@ -13,8 +13,9 @@ if(NOT "${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}" IN_LIST known_versi
   message(WARNING "This is ParaView ${ParaView_VERSION}; known to work: ${known_versions}. Other versions were not tried.")
 endif()
 include(MultispectralModules)
-list(APPEND MULTISPECTRAL_MODULES Multispectral::Representations Multispectral::Scene)
+list(APPEND MULTISPECTRAL_MODULES Multispectral::Domains Multispectral::Representations Multispectral::Scene)
 list(APPEND MULTISPECTRAL_MODULE_FILES
+  "${PROJECT_SOURCE_DIR}/Plugin/Domains/vtk.module"
   "${PROJECT_SOURCE_DIR}/Plugin/Representations/vtk.module"
   "${PROJECT_SOURCE_DIR}/Plugin/Scene/vtk.module")
 

@@ -66,7 +66,7 @@ if(MULTISPECTRAL_PYTHON)
   find_package(Python3 QUIET COMPONENTS Interpreter Development.Module Development.Embed)
   if(TARGET VTK::WrapPython AND TARGET VTK::WrappingPythonCore AND TARGET Python3::Python)
     set(modules ${MULTISPECTRAL_MODULES})
-    list(REMOVE_ITEM modules Multispectral::Representations)
+    list(REMOVE_ITEM modules Multispectral::Domains Multispectral::Representations)
     multispectral_wrap_python(${modules})
     if(TARGET Multispectral)
       add_dependencies(Multispectral _classes)  # the programs of the launcher run with it

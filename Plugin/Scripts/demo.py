@@ -101,8 +101,8 @@ def main():
     sections = [
         report.text("What this is",
                     "A camera is calibrated on a printed chart and then looks at dyed fabric: another "
-                    "material, another surface. The chart's calibration is wrong there (cross-media "
-                    "instrument metamerism). A few measured swatches correct it. All data are synthetic; "
+                    "material, another surface. The chart's calibration fails there because the material's spectra differ from "
+                    "the chart's (cross-media instrument metamerism). A few measured swatches correct it. All data are synthetic; "
                     "Data/Samples/README.md and Data/Images/README.md say how they were made."),
         report.table("Methods on held-out swatches", *comparison.condensed(names, rows),
                      note=f"{TUNING} tuning swatches. Mean / median / max over the swatches held out, "
@@ -118,15 +118,13 @@ def main():
     for name, title in (("direct", "The image with the chart's calibration alone"),
                         ("transfer", "The image corrected by the tuning swatches")):
         place = os.path.join(folder, name)
-        sections.append(report.text(title))
-        sections += estimation.report_errors(results[name], place)
-    sections.append(report.text(
-        "Why a simulated and a real camera disagree",
+        sections.append(report.chapter(title, estimation.report_errors(results[name], place)))
+    sections.append(report.chapter(
+        "Why a simulated and a real camera disagree", diagnosis.sections(gap, gap_folder),
         "Another synthetic capture: printed patches and dyed swatches before a camera whose filters are "
         "warm, whose lamp warms up during the session, and which sees less light from fabric than the "
         "spectrophotometer (Data/Captures/README.md says by how much). The diagnosis below was told none "
         "of it."))
-    sections += diagnosis.sections(gap, gap_folder)
     report.write(folder, "Multispectral: demo", sections, before_and_after(results), pipeline.warnings)
     state.finish()
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")

@@ -177,7 +177,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             return
         source, port, display, name, count = shown
         number = 0
-        if list(display.ColorArrayName) == ["POINTS", name]:
+        if list(getattr(display, "ColorArrayName", [])) == ["POINTS", name]:  # which a spreadsheet does not have
             colors = simple.GetColorTransferFunction(name)
             number = colors.VectorComponent + 1 if colors.VectorMode == "Component" else 0
         if (self.band.maximum(), self.band.value()) != (count, number):

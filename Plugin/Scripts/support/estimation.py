@@ -182,7 +182,7 @@ def error_picture(folder, array):
 def report_errors(judged, folder):
     """The report's sections on where the result is wrong."""
     maps = {os.path.basename(error_picture(folder, array)):
-            f"{array} over the held-out patches; " + (
+            f"{report.in_words(array)} over the held-out patches; " + (
                 "the color scale is the same for all maps of color differences" if array.startswith("dE") else
                 "the color scale ends at the 95th percentile")
             for array in judged.arrays}

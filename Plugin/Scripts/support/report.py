@@ -4,16 +4,18 @@ import base64
 import html
 import math
 import os
+import re
 import struct
 
 from . import command, outputs, painter
 
 _MOST_ROWS_SHOWN = 12  # longer tables are folded
 _WIDE = 2.5  # times the height: needs the whole width of the page
+_WORDS = {"p95": "95th percentile", "left_out": "left out"}  # of the tables' columns
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 62rem; margin: 2rem auto;
        padding: 0 1rem; }
-h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.2rem; }
+h1 { font-size: 1.7rem; } h2 { font-size: 1.25rem; margin-top: 2.2rem; } h3 { font-size: 1.05rem; }
 figure { margin: 1rem 0; } figcaption { color: #555; font-size: .9rem; }
 img { max-width: 100%; height: auto; border: 1px solid #ddd; cursor: zoom-in; }
 img.large { position: fixed; inset: 0; margin: auto; max-width: 98vw; max-height: 98vh; z-index: 1; cursor: zoom-out; }
@@ -34,13 +36,24 @@ def text(title, *paragraphs):
     return _section(title, "".join(f"<p>{html.escape(p)}</p>" for p in paragraphs))
 
 
+def chapter(title, sections, lead=""):
+    """Sections under one title; lead: what they are about."""
+    words = f"<p>{html.escape(lead)}</p>" if lead else ""
+    return _section(title, words + "".join(sections).replace("<h2>", "<h3>").replace("</h2>", "</h3>"))
+
+
+def in_words(name):
+    """Of a column, a metric or an array: \u0394E00 for dE00."""
+    return _WORDS.get(name, re.sub(r"\bdE(?=[0-9 ])", "\u0394E", name))
+
+
 def table(title, names, rows, columns=None, note=None):
     """columns: the columns to show, in order; all by default."""
     if not rows:
         return ""
     chosen = [names.index(name) for name in (columns or names)]
-    head = "".join(f"<th{_class(rows[0][i])}>{html.escape(names[i])}</th>" for i in chosen)
-    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(row[i])}</td>" for i in chosen)
+    head = "".join(f"<th{_class(rows[0][i])}>{html.escape(in_words(names[i]))}</th>" for i in chosen)
+    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(in_words(row[i]) if names[i] == 'metric' else row[i])}</td>" for i in chosen)
                    + "</tr>" for row in rows)
     remark = f"<p>{html.escape(note)}</p>" if note else ""
     content = f"<div class='scroll'><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"

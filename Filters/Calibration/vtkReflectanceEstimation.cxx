@@ -19,7 +19,6 @@
 #include "Kernels/Spectra/PossibleValues.h"
 
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -29,45 +28,6 @@ vtkStandardNewMacro(vtkReflectanceEstimation);
 
 namespace
 {
-struct Estimator
-{
-  msi::SpectralAxis bands;
-  msi::SpectralAxis channels;
-  std::shared_ptr<const msi::ReflectanceEstimator> kernel;
-};
-
-Estimator readEstimator(vtkTable* transformTable, vtkTable* metamerismTable)
-{
-  const std::string name = "the reflectance transform";
-  auto transform = msi::readTransform(transformTable, name);
-  if (std::holds_alternative<msi::MetamerismTransform>(transform))
-  {
-    throw std::invalid_argument(
-      name + " is a metamerism transform; connect it to the third input instead");
-  }
-  if (auto* model = std::get_if<msi::EstimationModel>(&transform))
-  {
-    return { model->bands, model->channels, model->estimator };
-  }
-  auto& reflectance = std::get<msi::ReflectanceTransform>(transform);
-  if (!metamerismTable)
-  {
-    return { reflectance.bands, reflectance.channels,
-      std::make_shared<msi::AffineEstimator>(reflectance.transform) };
-  }
-  const std::string nameOfD = "the metamerism transform";
-  const auto second = msi::readTransform(metamerismTable, nameOfD);
-  const auto* metamerism = std::get_if<msi::MetamerismTransform>(&second);
-  if (!metamerism)
-  {
-    throw std::invalid_argument(nameOfD + " has no column 'channel'; it is something else");
-  }
-  msi::requireSameChannels(metamerism->channels, nameOfD, reflectance.channels, name);
-  return { reflectance.bands, metamerism->channels,
-    std::make_shared<msi::AffineEstimator>(
-      msi::AffineTransform::compose(reflectance.transform, metamerism->transform)) };
-}
-
 template <typename ArrayType>
 vtkSmartPointer<ArrayType> newArray(const char* name, std::size_t components, vtkIdType tuples)
 {
@@ -112,24 +72,24 @@ void fillUncertainty(const QualityMapsOf& maps, const Value* deviation, vtkIdTyp
 }
 
 template <typename ArrayType>
-void estimateImage(vtkAlgorithm* self, const Estimator& estimator, vtkDataArray* responses,
+void estimateImage(vtkAlgorithm* self, const msi::EstimationModel& model, vtkDataArray* responses,
   bool withUncertainty, const QualityMapsOf& maps, vtkImageData* output)
 {
   auto input = vtkSmartPointer<ArrayType>(ArrayType::FastDownCast(responses));
   if (!input)
   {
-    input = newArray<ArrayType>("", estimator.channels.size(), 0);
+    input = newArray<ArrayType>("", model.channels.size(), 0);
     input->DeepCopy(responses);
   }
   const vtkIdType pixels = input->GetNumberOfTuples();
-  auto reflectance = newArray<ArrayType>(msi::ReflectanceArray, estimator.bands.size(), pixels);
+  auto reflectance = newArray<ArrayType>(msi::ReflectanceArray, model.bands.size(), pixels);
   vtkSmartPointer<ArrayType> uncertainty;
   if (withUncertainty)
   {
-    uncertainty = newArray<ArrayType>(msi::UncertaintyArray, estimator.bands.size(), pixels);
+    uncertainty = newArray<ArrayType>(msi::UncertaintyArray, model.bands.size(), pixels);
   }
-  const auto channels = static_cast<vtkIdType>(estimator.channels.size());
-  const auto bands = static_cast<vtkIdType>(estimator.bands.size());
+  const auto channels = static_cast<vtkIdType>(model.channels.size());
+  const auto bands = static_cast<vtkIdType>(model.bands.size());
   const auto* in = input->GetPointer(0);
   auto* out = reflectance->GetPointer(0);
   auto* deviation = uncertainty ? uncertainty->GetPointer(0) : nullptr;
@@ -144,7 +104,7 @@ void estimateImage(vtkAlgorithm* self, const Estimator& estimator, vtkDataArray*
         buffer.resize(static_cast<std::size_t>((end - begin) * bands));
         known = buffer.data();
       }
-      estimator.kernel->apply(in + begin * channels, out + begin * bands, known, end - begin);
+      model.estimator->apply(in + begin * channels, out + begin * bands, known, end - begin);
       if (maps.outOfRange)
       {
         fillOutOfRange(maps, in, channels, begin, end);
@@ -154,11 +114,11 @@ void estimateImage(vtkAlgorithm* self, const Estimator& estimator, vtkDataArray*
         fillUncertainty(maps, known, bands, begin, end);
       }
     });
-  msi::setAxis(output, reflectance, estimator.bands);
+  msi::setAxis(output, reflectance, model.bands);
   msi::replaceArray(output, responses, reflectance);
   if (uncertainty)
   {
-    msi::setAxis(output, uncertainty, estimator.bands);
+    msi::setAxis(output, uncertainty, model.bands);
     output->GetPointData()->AddArray(uncertainty);
   }
   for (const auto& map : { maps.outOfRange, maps.uncertainty })
@@ -221,27 +181,27 @@ int vtkReflectanceEstimation::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      const auto estimator =
-        readEstimator(vtkTable::GetData(inputs[1]), vtkTable::GetData(inputs[2]));
-      const bool uncertainty = estimator.kernel->knowsUncertainty() && this->Uncertainty != 1;
+      const auto model =
+        msi::readEstimator(vtkTable::GetData(inputs[1]), vtkTable::GetData(inputs[2]));
+      const bool uncertainty = model.estimator->knowsUncertainty() && this->Uncertainty != 1;
 
       if (auto* table = vtkTable::GetData(inputs[0]))
       {
         const auto responses =
           msi::requireSpectra(table, msi::SampleQuantity::Response, "the sample table");
         msi::requireSameChannels(
-          responses.axis, "the sample table", estimator.channels, "the reflectance transform");
+          responses.axis, "the sample table", model.channels, "the reflectance transform");
         msi::requirePossibleResponse(responses.values, "the sample table");
-        Eigen::MatrixXd reflectance(estimator.bands.size(), responses.values.cols());
+        Eigen::MatrixXd reflectance(model.bands.size(), responses.values.cols());
         Eigen::MatrixXd deviation(uncertainty ? reflectance.rows() : 0, reflectance.cols());
-        estimator.kernel->apply(responses.values.data(), reflectance.data(),
+        model.estimator->apply(responses.values.data(), reflectance.data(),
           uncertainty ? deviation.data() : nullptr, responses.values.cols());
         auto* output = vtkTable::GetData(outputs, 0);
         output->ShallowCopy(table);
-        msi::setSpectra(output, msi::SampleQuantity::Estimate, estimator.bands, reflectance);
+        msi::setSpectra(output, msi::SampleQuantity::Estimate, model.bands, reflectance);
         if (uncertainty)
         {
-          msi::setSpectra(output, msi::SampleQuantity::Uncertainty, estimator.bands, deviation);
+          msi::setSpectra(output, msi::SampleQuantity::Uncertainty, model.bands, deviation);
         }
         return;
       }
@@ -261,17 +221,17 @@ int vtkReflectanceEstimation::RequestData(
             return; // more ranks than rows
           }
           responses = msi::requireSpectralArray(image, "the image", this->ResponseArray.c_str());
-          msi::requireSameChannels(msi::axisOf(image, responses), "the image", estimator.channels,
+          msi::requireSameChannels(msi::axisOf(image, responses), "the image", model.channels,
             "the reflectance transform");
         });
       const auto range = msi::readResponseRange(
-        vtkTable::GetData(inputs[1]), static_cast<Eigen::Index>(estimator.channels.size()));
+        vtkTable::GetData(inputs[1]), static_cast<Eigen::Index>(model.channels.size()));
       // An image that is taken in blocks is judged by who takes it so.
       auto* information = inputs[0]->GetInformationObject(0);
       if (controller || msi::isWhole(information, image))
       {
-        const auto judgement = msi::judgeResponses(information, image, responses,
-          estimator.channels, range, this->TrustResponses, controller);
+        const auto judgement = msi::judgeResponses(
+          information, image, responses, model.channels, range, this->TrustResponses, controller);
         this->OutOfRangeShare = judgement.outside;
         this->MissingShare = judgement.missing;
         if (!judgement.error.empty())
@@ -301,12 +261,12 @@ int vtkReflectanceEstimation::RequestData(
       if (responses->GetDataType() == VTK_DOUBLE)
       {
         estimateImage<vtkDoubleArray>(
-          this, estimator, responses, uncertainty && this->Uncertainty == 2, maps, output);
+          this, model, responses, uncertainty && this->Uncertainty == 2, maps, output);
       }
       else
       {
         estimateImage<vtkFloatArray>(
-          this, estimator, responses, uncertainty && this->Uncertainty == 2, maps, output);
+          this, model, responses, uncertainty && this->Uncertainty == 2, maps, output);
       }
       // The picture of the responses is not one of the reflectance.
       msi::removePicture(output);

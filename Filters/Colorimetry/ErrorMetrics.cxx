@@ -63,11 +63,14 @@ AskedMetrics sorted(const std::vector<std::string>& metrics)
 }
 }
 
-std::vector<ErrorName> ErrorMetrics::namesOf(
-  const std::vector<std::string>& metrics, const std::vector<std::string>& illuminants)
+std::vector<ErrorName> AskedErrors::names() const
 {
   const AskedMetrics asked = sorted(metrics);
-  std::vector<ErrorName> names{ { "rms", "" } };
+  std::vector<ErrorName> names;
+  if (rms)
+  {
+    names.push_back({ "rms", "" });
+  }
   for (const auto* metric : asked.spectral)
   {
     names.push_back({ std::string(metric->name), "" });
@@ -90,48 +93,67 @@ std::vector<ErrorName> ErrorMetrics::namesOf(
   {
     names.push_back({ MetamerismMetric, illuminants[i] });
   }
+  if (names.empty())
+  {
+    throw std::invalid_argument(
+      "no error is asked for; expected rms, or a metric and an illuminant");
+  }
   return names;
 }
 
-ErrorMetrics::ErrorMetrics(const SpectralAxis& bands, const std::vector<std::string>& metrics,
-  const std::vector<std::string>& illuminants, const ViewingConditions& conditions,
-  const ColorDifferenceFactors& factors)
+ErrorMetrics::ErrorMetrics(const SpectralAxis& bands, const AskedErrors& asked,
+  const ViewingConditions& conditions, std::shared_ptr<const ReflectanceEstimator> estimator)
   : Bands(static_cast<Eigen::Index>(bands.size()))
-  , Names(namesOf(metrics, illuminants))
+  , Errors(asked.names().size())
+  , Rms(asked.rms)
+  , Estimator(std::move(estimator))
 {
   if (!bands.wavelengths)
   {
     throw std::invalid_argument("the estimate has no wavelengths (field data 'Wavelength'); color "
                                 "difference needs reflectance whose wavelengths are known");
   }
-  AskedMetrics asked = sorted(metrics);
-  Spectral = std::move(asked.spectral);
+  AskedMetrics metrics = sorted(asked.metrics);
+  Spectral = std::move(metrics.spectral);
   const ColorDifferenceFormula& ciede2000 = colorDifferences().front();
-  for (const auto& name : asked.differences)
+  for (const auto& name : metrics.differences)
   {
-    Differences.push_back(
-      name == ciede2000.name ? ColorDifference(ciede2000, factors) : ColorDifference::named(name));
+    Differences.push_back(name == ciede2000.name ? ColorDifference(ciede2000, asked.factors)
+                                                 : ColorDifference::named(name));
   }
-  for (const auto& name : illuminants)
+  for (const auto& name : asked.illuminants)
   {
     TristimulusTransform tristimulus(
       *bands.wavelengths, conditions.illuminant(name), conditions.observer());
     const CIELAB lab(tristimulus.whitePoint());
     Colors.push_back({ std::move(tristimulus), lab });
   }
-  for (std::size_t i = 1; asked.metamerism && i < illuminants.size(); ++i)
+  for (std::size_t i = 1; metrics.metamerism && i < asked.illuminants.size(); ++i)
   {
-    Metamerism.emplace_back(*bands.wavelengths, conditions.illuminant(illuminants[0]),
-      conditions.illuminant(illuminants[i]), conditions.observer());
+    Metamerism.emplace_back(*bands.wavelengths, conditions.illuminant(asked.illuminants[0]),
+      conditions.illuminant(asked.illuminants[i]), conditions.observer());
+  }
+  const auto* affine = dynamic_cast<const AffineEstimator*>(Estimator.get());
+  if (affine && !Rms && Spectral.empty() && Metamerism.empty())
+  {
+    for (const Color& color : Colors)
+    {
+      Direct.emplace_back(affine->transform(), color.tristimulus);
+    }
   }
 }
 
 std::vector<Eigen::VectorXd> ErrorMetrics::operator()(
-  const Eigen::MatrixXd& estimate, const Eigen::MatrixXd& reference) const
+  const Eigen::MatrixXd& estimateOrResponse, const Eigen::MatrixXd& reference) const
 {
-  std::vector<Eigen::VectorXd> errors(Names.size(), Eigen::VectorXd(estimate.cols()));
+  const Eigen::MatrixXd estimate =
+    Estimator ? (*Estimator)(estimateOrResponse) : estimateOrResponse;
+  std::vector<Eigen::VectorXd> errors(Errors, Eigen::VectorXd(estimate.cols()));
   auto error = errors.begin();
-  spectralRms(reference, estimate, *error++);
+  if (Rms)
+  {
+    spectralRms(reference, estimate, *error++);
+  }
   for (const auto* metric : Spectral)
   {
     metric->apply(reference, estimate, *error++);
@@ -166,16 +188,28 @@ void ErrorMetrics::apply(const float* estimate, const float* reference, Eigen::I
   Eigen::Matrix<float, 3, Block> labs[2];
   Eigen::MatrixXd doubles[2];
   Eigen::VectorXd values(Block);
+  const Eigen::Index inputs = Estimator ? Estimator->channels() : Bands;
+  Eigen::MatrixXf estimated(Bands, Estimator && Direct.empty() ? Block : 0);
   for (Eigen::Index at = 0; at < pixels; at += Block)
   {
     const auto count = std::min(Block, pixels - at);
+    const float* input = estimate + at * inputs;
+    if (estimated.size() > 0)
+    {
+      Estimator->apply(input, estimated.data(), nullptr, count);
+      input = estimated.data();
+    }
+    // With Direct the estimate stays without spectra.
     using Spectra = Eigen::Map<const Eigen::MatrixXf>;
     const Spectra blocks[] = { Spectra(reference + at * Bands, Bands, count),
-      Spectra(estimate + at * Bands, Bands, count) };
+      Spectra(Direct.empty() ? input : nullptr, Bands, Direct.empty() ? count : 0) };
     const auto out = [&](std::size_t error)
     { return Eigen::Map<Eigen::VectorXf>(errors[error] + at, count); };
     std::size_t error = 0;
-    spectralRms(blocks[0], blocks[1], out(error++));
+    if (Rms)
+    {
+      spectralRms(blocks[0], blocks[1], out(error++));
+    }
     if (!Spectral.empty() || !Metamerism.empty())
     {
       for (int side = 0; side < 2; ++side)
@@ -193,6 +227,11 @@ void ErrorMetrics::apply(const float* estimate, const float* reference, Eigen::I
       for (int side = 0; side < 2; ++side)
       {
         auto lab = labs[side].leftCols(count);
+        if (side == 1 && !Direct.empty())
+        {
+          Direct[i].lab(input, lab.data(), count);
+          continue;
+        }
         Colors[i].tristimulus.apply(blocks[side], lab);
         Colors[i].lab.fromXYZ(lab, lab);
       }

@@ -11,33 +11,45 @@
 #include "Kernels/Difference/ColorDifference.h"
 #include "Kernels/Difference/MetamerismIndex.h"
 #include "Kernels/Difference/SpectralMetric.h"
+#include "Kernels/Estimation/ReflectanceEstimator.h"
+#include "Kernels/Estimation/ResponseColor.h"
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace msi
 {
 
+// Which errors are computed.
+struct AskedErrors
+{
+  // Names of color differences (Kernels/Difference/ColorDifference.h) and of spectral metrics (SpectralMetric.h), and
+  // "metamerism": from the first illuminant to each other one.
+  std::vector<std::string> metrics;
+  std::vector<std::string> illuminants;
+  ColorDifferenceFactors factors; // of CIEDE2000 where its name has none
+  bool rms = true;                // the spectral rms, then always the first
+
+  // In order: rms, the spectral metrics, the color differences under each illuminant, metamerism. Throws
+  // std::invalid_argument for an unknown name, and where nothing is asked for.
+  std::vector<ErrorName> names() const;
+};
+
 // Immutable. The constructor throws std::invalid_argument where the bands have no wavelengths, a name is not
 // known, or a factor is not positive.
 class ErrorMetrics
 {
 public:
-  // metrics: names of color differences (Kernels/Difference/ColorDifference.h) and of spectral metrics
-  // (SpectralMetric.h), and "metamerism": from the first illuminant to each other one. rms always comes first.
-  // 'factors' are those of CIEDE2000 where its name has none.
-  ErrorMetrics(const SpectralAxis& bands, const std::vector<std::string>& metrics,
-    const std::vector<std::string>& illuminants, const ViewingConditions& conditions,
-    const ColorDifferenceFactors& factors);
+  // With an estimator the estimates come as camera responses, and their reflectance is not kept; an affine one goes from
+  // responses to color directly where nothing else is asked for (ResponseColor).
+  ErrorMetrics(const SpectralAxis& bands, const AskedErrors& asked,
+    const ViewingConditions& conditions,
+    std::shared_ptr<const ReflectanceEstimator> estimator = nullptr);
 
-  // What metrics and illuminants ask for, in order: rms, the spectral metrics, the color differences under each
-  // illuminant, metamerism. Throws as the constructor does.
-  static std::vector<ErrorName> namesOf(
-    const std::vector<std::string>& metrics, const std::vector<std::string>& illuminants);
-
-  // bands x samples each; the errors in the order of namesOf().
+  // bands x samples (estimates: channels x samples with an estimator); the errors in the order of AskedErrors.
   std::vector<Eigen::VectorXd> operator()(
     const Eigen::MatrixXd& estimate, const Eigen::MatrixXd& reference) const;
 
@@ -53,7 +65,10 @@ private:
   };
 
   Eigen::Index Bands;
-  std::vector<ErrorName> Names;
+  std::size_t Errors;
+  bool Rms;
+  std::shared_ptr<const ReflectanceEstimator> Estimator; // may be null
+  std::vector<ResponseColor> Direct; // one per color where no reflectance is needed, else empty
   std::vector<const SpectralMetric*> Spectral;
   std::vector<ColorDifference> Differences;
   std::vector<Color> Colors;

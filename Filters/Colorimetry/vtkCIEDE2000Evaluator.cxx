@@ -10,6 +10,7 @@
 #include "NameList.h"
 #include "SampleColumns.h"
 #include "SpectralImage.h"
+#include "TransformTable.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -20,6 +21,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -46,7 +48,8 @@ void evaluateImage(vtkAlgorithm* self, const msi::ErrorMetrics& metrics,
 {
   const auto estimate = msi::asFloats(estimateArray);
   const auto reference = msi::asFloats(referenceArray);
-  const vtkIdType bands = estimate->GetNumberOfComponents();
+  const vtkIdType inputs = estimate->GetNumberOfComponents();
+  const vtkIdType bands = reference->GetNumberOfComponents();
   const float* spectra[] = { estimate->GetPointer(0), reference->GetPointer(0) };
   msi::forBlocks(self, estimate->GetNumberOfTuples(),
     [&](vtkIdType begin, vtkIdType end)
@@ -56,7 +59,7 @@ void evaluateImage(vtkAlgorithm* self, const msi::ErrorMetrics& metrics,
       {
         out.push_back(array->GetPointer(begin));
       }
-      metrics.apply(spectra[0] + begin * bands, spectra[1] + begin * bands, end - begin, out);
+      metrics.apply(spectra[0] + begin * inputs, spectra[1] + begin * bands, end - begin, out);
     });
 }
 
@@ -87,7 +90,7 @@ vtkSmartPointer<vtkFloatArray> ownedValues(
 
 vtkCIEDE2000Evaluator::vtkCIEDE2000Evaluator()
 {
-  this->SetNumberOfInputPorts(4);
+  this->SetNumberOfInputPorts(6);
   this->SetNumberOfOutputPorts(2);
 }
 
@@ -99,6 +102,7 @@ void vtkCIEDE2000Evaluator::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Observer: " << this->Observer << "\n"
      << indent << "EstimateArray: " << this->EstimateArray << "\n"
      << indent << "ReferenceArray: " << this->ReferenceArray << "\n"
+     << indent << "SpectralRms: " << this->SpectralRms << "\n"
      << indent << "KL: " << this->KL << "\n"
      << indent << "KC: " << this->KC << "\n"
      << indent << "KH: " << this->KH << "\n";
@@ -163,7 +167,7 @@ int vtkCIEDE2000Evaluator::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   // Tables are needed whole; images piece by piece.
-  for (int port = 0; port < 4; ++port)
+  for (int port = 0; port < 6; ++port)
   {
     if (vtkTable::GetData(inputs[port]))
     {
@@ -181,13 +185,29 @@ int vtkCIEDE2000Evaluator::RequestData(
     {
       const msi::ViewingConditions conditions(
         vtkTable::GetData(inputs[2]), vtkTable::GetData(inputs[3]), this->Observer);
-      const auto metricNames = msi::namesIn(this->Metrics);
-      const auto illuminants = msi::namesIn(this->Illuminants);
-      const auto names = msi::ErrorMetrics::namesOf(metricNames, illuminants);
-      const auto metricsOf = [&](const msi::SpectralAxis& bands)
+      msi::AskedErrors asked;
+      asked.metrics = msi::namesIn(this->Metrics);
+      asked.illuminants = msi::namesIn(this->Illuminants);
+      asked.factors = { this->KL, this->KC, this->KH };
+      asked.rms = this->SpectralRms;
+      const auto names = asked.names();
+      std::optional<msi::EstimationModel> model;
+      if (auto* transform = vtkTable::GetData(inputs[4]))
       {
-        return msi::ErrorMetrics(
-          bands, metricNames, illuminants, conditions, { this->KL, this->KC, this->KH });
+        model = msi::readEstimator(transform, vtkTable::GetData(inputs[5]));
+      }
+      const auto metricsOf = [&](const msi::SpectralAxis& bands)
+      { return msi::ErrorMetrics(bands, asked, conditions, model ? model->estimator : nullptr); };
+      const auto requireBands = [&](
+                                  const msi::SpectralAxis& own, const msi::SpectralAxis& reference)
+      {
+        if (model)
+        {
+          msi::requireSameChannels(
+            own, "the first input", model->channels, "the reflectance transform");
+        }
+        msi::requireSameBands(
+          model ? model->bands : own, "the estimate", reference, "the reference");
       };
       if (auto* table = vtkTable::GetData(inputs[0]))
       {
@@ -198,11 +218,11 @@ int vtkCIEDE2000Evaluator::RequestData(
                                       "image; give a table of the same samples, or none where the "
                                       "estimate's table holds the measured reflectance");
         }
-        const auto estimate =
-          msi::requireSpectra(table, msi::SampleQuantity::Estimate, "the estimate");
+        const auto estimate = msi::requireSpectra(table,
+          model ? msi::SampleQuantity::Response : msi::SampleQuantity::Estimate, "the estimate");
         const auto reference = msi::requireSpectra(second ? second : table,
           msi::SampleQuantity::Reflectance, second ? "the reference" : "the estimate's own table");
-        msi::requireSameBands(estimate.axis, "the estimate", reference.axis, "the reference");
+        requireBands(estimate.axis, reference.axis);
         if (estimate.values.cols() != reference.values.cols())
         {
           throw std::invalid_argument("the estimate has " + std::to_string(estimate.values.cols()) +
@@ -211,7 +231,7 @@ int vtkCIEDE2000Evaluator::RequestData(
         }
         auto* output = vtkTable::GetData(outputs, 0);
         output->ShallowCopy(table);
-        const msi::ErrorMetrics metrics = metricsOf(estimate.axis);
+        const msi::ErrorMetrics metrics = metricsOf(reference.axis);
         msi::ErrorSummaryTable summary(vtkTable::GetData(outputs, 1));
         const auto errors = metrics(estimate.values, reference.values);
         for (std::size_t i = 0; i < errors.size(); ++i)
@@ -246,9 +266,8 @@ int vtkCIEDE2000Evaluator::RequestData(
             msi::requireSpectralArray(image, "the estimate", this->EstimateArray.c_str());
           auto* reference = msi::requireSpectralArray(
             referenceImage, "the reference", this->ReferenceArray.c_str());
-          const auto bands = msi::axisOf(image, estimate);
-          msi::requireSameBands(
-            bands, "the estimate", msi::axisOf(referenceImage, reference), "the reference");
+          const auto bands = msi::axisOf(referenceImage, reference);
+          requireBands(msi::axisOf(image, estimate), bands);
           if (estimate->GetNumberOfTuples() != reference->GetNumberOfTuples())
           {
             throw std::invalid_argument("the reference shows another region than the estimate");

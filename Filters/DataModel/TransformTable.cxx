@@ -223,4 +223,36 @@ TransformVariant readTransform(vtkTable* table, const std::string& nameOfTable)
   return ReflectanceTransform{ axisOf(gridOf(wavelengths)), linear.axis, std::move(transform) };
 }
 
+EstimationModel readEstimator(vtkTable* transformTable, vtkTable* metamerismTable)
+{
+  const std::string name = "the reflectance transform";
+  auto transform = readTransform(transformTable, name);
+  if (std::holds_alternative<MetamerismTransform>(transform))
+  {
+    throw std::invalid_argument(
+      name + " is a metamerism transform; connect it as Metamerism Transform instead");
+  }
+  if (auto* model = std::get_if<EstimationModel>(&transform))
+  {
+    return { model->bands, model->channels, model->estimator };
+  }
+  auto& reflectance = std::get<ReflectanceTransform>(transform);
+  if (!metamerismTable)
+  {
+    return { reflectance.bands, reflectance.channels,
+      std::make_shared<AffineEstimator>(reflectance.transform) };
+  }
+  const std::string nameOfD = "the metamerism transform";
+  const auto second = readTransform(metamerismTable, nameOfD);
+  const auto* metamerism = std::get_if<MetamerismTransform>(&second);
+  if (!metamerism)
+  {
+    throw std::invalid_argument(nameOfD + " has no column 'channel'; it is something else");
+  }
+  requireSameChannels(metamerism->channels, nameOfD, reflectance.channels, name);
+  return { reflectance.bands, metamerism->channels,
+    std::make_shared<AffineEstimator>(
+      AffineTransform::compose(reflectance.transform, metamerism->transform)) };
+}
+
 } // namespace msi

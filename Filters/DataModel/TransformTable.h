@@ -49,6 +49,10 @@ void write(const EstimationModel& model, vtkTable* table);
 using TransformVariant = std::variant<ReflectanceTransform, MetamerismTransform, EstimationModel>;
 TransformVariant readTransform(vtkTable* table, const std::string& nameOfTable);
 
+// The estimator of a reflectance transform or an estimation model; a metamerism transform, which may be null, comes
+// before the reflectance transform and is not used with a model. Throws std::invalid_argument.
+EstimationModel readEstimator(vtkTable* transformTable, vtkTable* metamerismTable);
+
 } // namespace msi
 
 #endif

@@ -1,5 +1,7 @@
 // Estimators of reflectance on one core: 16 channels to 31 bands.
+#include "Kernels/Difference/CIEDE2000.h"
 #include "Kernels/Estimation/EstimationTestData.h"
+#include "Kernels/Estimation/ResponseColor.h"
 #include "Kernels/Estimation/TransferEstimation.h"
 
 #include <benchmark/benchmark.h>
@@ -59,7 +61,7 @@ BENCHMARK(transferDouble)->Name("transfer/double blocks");
 
 void affineFloat(benchmark::State& state)
 {
-  const auto& matrix = transfer().parameters().at("affine.coefficients");
+  const Eigen::MatrixXd matrix = transfer().parameters().at("affine.coefficients");
   run<float>(state, msi::AffineEstimator(msi::AffineTransform(matrix)));
 }
 BENCHMARK(affineFloat)->Name("transfer/an affine transform");
@@ -77,5 +79,76 @@ void copyReflectance(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * Pixels);
 }
 BENCHMARK(copyReflectance)->Name("transfer/memcpy");
+
+// From responses and measured colors to a map of CIEDE2000, an image that no cache holds.
+constexpr Eigen::Index ImagePixels = 1 << 20;
+
+struct ColorMapCase
+{
+  msi::AffineTransform transform{ transfer().parameters().at("affine.coefficients") };
+  msi::TristimulusTransform tristimulus{ msi::WavelengthGrid::uniform(400.0, 700.0, 10.0),
+    msi::Illuminant::named("D65") };
+  Eigen::MatrixXf responses = (Eigen::MatrixXf::Random(16, ImagePixels).array() + 1.2F) / 3;
+  Eigen::Matrix3Xf measured = 50.0F * Eigen::Matrix3Xf::Random(3, ImagePixels);
+  Eigen::VectorXf map{ ImagePixels };
+};
+
+constexpr Eigen::Index ColorBlock = 256;
+
+void colorMapFused(benchmark::State& state)
+{
+  ColorMapCase c;
+  const msi::ResponseColor color(c.transform, c.tristimulus);
+  Eigen::Matrix<float, 3, ColorBlock> lab;
+  for (auto _ : state)
+  {
+    for (Eigen::Index at = 0; at < ImagePixels; at += ColorBlock)
+    {
+      color.lab(c.responses.col(at).data(), lab.data(), ColorBlock);
+      msi::CIEDE2000().apply(
+        c.measured.middleCols<ColorBlock>(at), lab, c.map.segment<ColorBlock>(at));
+    }
+    benchmark::DoNotOptimize(c.map.data());
+  }
+  state.SetItemsProcessed(state.iterations() * ImagePixels);
+}
+BENCHMARK(colorMapFused)->Name("color map/responses to CIEDE2000, fused");
+
+// The same by an image of reflectance.
+void colorMapUnfused(benchmark::State& state)
+{
+  ColorMapCase c;
+  const msi::CIELAB toLab(c.tristimulus.whitePoint());
+  Eigen::MatrixXf reflectance(31, ImagePixels);
+  Eigen::Matrix<float, 3, ColorBlock> lab;
+  for (auto _ : state)
+  {
+    c.transform.apply(c.responses.data(), reflectance.data(), ImagePixels);
+    for (Eigen::Index at = 0; at < ImagePixels; at += ColorBlock)
+    {
+      c.tristimulus.apply(reflectance.middleCols<ColorBlock>(at), lab);
+      toLab.fromXYZ(lab, lab);
+      msi::CIEDE2000().apply(
+        c.measured.middleCols<ColorBlock>(at), lab, c.map.segment<ColorBlock>(at));
+    }
+    benchmark::DoNotOptimize(c.map.data());
+  }
+  state.SetItemsProcessed(state.iterations() * ImagePixels);
+}
+BENCHMARK(colorMapUnfused)->Name("color map/by a reflectance image");
+
+// The bytes that the fused pass cannot do without: 16 responses, a color and a difference, read or written once.
+void colorMapCopy(benchmark::State& state)
+{
+  const Eigen::MatrixXf bytes = Eigen::MatrixXf::Random(10, ImagePixels);
+  Eigen::MatrixXf copy(10, ImagePixels);
+  for (auto _ : state)
+  {
+    std::memcpy(copy.data(), bytes.data(), static_cast<std::size_t>(bytes.size()) * sizeof(float));
+    benchmark::DoNotOptimize(copy.data());
+  }
+  state.SetItemsProcessed(state.iterations() * ImagePixels);
+}
+BENCHMARK(colorMapCopy)->Name("color map/memcpy");
 
 }

@@ -4,7 +4,8 @@
 usage: bench_table.py FOLDER [FILE]      FOLDER: Google Benchmark's JSON files; FILE: .json, else CSV
 
 Columns: name; value in unit (ms, or Mitems/s where the benchmark counts pixels or pairs); peer and peer_value, the same work
-by another program or the plain way (a copy of the bytes is the peer "memcpy"); ratio, how many times as fast as the peer;
+by another program or the plain way (a copy of the bytes is the peer "memcpy"), in processor time, so that a busy machine
+counts less; ratio, how many times as fast as the peer;
 limit, the least ratio aimed at (limits.csv). A benchmark has a row for each of its peers.
 
 Benchmarks are named GROUP/NAME. The names in PEERS are peers of all others of their group; the same name in a file whose
@@ -18,7 +19,7 @@ import sys
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 COLUMNS = ("name", "value", "unit", "peer", "peer_value", "ratio", "limit")
 PEERS = {"memcpy": "memcpy", "copy of the reflectance": "memcpy", "Little CMS": "Little CMS",
-         "plain Eigen product": "Eigen", "sorting a copy": "sorting a copy"}
+         "plain Eigen product": "Eigen", "by a reflectance image": "reflectance image", "sorting a copy": "sorting a copy"}
 LIMITS = pathlib.Path(__file__).resolve().with_name("limits.csv")
 
 
@@ -31,7 +32,7 @@ def read(folder):
         for entry in run["benchmarks"]:
             if entry.get("run_type") == "aggregate" or entry.get("error_occurred"):
                 continue
-            time = entry["real_time"] * MILLISECONDS[entry["time_unit"]]
+            time = entry["cpu_time"] * MILLISECONDS[entry["time_unit"]]
             if peer:
                 peers.setdefault(entry["name"], []).append((peer, time))
             else:

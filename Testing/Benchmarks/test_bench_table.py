@@ -13,8 +13,8 @@ import tempfile
 TABLE = pathlib.Path(__file__).resolve().with_name("bench_table.py")
 
 
-def benchmark(name, real_time, unit="ms", **more):
-    return {"name": name, "real_time": real_time, "time_unit": unit, **more}
+def benchmark(name, cpu_time, unit="ms", **more):
+    return {"name": name, "cpu_time": cpu_time, "real_time": 7 * cpu_time + 1, "time_unit": unit, **more}
 
 
 def main():

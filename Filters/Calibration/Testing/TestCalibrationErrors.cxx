@@ -62,7 +62,8 @@ TEST(CalibrationErrors, TellTheTransformsApart)
   estimation->SetInputData(0, tableOf(expected.tuning()));
   estimation->SetInputConnection(1, fit->GetOutputPort(1));
   EXPECT_EQ(errorOf(estimation),
-    "the reflectance transform is a metamerism transform; connect it to the third input instead");
+    "the reflectance transform is a metamerism transform; connect it as Metamerism Transform "
+    "instead");
   estimation->SetInputConnection(1, fit->GetOutputPort(0));
   estimation->SetInputConnection(2, fit->GetOutputPort(0));
   EXPECT_EQ(

@@ -4,6 +4,7 @@
 #include "GraySpectra.h"
 #include "Support/vtk/PieceSource.h"
 #include "Support/vtk/Runs.h"
+#include "TransformTable.h"
 
 #include "vtkNew.h"
 
@@ -181,6 +182,97 @@ TEST(CIEDE2000Evaluator, GivesOnlyRmsWithoutIlluminants)
   ASSERT_EQ(errorOf(evaluator), "");
   EXPECT_EQ(summaryOf(evaluator)->GetNumberOfRows(), 1);
   EXPECT_STREQ(errorsOf(evaluator)->GetPointData()->GetScalars()->GetName(), "rms");
+}
+
+// Responses of one channel per gray: reflectance at every wavelength is twice the response less a tenth.
+class EvaluatorOfResponses : public ::testing::Test
+{
+protected:
+  static constexpr double Gain = 2.0;
+  static constexpr double Offset = -0.1;
+
+  EvaluatorOfResponses()
+  {
+    Eigen::MatrixXd coefficients(GrayGrid.size(), 3);
+    coefficients.leftCols(2).setConstant(0.5 * Gain);
+    coefficients.col(2).setConstant(Offset);
+    vtkNew<vtkTable> transform;
+    write(
+      ReflectanceTransform{ axisOf(GrayGrid), Channels, AffineTransform(coefficients) }, transform);
+    Eigen::MatrixXd responses(2, static_cast<Eigen::Index>(Estimated.size()));
+    for (std::size_t i = 0; i < Estimated.size(); ++i)
+    {
+      responses.col(static_cast<Eigen::Index>(i)).setConstant((Estimated[i] - Offset) / Gain);
+    }
+    const int width = static_cast<int>(Estimated.size());
+    Evaluator->SetInputData(0, newImage(width, 1, "Responses", responses, *Channels.wavelengths));
+    Evaluator->SetInputData(1, grayImage(Measured));
+    Evaluator->SetInputData(4, transform);
+  }
+
+  const SpectralAxis Channels = axisOf(WavelengthGrid({ 500.0, 600.0 }));
+  const std::vector<double> Estimated = { 0.2, 0.5, 0.9, NaN, 0.3 };
+  const std::vector<double> Measured = { 0.25, 0.5, 0.8, 0.5, NaN };
+  vtkNew<vtkCIEDE2000Evaluator> Evaluator;
+};
+
+TEST_F(EvaluatorOfResponses, GivesTheErrorsOfTheirReflectance)
+{
+  for (const bool rms : { true, false }) // by blocks of reflectance, and by one matrix
+  {
+    Evaluator->SetSpectralRms(rms);
+    ASSERT_EQ(errorOf(Evaluator), "");
+    auto* data = errorsOf(Evaluator)->GetPointData();
+    EXPECT_EQ(data->HasArray("rms") != 0, rms);
+    EXPECT_FALSE(data->HasArray(ReflectanceArray));
+    for (const char* name : { "dE00 D65", "dE00 F2" })
+    {
+      const auto errors = valuesOf(errorsOf(Evaluator), name);
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        EXPECT_NEAR(
+          errors(0, static_cast<Eigen::Index>(i)), grayDifference(Estimated[i], Measured[i]), 1e-3)
+          << name << i << rms;
+      }
+      EXPECT_TRUE(errors.rightCols(2).array().isNaN().all());
+    }
+    if (rms)
+    {
+      EXPECT_NEAR(valuesOf(errorsOf(Evaluator), "rms")(0, 0), 0.05, 1e-6);
+    }
+    EXPECT_EQ(summaryOf(Evaluator)->GetNumberOfRows(), rms ? 3 : 2);
+  }
+}
+
+TEST_F(EvaluatorOfResponses, RefusesOtherChannelsAndNothingToDo)
+{
+  Evaluator->SetSpectralRms(false);
+  Evaluator->SetIlluminants("");
+  EXPECT_EQ(
+    errorOf(Evaluator), "no error is asked for; expected rms, or a metric and an illuminant");
+  Evaluator->SetIlluminants("D65");
+  Evaluator->SetInputData(0, grayImage(Estimated));
+  EXPECT_NE(errorOf(Evaluator).find("the reflectance transform has 2"), std::string::npos);
+}
+
+TEST(CIEDE2000Evaluator, EvaluatesATableOfResponses)
+{
+  vtkNew<vtkTable> transform;
+  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Ones(GrayGrid.size(), 2);
+  coefficients.col(1).setConstant(0.1);
+  const auto channel = WavelengthGrid({ 550.0 });
+  write(ReflectanceTransform{ axisOf(GrayGrid), axisOf(channel), AffineTransform(coefficients) },
+    transform);
+  vtkNew<vtkTable> table;
+  addSpectra(table, 'R', GrayGrid, grays({ 0.25, 0.4 }));
+  addSpectra(table, 'C', channel, Eigen::RowVector2d(0.1, 0.4));
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, table);
+  evaluator->SetInputData(4, transform);
+  ASSERT_EQ(errorOf(evaluator), "");
+  auto* output = vtkTable::SafeDownCast(evaluator->GetOutputDataObject(0));
+  EXPECT_NEAR(cell(output, 0, "rms"), 0.05, 1e-12);
+  EXPECT_NEAR(cell(output, 1, "dE00 D65"), grayDifference(0.5, 0.4), 1e-9);
 }
 
 class EvaluatorOfALargeImage : public ::testing::Test

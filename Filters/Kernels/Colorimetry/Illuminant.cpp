@@ -1,6 +1,7 @@
 #include "Kernels/Colorimetry/Illuminant.h"
 
 #include "Kernels/Colorimetry/StandardTables.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <array>
@@ -88,10 +89,8 @@ void requireTemperature(const std::string& name, double kelvin, double least, do
 {
   if (!(kelvin >= least && kelvin <= most))
   {
-    std::ostringstream message;
-    message << "illuminant '" << name << "' has the temperature " << kelvin << " K; expected "
-            << least << " to " << most << " K";
-    throw std::invalid_argument(message.str());
+    reject("illuminant '", name, "' has the temperature ", kelvin, " K; expected ", least, " to ",
+      most, " K");
   }
 }
 

@@ -247,6 +247,51 @@ TEST(TristimulusTransform, FloatBlocksFollowTheDoubleOnes)
     1e-11);
 }
 
+// The bound that TristimulusBlocks.h states, for every number of values; single pixels give the same bytes.
+TEST(TristimulusBlocks, SumAnyNumberOfValuesWithinTheBound)
+{
+  constexpr Eigen::Index Pixels = 103;
+  for (const Eigen::Index values : { 1, 2, 3, 4, 5, 7, 16, 31, 32, 33, 81, 401 })
+  {
+    const Eigen::Matrix3Xd weights =
+      Eigen::Matrix3Xf::Random(3, values).cast<double>(); // floats hold them
+    const Vector3d constant(0.5, -3.0, 20.0);
+    const Eigen::MatrixXf in = Eigen::MatrixXf::Random(values, Pixels);
+    const msi::TristimulusBlocks blocks(weights, constant);
+    Eigen::Matrix3Xf got(3, Pixels);
+    blocks.apply(in.data(), got.data(), Pixels);
+    const Eigen::Matrix3Xd expected = (weights * in.cast<double>()).colwise() + constant;
+    const Eigen::Matrix3Xd sizes =
+      (weights.cwiseAbs() * in.cast<double>().cwiseAbs()).colwise() + constant.cwiseAbs();
+    const double roundings = 12.0 + std::floor(static_cast<double>(values - 1) / 32.0);
+    EXPECT_LE(((got.cast<double>() - expected).array() / sizes.array()).abs().maxCoeff(),
+      roundings * std::pow(2.0, -24))
+      << values;
+    for (Eigen::Index i = 0; i < Pixels; ++i)
+    {
+      Eigen::Vector3f alone;
+      blocks.apply(in.col(i).data(), alone.data(), 1);
+      EXPECT_EQ(alone, got.col(i)) << values;
+    }
+  }
+}
+
+// What stands beside a pixel does not reach it, also where the last values are read twice.
+TEST(TristimulusBlocks, ANaNStaysInItsOwnPixel)
+{
+  const msi::TristimulusBlocks blocks(Eigen::Matrix3Xd::Ones(3, 31));
+  Eigen::MatrixXf in = Eigen::MatrixXf::Constant(31, 9, 0.5F);
+  in(0, 5) = std::numeric_limits<float>::quiet_NaN();
+  in(30, 3) = std::numeric_limits<float>::quiet_NaN();
+  Eigen::Matrix3Xf got(3, 9);
+  blocks.apply(in.data(), got.data(), 9);
+  for (Eigen::Index i = 0; i < 9; ++i)
+  {
+    EXPECT_EQ(got.col(i).array().isNaN().all(), i == 3 || i == 5) << i;
+    EXPECT_EQ(got.col(i).hasNaN(), i == 3 || i == 5) << i;
+  }
+}
+
 TEST(TristimulusTransform, TheSameBytesForEverySplit)
 {
   const auto grid = WavelengthGrid::uniform(400.0, 700.0, 10.0);

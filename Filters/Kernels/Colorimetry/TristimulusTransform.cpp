@@ -1,10 +1,7 @@
 #include "Kernels/Colorimetry/TristimulusTransform.h"
 
 #include "Kernels/Colorimetry/WhitePoint.h"
-
-#include <algorithm>
-#include <sstream>
-#include <stdexcept>
+#include "Kernels/Spectra/Reject.h"
 
 namespace msi
 {
@@ -12,52 +9,21 @@ namespace msi
 namespace
 {
 
-// The bands of one group are summed in Scalar, the groups in double.
-constexpr Eigen::Index GroupedBands = 8;
-
 // Sums Count samples side by side, each over its bands in their order, whatever the others are.
-template <int Count, typename Scalar>
-void sumSamples(const Eigen::Matrix<Scalar, 4, Eigen::Dynamic>& weights,
-  const Eigen::Ref<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>& reflectance,
-  Eigen::Index first, Eigen::Ref<Eigen::Matrix<Scalar, 3, Eigen::Dynamic>>& xyz) noexcept
+template <int Count>
+void sumSamples(const Eigen::Matrix4Xd& weights,
+  const Eigen::Ref<const Eigen::MatrixXd>& reflectance, Eigen::Index first,
+  Eigen::Ref<Eigen::Matrix3Xd>& xyz) noexcept
 {
-  const Eigen::Index bands = weights.cols();
   Eigen::Matrix<double, 4, Count> total = Eigen::Matrix<double, 4, Count>::Zero();
-  for (Eigen::Index begin = 0; begin < bands; begin += GroupedBands)
+  for (Eigen::Index k = 0; k < weights.cols(); ++k)
   {
-    const Eigen::Index end = std::min(begin + GroupedBands, bands);
-    Eigen::Matrix<Scalar, 4, Count> group = Eigen::Matrix<Scalar, 4, Count>::Zero();
-    for (Eigen::Index k = begin; k < end; ++k)
+    for (int sample = 0; sample < Count; ++sample)
     {
-      for (int sample = 0; sample < Count; ++sample)
-      {
-        group.col(sample) += weights.col(k) * reflectance(k, first + sample);
-      }
+      total.col(sample) += weights.col(k) * reflectance(k, first + sample);
     }
-    total += group.template cast<double>();
   }
-  for (int sample = 0; sample < Count; ++sample)
-  {
-    xyz.col(first + sample) = total.col(sample).template head<3>().template cast<Scalar>();
-  }
-}
-
-template <typename Scalar>
-void sumBands(const Eigen::Matrix<Scalar, 4, Eigen::Dynamic>& weights,
-  const Eigen::Ref<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>& reflectance,
-  Eigen::Ref<Eigen::Matrix<Scalar, 3, Eigen::Dynamic>>& xyz) noexcept
-{
-  constexpr int Together = 4;
-  const Eigen::Index samples = reflectance.cols();
-  Eigen::Index first = 0;
-  for (; first + Together <= samples; first += Together)
-  {
-    sumSamples<Together>(weights, reflectance, first, xyz);
-  }
-  for (; first < samples; ++first)
-  {
-    sumSamples<1>(weights, reflectance, first, xyz);
-  }
+  xyz.middleCols<Count>(first) = total.template topRows<3>();
 }
 }
 
@@ -70,12 +36,9 @@ TristimulusTransform::TristimulusTransform(const WavelengthGrid& wavelengths,
   const double luminous = observer.functions().row(1).dot(power);
   if (!(luminous > 0.0))
   {
-    std::ostringstream message;
-    message << "the observer '" << observer.name() << "', " << fine.front() << " to " << fine.back()
-            << " nm, sees nothing of the illuminant '" << illuminant.name() << "', "
-            << illuminant.wavelengths().front() << " to " << illuminant.wavelengths().back()
-            << " nm";
-    throw std::invalid_argument(message.str());
+    reject("the observer '", observer.name(), "', ", fine.front(), " to ", fine.back(),
+      " nm, sees nothing of the illuminant '", illuminant.name(), "', ",
+      illuminant.wavelengths().front(), " to ", illuminant.wavelengths().back(), " nm");
   }
   const Eigen::Matrix3Xd fineWeights =
     (WhiteY / luminous) * observer.functions() * power.asDiagonal();
@@ -95,29 +58,45 @@ TristimulusTransform::TristimulusTransform(const WavelengthGrid& wavelengths,
 
   DoubleWeights.setZero(4, Weights.cols());
   DoubleWeights.topRows<3>() = Weights;
-  FloatWeights = DoubleWeights.cast<float>();
+  FloatBlocks = TristimulusBlocks(Weights);
 }
 
 void TristimulusTransform::apply(const Eigen::Ref<const Eigen::MatrixXd>& reflectance,
   Eigen::Ref<Eigen::Matrix3Xd> xyz) const noexcept
 {
-  sumBands<double>(DoubleWeights, reflectance, xyz);
+  constexpr int Together = 4;
+  const Eigen::Index samples = reflectance.cols();
+  Eigen::Index first = 0;
+  for (; first + Together <= samples; first += Together)
+  {
+    sumSamples<Together>(DoubleWeights, reflectance, first, xyz);
+  }
+  for (; first < samples; ++first)
+  {
+    sumSamples<1>(DoubleWeights, reflectance, first, xyz);
+  }
 }
 
 void TristimulusTransform::apply(const Eigen::Ref<const Eigen::MatrixXf>& reflectance,
   Eigen::Ref<Eigen::Matrix3Xf> xyz) const noexcept
 {
-  sumBands<float>(FloatWeights, reflectance, xyz);
+  if (reflectance.outerStride() == reflectance.rows() && xyz.outerStride() == 3)
+  {
+    FloatBlocks.apply(reflectance.data(), xyz.data(), xyz.cols());
+    return;
+  }
+  for (Eigen::Index i = 0; i < xyz.cols(); ++i)
+  {
+    FloatBlocks.apply(reflectance.col(i).data(), xyz.col(i).data(), 1);
+  }
 }
 
 Eigen::Matrix3Xd TristimulusTransform::operator()(const Eigen::MatrixXd& reflectance) const
 {
   if (reflectance.rows() != Wavelengths.size())
   {
-    std::ostringstream message;
-    message << "reflectance has " << reflectance.rows() << " bands; the tristimulus transform was "
-            << "built for " << Wavelengths.size();
-    throw std::invalid_argument(message.str());
+    reject("reflectance has ", reflectance.rows(),
+      " bands; the tristimulus transform was built for ", Wavelengths.size());
   }
   Eigen::Matrix3Xd xyz(3, reflectance.cols());
   apply(reflectance, xyz);

@@ -3,6 +3,7 @@
 
 #include "Kernels/Colorimetry/Illuminant.h"
 #include "Kernels/Colorimetry/StandardObserver.h"
+#include "Kernels/Colorimetry/TristimulusBlocks.h"
 #include "Kernels/Spectra/Interpolation.h"
 #include "Kernels/Spectra/WavelengthGrid.h"
 
@@ -56,7 +57,7 @@ private:
   WavelengthGrid Wavelengths;
   Eigen::Matrix3Xd Weights;
   Eigen::Matrix4Xd DoubleWeights; // padded by a row, for aligned loads
-  Eigen::Matrix4Xf FloatWeights;
+  TristimulusBlocks FloatBlocks;
   Eigen::Vector3d WhitePoint;
   Eigen::Vector3d ExtrapolatedShare;
 };

@@ -1,9 +1,10 @@
 // The check that every class built on a white point makes.
 #pragma once
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <Eigen/Core>
 
-#include <sstream>
 #include <stdexcept>
 
 namespace msi
@@ -17,10 +18,8 @@ inline Eigen::Vector3d validWhitePoint(const Eigen::Vector3d& whitePoint)
 {
   if (!whitePoint.allFinite() || !(whitePoint.minCoeff() > 0.0))
   {
-    std::ostringstream message;
-    message << "the white point is " << whitePoint(0) << ", " << whitePoint(1) << ", "
-            << whitePoint(2) << "; expected three finite values above zero";
-    throw std::invalid_argument(message.str());
+    reject("the white point is ", whitePoint(0), ", ", whitePoint(1), ", ", whitePoint(2),
+      "; expected three finite values above zero");
   }
   return whitePoint;
 }

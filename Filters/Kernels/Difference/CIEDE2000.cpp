@@ -1,10 +1,9 @@
 #include "Kernels/Difference/CIEDE2000.h"
 
 #include "Kernels/Difference/CIEDE2000Blocks.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -15,10 +14,7 @@ void requirePositive(double factor, const char* name)
 {
   if (!std::isfinite(factor) || !(factor > 0.0))
   {
-    std::ostringstream message;
-    message << "the CIEDE2000 factor " << name << " is " << factor
-            << "; expected a finite value above zero";
-    throw std::invalid_argument(message.str());
+    reject("the CIEDE2000 factor ", name, " is ", factor, "; expected a finite value above zero");
   }
 }
 

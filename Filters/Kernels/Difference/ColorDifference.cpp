@@ -2,6 +2,7 @@
 
 #include "Kernels/Difference/CIE76.h"
 #include "Kernels/Difference/CIEDE2000.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <charconv>
@@ -132,17 +133,13 @@ void requireFactor(const ColorDifferenceFormula& formula, double factor, const c
 {
   if (!std::isfinite(factor) || !(factor > 0.0))
   {
-    std::ostringstream message;
-    message << "the " << name << " factor of " << formula.label << " is " << factor
-            << "; expected a finite value above zero";
-    throw std::invalid_argument(message.str());
+    reject("the ", name, " factor of ", formula.label, " is ", factor,
+      "; expected a finite value above zero");
   }
   if (!formula.hasFactors && factor != 1.0)
   {
-    std::ostringstream message;
-    message << "the " << name << " factor of " << formula.label << " is " << factor
-            << "; this formula has no factors, expected 1";
-    throw std::invalid_argument(message.str());
+    reject("the ", name, " factor of ", formula.label, " is ", factor,
+      "; this formula has no factors, expected 1");
   }
 }
 

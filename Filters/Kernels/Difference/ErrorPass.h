@@ -1,13 +1,13 @@
 // What the two passes of the error statistics share: floats as ordered integers, and arrays that add.
 #pragma once
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 namespace msi::errorpass
@@ -47,10 +47,8 @@ inline void requireLength(std::size_t length, std::size_t expected, const char* 
 {
   if (length != expected)
   {
-    std::ostringstream message;
-    message << "an array of " << length << " integers is not the state of " << what
-            << ", which has " << expected;
-    throw std::invalid_argument(message.str());
+    reject(
+      "an array of ", length, " integers is not the state of ", what, ", which has ", expected);
   }
 }
 

@@ -2,9 +2,7 @@
 
 #include "Kernels/Difference/CIEDE2000.h"
 #include "Kernels/Estimation/SampleSet.h"
-
-#include <sstream>
-#include <stdexcept>
+#include "Kernels/Spectra/Reject.h"
 
 namespace msi
 {
@@ -15,19 +13,14 @@ MeanColorDifference::MeanColorDifference(const ColorStopRule& rule, const Eigen:
 {
   if (Weights.rows() != 3 || Weights.cols() != measured.rows())
   {
-    std::ostringstream message;
-    message << "the tristimulus weights of the color stop rule are " << Weights.rows() << " x "
-            << Weights.cols() << "; expected 3 x " << measured.rows()
-            << ", a column per reflectance band";
-    throw std::invalid_argument(message.str());
+    reject("the tristimulus weights of the color stop rule are ", Weights.rows(), " x ",
+      Weights.cols(), "; expected 3 x ", measured.rows(), ", a column per reflectance band");
   }
   requireFinite(Weights, "tristimulus weights", "row");
   if (!(rule.threshold >= 0.0))
   {
-    std::ostringstream message;
-    message << "the threshold of the color stop rule is " << rule.threshold
-            << "; expected a number of CIEDE2000 units that is not negative";
-    throw std::invalid_argument(message.str());
+    reject("the threshold of the color stop rule is ", rule.threshold,
+      "; expected a number of CIEDE2000 units that is not negative");
   }
   MeasuredLab = labOf(measured);
 }

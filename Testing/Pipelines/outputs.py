@@ -202,12 +202,31 @@ def one_rank_speaks(base):
         expect(done.returncode == 1 and done.stderr == text, f"rank {rank}: {done}")
 
 
+def pages_speak_in_words(base):
+    """Columns and metrics in words, what the data name as it is; long tables folded; a chapter's sections one level lower."""
+    names = ["sample", "metric", "p95", "left_out"]
+    rows = [["dE00 of p95", "dE00", 1.5, 0]] * 13
+    table = report.table("Errors", names, rows)
+    for part in (">95th percentile</th>", ">left out</th>", ">\u0394E00</td>", ">dE00 of p95</td>", "<summary>13 rows</summary>"):
+        expect(part in table, f"{part} is not in the table {table[:600]}")
+    expect("<details>" not in report.table("Errors", names, rows[:12]), "a short table is folded")
+    expect(report.in_words("dE00 D65") == "\u0394E00 D65" and report.in_words("rms") == "rms", "names of maps")
+    page = report.chapter("Chapter", [table], "a < b")
+    expect(page.count("<h2>") == 1 and "<h3>Errors</h3>" in page and "<p>a &lt; b</p>" in page, f"a chapter is {page[:300]}")
+    folder = base / "page"
+    folder.mkdir(exist_ok=True)
+    report.write(str(folder), "Title", [page], "The result in one sentence.")
+    text = (folder / "report.html").read_text(encoding="utf-8")
+    expect(text.index("The result in one sentence.") < text.index("<h2>"), "the result does not come first")
+
+
 def main():
     base = pathlib.Path(sys.argv[1])
     base.mkdir(parents=True, exist_ok=True)
     for test in (inputs_are_not_written_over, partners_are_inputs, one_run_at_a_time, what_killed_runs_left_goes,
                  old_reports_go_with_the_first_result, old_results_go_with_their_report, incomplete_files_take_no_name,
-                 a_full_disk_is_said, outputs_are_declared, names_are_printed_safely, one_rank_speaks):
+                 a_full_disk_is_said, outputs_are_declared, names_are_printed_safely, one_rank_speaks,
+                 pages_speak_in_words):
         test(base)
     print("\n".join(faults) or "inputs stay, outputs are complete or absent")
     sys.exit(1 if faults else 0)

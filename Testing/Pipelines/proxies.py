@@ -45,5 +45,50 @@ for reader, path in wanted.items():
     if others:
         faults.append(f"File > Open offers {others} too for {path.name}")
 
+# What the panels offer is what the filters take.
+chart = simple.SampleTableReader(FileName=str(wanted["SampleTableReader"]))
+image = simple.SpectralImageReader(FileNames=[str(wanted["SpectralImageReader"])])
+lamps = pathlib.Path(sys.argv[1]) / "proxies-lamps.csv"
+lamps.parent.mkdir(parents=True, exist_ok=True)
+lamps.write_text("wavelength,gallery,shop\n380,0.2,1\n780,1.1,1\n", encoding="ascii")
+curves = simple.CurveReader(FileNames=[str(lamps)])
+for source in (chart, image, curves):
+    source.UpdatePipeline()
+
+
+def strings(proxy, name, domain):
+    found = proxy.SMProxy.GetProperty(name).GetDomain(domain)
+    return [found.GetString(i) for i in range(found.GetNumberOfStrings())]
+
+
+def rows(source):
+    source.UpdatePipeline()
+    return source.GetDataInformation(0).GetNumberOfRows()
+
+
+color = simple.SpectralToColor(Input=chart)
+illuminants = strings(color, "Illuminant", "illuminants")
+if len(illuminants) < 20 or color.Illuminant != "D65":
+    faults.append(f"Spectral To Color offers {illuminants} and starts with {color.Illuminant}")
+own = strings(simple.SpectralToColor(Input=chart, IlluminantTable=curves), "Illuminant", "illuminants")
+if own != ["gallery", "shop", *illuminants]:
+    faults.append(f"with a table of one's own Spectral To Color offers {own}")
+for name in own:
+    if rows(simple.SpectralToColor(Input=chart, IlluminantTable=curves, Illuminant=name)) == 0:
+        faults.append(f"Spectral To Color does not take {name}")
+fit = simple.ReflectanceCalibration(Input=chart)
+channels = simple.ChannelSelection(Input=chart)
+if list(channels.Channels) != [f"{nm} nm" for nm in range(400, 720, 20)]:
+    faults.append(f"Channel Selection starts with {channels.Channels}")
+channels.Channels = ["400 nm", "700 nm"]
+channels.UpdatePipeline()
+table = servermanager.Fetch(channels)
+kept = [table.GetColumnName(i) for i in range(table.GetNumberOfColumns()) if table.GetColumnName(i).startswith("C")]
+if kept != ["C400", "C700"]:
+    faults.append(f"Channel Selection keeps {kept}")
+arrays = strings(simple.ReflectanceEstimation(Input=image, ReflectanceTransform=fit), "ResponseArray", "arrays")
+if "" not in arrays or "Responses" not in arrays:
+    faults.append(f"Reflectance Estimation offers the arrays {arrays}")
+
 print("\n".join(faults) or "all proxies are there")
 os._exit(1 if faults else 0)

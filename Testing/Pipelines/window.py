@@ -166,6 +166,13 @@ class Window:
         (self.folder / "load-chart").write_text(str(self.folder / "chart-reference.csv"), encoding="utf-8")
         return self.wait("the chart's image", lambda s: "chart image" in s["sources"] and not s["dialogs"])
 
+    def panel(self, proxy, inputs, **values):
+        """The panel of a new source that is not applied yet."""
+        before = len(self.state()["sources"])
+        (self.folder / "show-panel").write_text(json.dumps([proxy, inputs, values]), encoding="utf-8")
+        self.wait(f"the panel of {proxy}", lambda s: len(s["sources"]) == before + 1 and s["panel"])
+        return self.state()["panel"]
+
     def errors(self):
         """Of the steps that are no fault."""
         text = (self.folder / "paraview.log").read_text(encoding="utf-8", errors="replace")[self.faults_end:]
@@ -366,6 +373,33 @@ def open_files(window):
             raise Failed(f"File > Open took {found} for {name}")
 
 
+def panels(window):
+    """What the panels offer, and what they hide because it does not apply."""
+    scene, chart = "channel_400nm.tif", "demo-chart.csv"
+
+    def shown(panel, wanted, hidden=()):
+        if not set(wanted) <= set(panel) or set(hidden) & set(panel):
+            raise Failed(f"the panel shows {sorted(panel)}; expected {wanted} and not {hidden}")
+
+    shown(window.panel("MetamerismCorrection", {"Calibration": chart, "Tuning": chart}), ["Method"], ["StopOnColor", "ColorThreshold"])
+    shown(window.panel("MetamerismCorrection", {"Calibration": chart, "Tuning": chart}, Method="Banded"), ["StopOnColor"],
+          ["ColorThreshold"])
+    shown(window.panel("MetamerismCorrection", {"Calibration": chart, "Tuning": chart}, Method="Banded", StopOnColor=1),
+          ["StopOnColor", "ColorThreshold"])
+    shown(window.panel("CameraSimulator", {"Input": chart, "Camera": "curves.csv"}, Noise="None"), ["Noise", "Repeats"],
+          ["ReadNoise", "Seed"])
+    shown(window.panel("PatchSampler", {"Input": scene}), ["Labels", "GridColumns", "Corner1"])
+    shown(window.panel("PatchSampler", {"Input": scene, "Labels": "labels.png"}), ["Labels"], ["GridColumns", "Corner1"])
+    channels = window.panel("ChannelSelection", {"Input": chart})["Channels"]["offered"]
+    if channels != [f"{nm} nm" for nm in range(400, 720, 20)]:
+        raise Failed(f"the channels that are ticked are {channels}")
+    window.picture("panel of channels")
+
+    box = window.panel("SpectralToColor", {"Input": chart})["Illuminant"]
+    if box["text"] != "D65" or not {"D50", "FL12", "LED-V2"} <= set(box["offered"]):
+        raise Failed(f"the illuminants are {box}")
+
+
 def page_names_what_is_there(window):
     """Every name in italics on the page about the window is written somewhere in the window."""
     page = re.sub(r"`[^`]*`", "", (ROOT / "Documentation" / "Window.md").read_text(encoding="utf-8"))
@@ -448,7 +482,7 @@ def main():
     elif "server" in sys.argv[2:3]:
         fault = in_window(folder, (one_message, main_job, spectra), sys.argv[3:])
     else:
-        fault = in_window(folder, (one_message, main_job, spectra, region_and_files, help_page, menus, open_files, own_lamp, chart,
+        fault = in_window(folder, (one_message, main_job, spectra, region_and_files, help_page, menus, open_files, panels, own_lamp, chart,
                                    page_names_what_is_there))
     print(fault or "the window does as a user expects")
     sys.exit(1 if fault else 0)

@@ -47,6 +47,40 @@ def _load_chart():
     simple.Render(view)
 
 
+def _show_panel():
+    """On the test's word: a proxy with inputs and values, selected; nothing of it is applied."""
+    word = os.path.join(os.path.dirname(os.environ["MULTISPECTRAL_WINDOW_STATE"]), "show-panel")
+    if not os.path.exists(word):
+        return
+    with open(word, encoding="utf-8") as file:
+        proxy, inputs, values = json.load(file)
+    os.remove(word)
+    sources = {key: simple.FindSource(name) for key, name in inputs.items()}
+    for source in sources.values():
+        source.UpdatePipeline()
+    made = getattr(simple, proxy)(**sources, **values)
+    simple.SetActiveSource(made)
+
+
+def _panel(main):
+    """What the panel Properties asks of the selected source: name, middle of the field, and what stands in it or is offered."""
+    found = {}
+    for place in main.findChild(QtWidgets.QDockWidget, "propertiesDock").findChild(QtWidgets.QWidget, "PropertiesFrame").findChildren(
+            QtWidgets.QWidget):
+        if not place.isVisible() or not place.metaObject().className().endswith(("PropertyWidget", "pqInputSelectorWidget")):
+            continue
+        box, line, tree = (next(iter(place.findChildren(kind)), None)
+                           for kind in (QtWidgets.QComboBox, QtWidgets.QLineEdit, QtWidgets.QTreeWidget))
+        field = box or line or tree or place
+        rows = [tree.topLevelItem(i) for i in range(tree.topLevelItemCount())] if tree is not None else []
+        found[place.objectName()] = {
+            "kind": place.metaObject().className(), "middle": _middle(field),
+            "text": box.currentText() if box is not None else line.text() if line is not None else "",
+            "offered": [box.itemText(i) for i in range(box.count())] if box is not None else
+            [row.text(0) for row in rows if row.checkState(0) == QtCore.Qt.Checked]}
+    return found
+
+
 def _corners(placement, frame):
     """Of the chart, on the screen."""
     if placement is None or not placement.isVisible() or placement.view is None:
@@ -126,6 +160,7 @@ def _state():
         "labels": _labels(main, windows),
         "tables": sum(view.SMProxy.GetXMLName() == "SpreadSheetView" for view in simple.GetViews()),
         "band": panel.band_text.text(),
+        "panel": _panel(main),
         "corners": _corners(placement, frames[0]) if frames else [],
         "status": placement.status.text() if placement is not None else "",
         "named": named,
@@ -141,6 +176,7 @@ def _state():
 
 def _write():
     _load_chart()
+    _show_panel()
     state = _state()
     if state is not None:
         path = os.environ["MULTISPECTRAL_WINDOW_STATE"]

@@ -1,5 +1,7 @@
 #include "Kernels/Camera/CameraDesign.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -55,10 +57,7 @@ void requireLength(const char* what, Eigen::Index length, const WavelengthGrid& 
 {
   if (length != grid.size())
   {
-    std::ostringstream message;
-    message << "the camera's " << what << " has " << length << " values, its wavelength grid "
-            << grid.size();
-    throw std::invalid_argument(message.str());
+    reject("the camera's ", what, " has ", length, " values, its wavelength grid ", grid.size());
   }
 }
 
@@ -68,12 +67,9 @@ void requireValid(const BandpassFilter& filter, std::size_t position)
     filter.leak >= 0.0 && filter.peak >= filter.leak && filter.peak <= 1.0;
   if (!valid)
   {
-    std::ostringstream message;
-    message << "filter " << position + 1 << " has center " << filter.center << " nm, width "
-            << filter.width << " nm, order " << filter.order << ", peak " << filter.peak
-            << ", leak " << filter.leak
-            << "; expected width > 0, order >= 1, 0 <= leak <= peak <= 1";
-    throw std::invalid_argument(message.str());
+    reject("filter ", position + 1, " has center ", filter.center, " nm, width ", filter.width,
+      " nm, order ", filter.order, ", peak ", filter.peak, ", leak ", filter.leak,
+      "; expected width > 0, order >= 1, 0 <= leak <= peak <= 1");
   }
 }
 
@@ -95,9 +91,7 @@ Eigen::VectorXd planckianLight(const WavelengthGrid& wavelengths, double tempera
 {
   if (!(temperature > 0.0) || !std::isfinite(temperature))
   {
-    std::ostringstream message;
-    message << "the temperature of a Planckian light is " << temperature << " K; expected above 0";
-    throw std::invalid_argument(message.str());
+    reject("the temperature of a Planckian light is ", temperature, " K; expected above 0");
   }
   constexpr double SecondRadiation = 1.438776877e7; // nm K
   const auto radiance = [temperature](double wavelength)
@@ -117,10 +111,8 @@ Eigen::VectorXd siliconDetector(
     FirstSiliconWavelength + SiliconStep * static_cast<double>(SiliconAbsorption.size() - 1);
   if (!(wavelengths.front() >= FirstSiliconWavelength && wavelengths.back() <= Last))
   {
-    std::ostringstream message;
-    message << "the silicon detector is known from " << FirstSiliconWavelength << " to " << Last
-            << " nm; the grid runs from " << wavelengths.front() << " to " << wavelengths.back();
-    throw std::invalid_argument(message.str());
+    reject("the silicon detector is known from ", FirstSiliconWavelength, " to ", Last,
+      " nm; the grid runs from ", wavelengths.front(), " to ", wavelengths.back());
   }
   if (!(thickness > 0.0 && deadLayer >= 0.0 && std::isfinite(thickness + deadLayer)))
   {

@@ -1,23 +1,12 @@
 #include "Kernels/Camera/CameraModel.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
 {
-
-namespace
-{
-template <typename... Parts>
-[[noreturn]] void reject(const Parts&... parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
-}
 
 CameraModel::CameraModel(WavelengthGrid wavelengths, Eigen::MatrixXd responsivity,
   Eigen::VectorXd dark, std::vector<std::string> channels)

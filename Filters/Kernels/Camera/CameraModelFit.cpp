@@ -2,6 +2,7 @@
 
 #include "Kernels/Camera/ChannelFit.h"
 #include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <Eigen/SVD>
 
@@ -10,7 +11,6 @@
 #include <limits>
 #include <numeric>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -28,56 +28,48 @@ enum Stream : std::uint32_t
   DrawStream
 };
 
-template <typename... Parts>
-[[noreturn]] void rejectFit(const Parts&... parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
-
 void requireValid(const WavelengthGrid& wavelengths, const Eigen::MatrixXd& reflectance,
   const Eigen::MatrixXd& response, const CameraModelFitOptions& options)
 {
   if (reflectance.rows() != wavelengths.size())
   {
-    rejectFit("the chart's reflectances have ", reflectance.rows(), " wavelengths, their grid ",
+    reject("the chart's reflectances have ", reflectance.rows(), " wavelengths, their grid ",
       wavelengths.size());
   }
   if (reflectance.cols() != response.cols())
   {
-    rejectFit(
+    reject(
       "the chart has ", reflectance.cols(), " reflectances but ", response.cols(), " responses");
   }
   if (response.rows() == 0)
   {
-    rejectFit("the chart's responses have no channel");
+    reject("the chart's responses have no channel");
   }
   if (!wavelengths.step())
   {
-    rejectFit("a camera model is fitted on a uniform wavelength grid of two wavelengths or more; "
-              "resample the reflectances");
+    reject("a camera model is fitted on a uniform wavelength grid of two wavelengths or more; "
+           "resample the reflectances");
   }
   if (options.nominal &&
     (options.nominal->channelCount() != response.rows() ||
       options.nominal->wavelengths() != wavelengths))
   {
-    rejectFit("the nominal camera has ", options.nominal->channelCount(), " channels and ",
+    reject("the nominal camera has ", options.nominal->channelCount(), " channels and ",
       options.nominal->wavelengths().size(), " wavelengths, the chart ", response.rows(), " and ",
       wavelengths.size(), "; expected the same");
   }
   if (options.dark && options.dark->size() != response.rows())
   {
-    rejectFit("the chart has ", response.rows(), " channels but ", options.dark->size(),
+    reject("the chart has ", response.rows(), " channels but ", options.dark->size(),
       " dark responses are given");
   }
   if (!(options.passbandWidth > 0.0))
   {
-    rejectFit("the passband width is ", options.passbandWidth, " nm; expected above 0");
+    reject("the passband width is ", options.passbandWidth, " nm; expected above 0");
   }
   if (options.draws < 0)
   {
-    rejectFit("the number of bootstrap draws is ", options.draws, "; expected 0 or more");
+    reject("the number of bootstrap draws is ", options.draws, "; expected 0 or more");
   }
 }
 
@@ -252,10 +244,50 @@ std::optional<DetectorCurve> findCurve(const WavelengthGrid& wavelengths,
   return curve;
 }
 
-// Bootstrap over samples: means of products of (row, dark), channel by channel.
-void addUncertainty(CameraModelFit& fit, const ChannelFitProblem& problem,
-  const PenaltyWeights& weights, const CameraModelFitOptions& options)
+PenaltyWeights weightsOf(const CameraModelFit& fit)
 {
+  return { fit.chosen.locality, fit.chosen.smoothness };
+}
+
+struct LinearFit
+{
+  CameraModelFit fit; // without uncertainty and determination
+  bool converged;
+};
+
+LinearFit fitLinear(const WavelengthGrid& wavelengths, const Eigen::MatrixXd& reflectance,
+  const Eigen::MatrixXd& response, const CameraModelFitOptions& options)
+{
+  const ChannelFitProblem problem(wavelengths, reflectance, response, options);
+  std::vector<Eigen::Index> everySample(static_cast<std::size_t>(response.cols()));
+  std::iota(everySample.begin(), everySample.end(), 0);
+  const ChannelMoments moments = problem.moments(everySample);
+  const Eigen::VectorXd centers = problem.centers(moments);
+  const Trials trials = tryWeights(problem, moments, centers, options);
+  const CameraModelFitTrial chosen = trials.list[trials.chosen];
+  FittedRows rows = problem.solve(moments, centers, { chosen.locality, chosen.smoothness });
+
+  CameraModelFit fit{ CameraModel(
+    wavelengths, std::move(rows.responsivity), std::move(rows.dark), options.channels) };
+  Eigen::MatrixXd residual = response - fit.camera.responsivity() * reflectance;
+  residual.colwise() -= fit.camera.dark();
+  const auto samples = static_cast<double>(response.cols());
+  fit.channelRms = residual.rowwise().squaredNorm().cwiseSqrt() / std::sqrt(samples);
+  fit.heldOutRms = chosen.heldOutRms;
+  fit.trials = trials.list;
+  fit.chosen = chosen;
+  fit.summary.residualRms = std::sqrt(residual.squaredNorm() / double(residual.size()));
+  fit.summary.unknowns = response.rows() * (wavelengths.size() + (options.dark ? 0 : 1));
+  fit.summary.samples = response.cols();
+  fit.summary.iterations = rows.steps;
+  return { std::move(fit), rows.converged };
+}
+
+// Bootstrap over samples: means of products of (row, dark), channel by channel.
+void addUncertainty(
+  CameraModelFit& fit, const ChannelFitProblem& problem, const CameraModelFitOptions& options)
+{
+  const PenaltyWeights weights = weightsOf(fit);
   const Eigen::Index channels = fit.camera.channelCount();
   const Eigen::Index bands = fit.camera.wavelengths().size();
   const auto samples = static_cast<std::uint64_t>(problem.samples());
@@ -388,60 +420,35 @@ CameraModelFit fitCameraModel(const WavelengthGrid& wavelengths,
   const auto samples = static_cast<Eigen::Index>(finite.size());
   if (samples < FewestSamples)
   {
-    rejectFit("the chart has ", samples, " samples with finite values; a camera model needs ",
+    reject("the chart has ", samples, " samples with finite values; a camera model needs ",
       FewestSamples, " or more");
   }
   if (options.folds < 2 || options.folds > samples)
   {
-    rejectFit("the cross-validation has ", options.folds, " folds; expected 2 to ", samples);
+    reject("the cross-validation has ", options.folds, " folds; expected 2 to ", samples);
   }
   const Eigen::MatrixXd reflectance = allReflectance(Eigen::all, finite);
-  const Eigen::MatrixXd response = allResponse(Eigen::all, finite);
+  Eigen::MatrixXd response = allResponse(Eigen::all, finite);
 
-  const ChannelFitProblem problem(wavelengths, reflectance, response, options);
-  std::vector<Eigen::Index> everySample(static_cast<std::size_t>(samples));
-  std::iota(everySample.begin(), everySample.end(), 0);
-  const ChannelMoments moments = problem.moments(everySample);
-  const Eigen::VectorXd centers = problem.centers(moments);
-  const Trials trials = tryWeights(problem, moments, centers, options);
-  const CameraModelFitTrial chosen = trials.list[trials.chosen];
-  const PenaltyWeights weights{ chosen.locality, chosen.smoothness };
+  LinearFit linear = fitLinear(wavelengths, reflectance, response, options);
   const std::optional<DetectorCurve> curve =
-    findCurve(wavelengths, reflectance, response, weights, options);
-  if (options.detectorCurve && curve && curve->found())
+    findCurve(wavelengths, reflectance, response, weightsOf(linear.fit), options);
+  const bool straight = options.detectorCurve && curve && curve->found();
+  if (straight)
   {
-    CameraModelFitOptions straight = options;
-    straight.detectorCurve = false;
-    CameraModelFit fit =
-      fitCameraModel(wavelengths, reflectance, straightened(response, curve->square), straight);
-    fit.curve = curve;
-    fit.summary.status = statusOf(fit, options.nominal.has_value(), allResponse.cols() - samples,
-      fit.summary.complete || fit.determined < wavelengths.size(), true);
-    return fit;
+    response = straightened(response, curve->square);
+    linear = fitLinear(wavelengths, reflectance, response, options);
   }
-  FittedRows rows = problem.solve(moments, centers, weights);
-
-  CameraModelFit fit{ CameraModel(
-    wavelengths, std::move(rows.responsivity), std::move(rows.dark), options.channels) };
-  Eigen::MatrixXd residual = response - fit.camera.responsivity() * reflectance;
-  residual.colwise() -= fit.camera.dark();
-  fit.channelRms = residual.rowwise().squaredNorm().cwiseSqrt() / std::sqrt(double(samples));
-  fit.heldOutRms = chosen.heldOutRms;
+  CameraModelFit fit = std::move(linear.fit);
   fit.curve = curve;
-  fit.trials = trials.list;
-  fit.chosen = chosen;
-  fit.summary.residualRms = std::sqrt(residual.squaredNorm() / double(residual.size()));
-  fit.summary.unknowns = response.rows() * (wavelengths.size() + (options.dark ? 0 : 1));
-  fit.summary.samples = samples;
-  fit.summary.iterations = rows.steps;
   if (options.draws > 0)
   {
-    addUncertainty(fit, problem, weights, options);
+    addUncertainty(fit, ChannelFitProblem(wavelengths, reflectance, response, options), options);
   }
   addDetermination(fit, reflectance);
-  fit.summary.complete = fit.determined == wavelengths.size() && rows.converged;
-  fit.summary.status =
-    statusOf(fit, options.nominal.has_value(), allResponse.cols() - samples, rows.converged, false);
+  fit.summary.complete = fit.determined == wavelengths.size() && linear.converged;
+  fit.summary.status = statusOf(
+    fit, options.nominal.has_value(), allResponse.cols() - samples, linear.converged, straight);
   return fit;
 }
 

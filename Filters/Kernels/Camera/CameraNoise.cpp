@@ -2,13 +2,12 @@
 
 #include "Kernels/Camera/CameraNoiseKernel.h"
 #include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -37,9 +36,7 @@ void requireNotNegative(const char* name, double value)
 {
   if (!(value >= 0.0) || !std::isfinite(value))
   {
-    std::ostringstream message;
-    message << "the camera noise '" << name << "' is " << value << "; expected zero or more";
-    throw std::invalid_argument(message.str());
+    reject("the camera noise '", name, "' is ", value, "; expected zero or more");
   }
 }
 }

@@ -1,10 +1,10 @@
 #include "Kernels/Camera/NonNegativeLeastSquares.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 namespace msi
@@ -34,10 +34,8 @@ NonNegativeSolution solveNonNegative(const Eigen::MatrixXd& h, const Eigen::Vect
   const Eigen::Index count = f.size();
   if (h.rows() != count || h.cols() != count)
   {
-    std::ostringstream message;
-    message << "non-negative least squares has a matrix of " << h.rows() << " x " << h.cols()
-            << " and a right side of " << count;
-    throw std::invalid_argument(message.str());
+    reject("non-negative least squares has a matrix of ", h.rows(), " x ", h.cols(),
+      " and a right side of ", count);
   }
   NonNegativeSolution solution{ Eigen::VectorXd::Zero(count) };
   Eigen::VectorXd& x = solution.x;

@@ -1,9 +1,9 @@
 #include "Kernels/Camera/ResponseDifference.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -46,11 +46,9 @@ std::vector<ChannelDifference> responseDifference(
 {
   if (real.rows() != simulated.rows() || real.cols() != simulated.cols())
   {
-    std::ostringstream message;
-    message << "the real camera has " << real.rows() << " channels and " << real.cols()
-            << " samples, the simulated one " << simulated.rows() << " and " << simulated.cols()
-            << "; expected the same";
-    throw std::invalid_argument(message.str());
+    reject("the real camera has ", real.rows(), " channels and ", real.cols(),
+      " samples, the simulated one ", simulated.rows(), " and ", simulated.cols(),
+      "; expected the same");
   }
   std::vector<ChannelDifference> differences;
   for (Eigen::Index k = 0; k < real.rows(); ++k)

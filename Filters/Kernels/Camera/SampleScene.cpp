@@ -1,9 +1,10 @@
 #include "Kernels/Camera/SampleScene.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -19,9 +20,7 @@ void requireCount(const char* what, Eigen::Index given, Eigen::Index samples)
 {
   if (given != 0 && given != samples)
   {
-    std::ostringstream message;
-    message << "the scene has " << samples << " samples but " << given << " values of " << what;
-    throw std::invalid_argument(message.str());
+    reject("the scene has ", samples, " samples but ", given, " values of ", what);
   }
 }
 
@@ -31,10 +30,7 @@ void requireFinite(const char* what, const Eigen::VectorXd& values)
   {
     if (!std::isfinite(values[i]))
     {
-      std::ostringstream message;
-      message << "the " << what << " of sample " << i + 1 << " is " << values[i]
-              << "; expected a finite number";
-      throw std::invalid_argument(message.str());
+      reject("the ", what, " of sample ", i + 1, " is ", values[i], "; expected a finite number");
     }
   }
 }
@@ -67,10 +63,8 @@ SampleScene::SampleScene(WavelengthGrid wavelengths, SceneSamples samples)
   const Eigen::Index count = Samples.reflectance.cols();
   if (Samples.reflectance.rows() != Grid.size())
   {
-    std::ostringstream message;
-    message << "the scene's reflectances have " << Samples.reflectance.rows()
-            << " wavelengths, their grid " << Grid.size();
-    throw std::invalid_argument(message.str());
+    reject("the scene's reflectances have ", Samples.reflectance.rows(),
+      " wavelengths, their grid ", Grid.size());
   }
   requireCount("medium", static_cast<Eigen::Index>(Samples.medium.size()), count);
   requireCount("scene", static_cast<Eigen::Index>(Samples.scene.size()), count);

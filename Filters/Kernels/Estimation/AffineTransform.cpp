@@ -1,10 +1,9 @@
 #include "Kernels/Estimation/AffineTransform.h"
 
 #include "Kernels/Estimation/AffineKernel.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -46,11 +45,8 @@ AffineTransform::AffineTransform(Eigen::MatrixXd coefficients)
 {
   if (Coefficients.rows() < 1 || Coefficients.cols() < 2)
   {
-    std::ostringstream message;
-    message
-      << "an affine transform has " << Coefficients.rows() << " rows and " << Coefficients.cols()
-      << " columns; expected at least one row (outputs) and two columns (inputs and constant)";
-    throw std::invalid_argument(message.str());
+    reject("an affine transform has ", Coefficients.rows(), " rows and ", Coefficients.cols(),
+      " columns; expected at least one row (outputs) and two columns (inputs and constant)");
   }
   for (Eigen::Index column = 0; column < Coefficients.cols(); ++column)
   {
@@ -58,11 +54,8 @@ AffineTransform::AffineTransform(Eigen::MatrixXd coefficients)
     {
       if (!std::isfinite(Coefficients(row, column)))
       {
-        std::ostringstream message;
-        message << "coefficient in row " << row + 1 << ", column " << column + 1
-                << " of an affine transform is " << Coefficients(row, column)
-                << "; expected a finite number";
-        throw std::invalid_argument(message.str());
+        reject("coefficient in row ", row + 1, ", column ", column + 1,
+          " of an affine transform is ", Coefficients(row, column), "; expected a finite number");
       }
     }
   }
@@ -89,10 +82,8 @@ Eigen::MatrixXd AffineTransform::operator()(const Eigen::MatrixXd& in) const
 {
   if (in.rows() != inputs())
   {
-    std::ostringstream message;
-    message << "the block has " << in.rows() << " values a pixel but the transform takes "
-            << inputs() << "; expected the same number";
-    throw std::invalid_argument(message.str());
+    reject("the block has ", in.rows(), " values a pixel but the transform takes ", inputs(),
+      "; expected the same number");
   }
   Eigen::MatrixXd out(outputs(), in.cols());
   apply(in.data(), out.data(), in.cols());
@@ -104,10 +95,8 @@ AffineTransform AffineTransform::compose(
 {
   if (after.inputs() != before.outputs())
   {
-    std::ostringstream message;
-    message << "the second transform takes " << after.inputs() << " values but the first gives "
-            << before.outputs() << "; expected the same number";
-    throw std::invalid_argument(message.str());
+    reject("the second transform takes ", after.inputs(), " values but the first gives ",
+      before.outputs(), "; expected the same number");
   }
   Eigen::MatrixXd coefficients = after.linear() * before.coefficients();
   coefficients.rightCols<1>() += after.constant();

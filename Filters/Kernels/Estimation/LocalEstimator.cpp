@@ -1,12 +1,12 @@
 #include "Kernels/Estimation/LocalEstimator.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -122,11 +122,8 @@ LocalEstimator::LocalEstimator(LocalSamples samples)
 {
   if (Samples.neighbours < 1 || Samples.neighbours > Samples.points.cols())
   {
-    std::ostringstream message;
-    message << LocalOwner << " is to use " << Samples.neighbours << " neighbours of "
-            << Samples.points.cols() << " samples; expected a number from 1 to "
-            << Samples.points.cols();
-    throw std::invalid_argument(message.str());
+    reject(LocalOwner, " is to use ", Samples.neighbours, " neighbours of ", Samples.points.cols(),
+      " samples; expected a number from 1 to ", Samples.points.cols());
   }
 }
 

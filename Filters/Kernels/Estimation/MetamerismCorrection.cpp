@@ -3,10 +3,10 @@
 #include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/MeanColorDifference.h"
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -19,11 +19,6 @@ constexpr double AssumedSpan = 300.0;    // nm, 400..700
 // but rounding: its inverse must not bring them back.
 constexpr double TransformRankTolerance = 1e-10;
 
-[[noreturn]] void reject(const std::ostringstream& message)
-{
-  throw std::invalid_argument(message.str());
-}
-
 Eigen::Index neighboursOf(BandStructure structure)
 {
   return structure == BandStructure::Diagonal ? 0 : 1;
@@ -35,30 +30,25 @@ void requireSolvable(
   requireValid(calibration, "calibration");
   requireValid(tuning, "tuning");
   requireSameShape(calibration, "calibration", tuning, "tuning");
-  std::ostringstream message;
   if (calibration.channels() > calibration.bands())
   {
-    message << "there are " << calibration.channels() << " response channels but only "
-            << calibration.bands()
-            << " reflectance bands; the metamerism correction expects at least as many bands";
-    reject(message);
+    reject("there are ", calibration.channels(), " response channels but only ",
+      calibration.bands(),
+      " reflectance bands; the metamerism correction expects at least as many bands");
   }
   if (options.maximumRounds < 1)
   {
-    message << "the number of rounds is " << options.maximumRounds << "; expected at least 1";
-    reject(message);
+    reject("the number of rounds is ", options.maximumRounds, "; expected at least 1");
   }
   if (!(options.tuningWeight >= 0.0) || !std::isfinite(options.tuningWeight))
   {
-    message << "the tuning weight is " << options.tuningWeight
-            << "; expected a positive finite number, or 0 for sqrt(L_A / L_T)";
-    reject(message);
+    reject("the tuning weight is ", options.tuningWeight,
+      "; expected a positive finite number, or 0 for sqrt(L_A / L_T)");
   }
   if (options.channelWavelengths && options.channelWavelengths->size() != calibration.channels())
   {
-    message << options.channelWavelengths->size() << " channel wavelengths are given for "
-            << calibration.channels() << " response channels; expected one a channel";
-    reject(message);
+    reject(options.channelWavelengths->size(), " channel wavelengths are given for ",
+      calibration.channels(), " response channels; expected one a channel");
   }
 }
 
@@ -82,12 +72,10 @@ StructureChoice chooseStructure(
   }
   if (tuningSamples < needed())
   {
-    std::ostringstream message;
-    message << "there are " << tuningSamples << " tuning samples for " << needed()
-            << " unknowns a channel of the "
-            << (choice.structure == BandStructure::Diagonal ? "diagonal" : "tridiagonal")
-            << " metamerism transform; expected at least " << needed() << " samples";
-    reject(message);
+    reject("there are ", tuningSamples, " tuning samples for ", needed(),
+      " unknowns a channel of the ",
+      (choice.structure == BandStructure::Diagonal ? "diagonal" : "tridiagonal"),
+      " metamerism transform; expected at least ", needed(), " samples");
   }
   return choice;
 }

@@ -2,6 +2,7 @@
 
 #include "Kernels/Estimation/EstimationMethod.h"
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <sstream>
 #include <stdexcept>
@@ -50,11 +51,9 @@ MethodComparison::MethodComparison(
   }
   if (Options.tuningSamples < 1 || Options.tuningSamples >= Target.size())
   {
-    std::ostringstream message;
-    message << Options.tuningSamples << " tuning samples are asked for and the target has "
-            << Target.size() << " samples; expected a number from 1 to " << Target.size() - 1
-            << ", so that samples are left to test on";
-    throw std::invalid_argument(message.str());
+    reject(Options.tuningSamples, " tuning samples are asked for and the target has ",
+      Target.size(), " samples; expected a number from 1 to ", Target.size() - 1,
+      ", so that samples are left to test on");
   }
 }
 

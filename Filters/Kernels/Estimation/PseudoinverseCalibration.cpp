@@ -1,10 +1,10 @@
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
 
 #include "Kernels/Estimation/LeastSquares.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -55,9 +55,7 @@ CalibrationFit fitPooled(const SampleSet& calibration, const SampleSet& tuning, 
   requireSameShape(calibration, "calibration", tuning, "tuning");
   if (!(tuningWeight > 0.0) || !std::isfinite(tuningWeight))
   {
-    std::ostringstream message;
-    message << "the tuning weight is " << tuningWeight << "; expected a positive finite number";
-    throw std::invalid_argument(message.str());
+    reject("the tuning weight is ", tuningWeight, "; expected a positive finite number");
   }
   const SampleSet both = joined(calibration, tuning);
   Eigen::MatrixXd responses = withConstant(both.response);

@@ -2,9 +2,9 @@
 
 #include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -15,19 +15,15 @@ RModelFit fitRModel(const Eigen::MatrixXd& estimated, const Eigen::MatrixXd& mea
   requireFinite(measured, "measured reflectance");
   if (estimated.rows() != measured.rows() || estimated.cols() != measured.cols())
   {
-    std::ostringstream message;
-    message << "estimated reflectance is " << estimated.rows() << " bands x " << estimated.cols()
-            << " samples but measured reflectance is " << measured.rows() << " x "
-            << measured.cols() << "; expected the same shape";
-    throw std::invalid_argument(message.str());
+    reject("estimated reflectance is ", estimated.rows(), " bands x ", estimated.cols(),
+      " samples but measured reflectance is ", measured.rows(), " x ", measured.cols(),
+      "; expected the same shape");
   }
   const Eigen::Index unknowns = unknownsPerRow(estimated.rows(), 1);
   if (estimated.rows() < 1 || estimated.cols() < unknowns)
   {
-    std::ostringstream message;
-    message << "the R-model has " << estimated.cols() << " tuning samples for " << unknowns
-            << " unknowns a band; expected at least " << unknowns << " samples";
-    throw std::invalid_argument(message.str());
+    reject("the R-model has ", estimated.cols(), " tuning samples for ", unknowns,
+      " unknowns a band; expected at least ", unknowns, " samples");
   }
   const BandedFit banded = fitBanded(estimated, measured, 1);
   RModelFit fit{ AffineTransform(banded.coefficients), {} };

@@ -4,6 +4,7 @@
 #include "Kernels/Estimation/KernelEstimator.h"
 #include "Kernels/Estimation/LocalEstimator.h"
 #include "Kernels/Estimation/TransferEstimator.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <sstream>
@@ -41,10 +42,8 @@ void ReflectanceEstimator::requireChannels(const Eigen::MatrixXd& response) cons
 {
   if (response.rows() != channels())
   {
-    std::ostringstream message;
-    message << "the block has " << response.rows() << " values per pixel but the estimator takes "
-            << channels() << "; expected the same number";
-    throw std::invalid_argument(message.str());
+    reject("the block has ", response.rows(), " values per pixel but the estimator takes ",
+      channels(), "; expected the same number");
   }
 }
 

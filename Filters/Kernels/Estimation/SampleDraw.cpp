@@ -1,9 +1,9 @@
 #include "Kernels/Estimation/SampleDraw.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <random>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -37,10 +37,8 @@ std::vector<Eigen::Index> drawSamples(
 {
   if (count < 0 || count > population)
   {
-    std::ostringstream message;
-    message << count << " samples are to be drawn from " << population
-            << "; expected a number from 0 to " << population;
-    throw std::invalid_argument(message.str());
+    reject(count, " samples are to be drawn from ", population, "; expected a number from 0 to ",
+      population);
   }
   std::mt19937_64 generator(splitMix64(splitMix64(seed) ^ draw));
   std::set<Eigen::Index> chosen;

@@ -1,8 +1,8 @@
 #include "Kernels/Estimation/SampleSet.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -17,10 +17,8 @@ void requireFinite(
       const double value = values(row, sample);
       if (!std::isfinite(value))
       {
-        std::ostringstream message;
-        message << name << " sample " << sample + 1 << ", " << rowName << " " << row + 1 << " is "
-                << value << "; expected a finite number";
-        throw std::invalid_argument(message.str());
+        reject(name, " sample ", sample + 1, ", ", rowName, " ", row + 1, " is ", value,
+          "; expected a finite number");
       }
     }
   }
@@ -35,18 +33,14 @@ void requireValid(const SampleSet& samples, const std::string& name)
 {
   if (samples.bands() < 1 || samples.channels() < 1 || samples.reflectance.cols() < 1)
   {
-    std::ostringstream message;
-    message << name << " has " << samples.reflectance.cols() << " samples, " << samples.bands()
-            << " reflectance bands and " << samples.channels()
-            << " response channels; expected at least one of each";
-    throw std::invalid_argument(message.str());
+    reject(name, " has ", samples.reflectance.cols(), " samples, ", samples.bands(),
+      " reflectance bands and ", samples.channels(),
+      " response channels; expected at least one of each");
   }
   if (samples.reflectance.cols() != samples.response.cols())
   {
-    std::ostringstream message;
-    message << name << " has " << samples.reflectance.cols() << " reflectances but "
-            << samples.response.cols() << " responses; expected one of each per sample";
-    throw std::invalid_argument(message.str());
+    reject(name, " has ", samples.reflectance.cols(), " reflectances but ", samples.response.cols(),
+      " responses; expected one of each per sample");
   }
   requireFinite(samples.reflectance, name, "reflectance band");
   requireFinite(samples.response, name, "response channel");
@@ -59,10 +53,8 @@ void requireSameShape(
   {
     if (ofA != ofB)
     {
-      std::ostringstream message;
-      message << nameOfA << " has " << ofA << " " << what << " but " << nameOfB << " has " << ofB
-              << "; expected the same " << what << " in both";
-      throw std::invalid_argument(message.str());
+      reject(nameOfA, " has ", ofA, " ", what, " but ", nameOfB, " has ", ofB,
+        "; expected the same ", what, " in both");
     }
   };
   compare(a.bands(), b.bands(), "reflectance bands");

@@ -2,9 +2,9 @@
 
 #include "Kernels/Estimation/ReducedTransfer.h"
 #include "Kernels/Estimation/TransferBlocks.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <array>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -40,11 +40,8 @@ void readExpert(const NamedMatrices& parameters, TransferSpace space, Eigen::Ind
   {
     if (!(scalars(scale) > 0.0))
     {
-      std::ostringstream message;
-      message << "element " << scale + 1 << " of matrix '" << prefix
-              << "scalars' of the transfer estimator is " << scalars(scale)
-              << "; expected a positive number";
-      throw std::invalid_argument(message.str());
+      reject("element ", scale + 1, " of matrix '", prefix,
+        "scalars' of the transfer estimator is ", scalars(scale), "; expected a positive number");
     }
   }
   TransferExpert expert;
@@ -81,11 +78,8 @@ TransferMixture readMixture(const NamedMatrices& parameters)
     readExpert(parameters, space, variance.size(), mixture);
     if (mixture.experts.back().points.rows() != mixture.experts.front().points.rows())
     {
-      std::ostringstream message;
-      message << "the experts of the transfer estimator take "
-              << mixture.experts.front().points.rows() << " and "
-              << mixture.experts.back().points.rows() << " channels; expected the same number";
-      throw std::invalid_argument(message.str());
+      reject("the experts of the transfer estimator take ", mixture.experts.front().points.rows(),
+        " and ", mixture.experts.back().points.rows(), " channels; expected the same number");
     }
   }
   mixture.affine = require(

@@ -4,11 +4,10 @@
 #include "Kernels/Scenes/KubelkaMunk.h"
 #include "Kernels/Scenes/Measuring.h"
 #include "Kernels/Scenes/Samples.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace msi::scenes
 {
@@ -30,10 +29,8 @@ void requireRange(
 {
   if (!(value >= lowest && value <= highest))
   {
-    std::ostringstream message;
-    message << "the scene's " << name << " is " << value << unit << "; expected a value from "
-            << lowest << " to " << highest;
-    throw std::invalid_argument(message.str());
+    reject("the scene's ", name, " is ", value, unit, "; expected a value from ", lowest, " to ",
+      highest);
   }
 }
 
@@ -44,11 +41,9 @@ int pitchFor(int columns, int rows, int least, const SceneOptions& options)
     std::min(2 * options.width / (2 * columns + 1), 2 * options.height / (2 * rows + 1));
   if (pitch < least)
   {
-    std::ostringstream message;
-    message << "the scene has " << options.width << " x " << options.height << " pixels; "
-            << columns << " x " << rows << " patches need at least "
-            << (least * (2 * columns + 1) + 1) / 2 << " x " << (least * (2 * rows + 1) + 1) / 2;
-    throw std::invalid_argument(message.str());
+    reject("the scene has ", options.width, " x ", options.height, " pixels; ", columns, " x ",
+      rows, " patches need at least ", (least * (2 * columns + 1) + 1) / 2, " x ",
+      (least * (2 * rows + 1) + 1) / 2);
   }
   return pitch;
 }

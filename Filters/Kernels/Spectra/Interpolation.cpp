@@ -1,10 +1,11 @@
 #include "Kernels/Spectra/Interpolation.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <stdexcept>
 
 namespace msi
@@ -183,10 +184,8 @@ void requireSize(const WavelengthGrid& grid, Eigen::Index least, const char* met
 {
   if (grid.size() < least)
   {
-    std::ostringstream message;
-    message << method << " interpolation needs at least " << least << " wavelengths; the grid has "
-            << grid.size();
-    throw std::invalid_argument(message.str());
+    reject(
+      method, " interpolation needs at least ", least, " wavelengths; the grid has ", grid.size());
   }
 }
 }

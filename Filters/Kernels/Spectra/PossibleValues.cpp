@@ -1,11 +1,12 @@
 #include "Kernels/Spectra/PossibleValues.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
-#include <stdexcept>
 #include <vector>
 
 namespace msi
@@ -64,10 +65,8 @@ void requireNone(
 {
   if (found)
   {
-    std::ostringstream message;
-    message << name << " sample " << found->column + 1 << ", " << row << " " << found->row + 1
-            << " is " << found->value << "; expected " << found->expected << Remedy;
-    throw std::invalid_argument(message.str());
+    reject(name, " sample ", found->column + 1, ", ", row, " ", found->row + 1, " is ",
+      found->value, "; expected ", found->expected, Remedy);
   }
 }
 }

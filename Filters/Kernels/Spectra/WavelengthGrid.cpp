@@ -1,7 +1,8 @@
 #include "Kernels/Spectra/WavelengthGrid.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -13,13 +14,6 @@ namespace
 constexpr double ShortestWavelength = 100.0;
 constexpr double LongestWavelength = 20000.0;
 constexpr double StepTolerance = 1e-6;
-
-[[noreturn]] void reject(std::size_t position, double value, const char* expected)
-{
-  std::ostringstream message;
-  message << "wavelength " << position + 1 << " is " << value << " nm; expected " << expected;
-  throw std::invalid_argument(message.str());
-}
 }
 
 WavelengthGrid::WavelengthGrid(std::vector<double> nanometres)
@@ -34,11 +28,12 @@ WavelengthGrid::WavelengthGrid(std::vector<double> nanometres)
     const double value = Nanometres[i];
     if (!(value >= ShortestWavelength && value <= LongestWavelength))
     {
-      reject(i, value, "a value from 100 to 20000 nm");
+      reject("wavelength ", i + 1, " is ", value, " nm; expected a value from 100 to 20000 nm");
     }
     if (i > 0 && !(value > Nanometres[i - 1]))
     {
-      reject(i, value, "wavelengths in strictly increasing order");
+      reject("wavelength ", i + 1, " is ", value,
+        " nm; expected wavelengths in strictly increasing order");
     }
   }
   Step = commonStep();
@@ -50,10 +45,8 @@ WavelengthGrid WavelengthGrid::uniform(double first, double last, double step)
   const double whole = std::round(count);
   if (!(step > 0.0) || !(whole >= 0.0) || !(whole < 1e6) || std::abs(count - whole) > StepTolerance)
   {
-    std::ostringstream message;
-    message << "a uniform wavelength grid from " << first << " to " << last << " nm in steps of "
-            << step << " nm does not end on its last value";
-    throw std::invalid_argument(message.str());
+    reject("a uniform wavelength grid from ", first, " to ", last, " nm in steps of ", step,
+      " nm does not end on its last value");
   }
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(whole) + 1);

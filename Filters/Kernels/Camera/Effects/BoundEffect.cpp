@@ -1,9 +1,9 @@
 #include "Kernels/Camera/Effects/BoundEffect.h"
 
+#include "Kernels/Spectra/Reject.h"
+
 #include <cassert>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -12,13 +12,6 @@ namespace
 {
 constexpr double BoundTolerance = 0.01;
 
-template <typename... Parts>
-[[noreturn]] void reject(const Parts&... parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
 }
 
 BoundEffect::BoundEffect(const CameraEffect& effect, const CameraModel& camera, int medium)

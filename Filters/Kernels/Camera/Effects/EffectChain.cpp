@@ -2,11 +2,10 @@
 
 #include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Camera/Effects/Effect.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -16,14 +15,8 @@ namespace
 {
 [[noreturn]] void rejectTwice(const CameraEffect& effect)
 {
-  std::ostringstream message;
-  message << "the camera effect " << effect.name << " is given twice";
-  if (!effect.medium.empty())
-  {
-    message << " for medium '" << effect.medium << "'";
-  }
-  message << "; give it once";
-  throw std::invalid_argument(message.str());
+  reject("the camera effect ", effect.name, " is given twice",
+    effect.medium.empty() ? "" : " for medium '" + effect.medium + "'", "; give it once");
 }
 }
 
@@ -191,11 +184,8 @@ void EffectChain::balanceWhite(Eigen::MatrixXd& responsivity) const
   {
     if (!(real[k] > 0.0))
     {
-      std::ostringstream message;
-      message << "with its effects channel " << Camera->channels()[static_cast<std::size_t>(k)]
-              << " answers a perfect white with " << real[k]
-              << "; a white balance needs a value above zero";
-      throw std::invalid_argument(message.str());
+      reject("with its effects channel ", Camera->channels()[static_cast<std::size_t>(k)],
+        " answers a perfect white with ", real[k], "; a white balance needs a value above zero");
     }
   }
   responsivity.array().colwise() *= nominal.array() / real.array();

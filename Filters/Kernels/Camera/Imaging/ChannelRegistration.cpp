@@ -2,12 +2,11 @@
 
 #include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Imaging/WeightedSum.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -90,11 +89,9 @@ ChannelRegistration::ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd do
   if (Right.size() != Down.size() || Right.size() != Magnification.size() ||
     Right.size() != Rotation.size())
   {
-    std::ostringstream message;
-    message << "a registration has " << Right.size() << " displacements to the right, "
-            << Down.size() << " down, " << Magnification.size() << " magnifications and "
-            << Rotation.size() << " rotations; expected one of each for every channel";
-    throw std::invalid_argument(message.str());
+    reject("a registration has ", Right.size(), " displacements to the right, ", Down.size(),
+      " down, ", Magnification.size(), " magnifications and ", Rotation.size(),
+      " rotations; expected one of each for every channel");
   }
   const double half = 0.5 * std::max(extent.width, extent.height);
   const double corner = 0.5 * std::hypot(extent.width, extent.height);

@@ -2,11 +2,11 @@
 
 #include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Camera/Effects/EffectChain.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -15,14 +15,6 @@ namespace msi
 namespace
 {
 constexpr int BlockPixels = 512;
-
-template <typename... Parts>
-[[noreturn]] void reject(const Parts&... parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
 
 std::string describe(const ImageWindow& window)
 {

@@ -1,11 +1,10 @@
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 
 #include "Kernels/Camera/Imaging/WeightedSum.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -37,10 +36,8 @@ ScatterTail::ScatterTail(double radius)
 {
   if (!(radius >= SmallestRadius && radius <= LargestRadius))
   {
-    std::ostringstream message;
-    message << "the radius of the stray light is " << radius << " pixels; expected a value from "
-            << SmallestRadius << " to " << LargestRadius;
-    throw std::invalid_argument(message.str());
+    reject("the radius of the stray light is ", radius, " pixels; expected a value from ",
+      SmallestRadius, " to ", LargestRadius);
   }
   std::vector<double> weights;
   double sum = 0.0;

@@ -4,12 +4,11 @@
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldScene.h"
 #include "Kernels/Gap/Field/FieldTail.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 namespace msi
 {
@@ -195,10 +194,8 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
 {
   if (pair.extent.width < 1 || pair.extent.height < 1 || pair.channels.empty())
   {
-    std::ostringstream message;
-    message << "the images have " << pair.extent.width << " x " << pair.extent.height
-            << " pixels and " << pair.channels.size() << " channels; expected at least one of each";
-    throw std::invalid_argument(message.str());
+    reject("the images have ", pair.extent.width, " x ", pair.extent.height, " pixels and ",
+      pair.channels.size(), " channels; expected at least one of each");
   }
   FieldData data;
   data.pair = pair;
@@ -216,12 +213,9 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
   }
   if (data.blocks.size() < FewestBlocks)
   {
-    std::ostringstream message;
-    message
-      << "the images share " << data.blocks.size() << " blocks of " << data.blockSize << " x "
-      << data.blockSize << " usable pixels; expected at least " << FewestBlocks
-      << ": pixels must be finite in both images, with finite neighbours in the simulated one";
-    throw std::invalid_argument(message.str());
+    reject("the images share ", data.blocks.size(), " blocks of ", data.blockSize, " x ",
+      data.blockSize, " usable pixels; expected at least ", FewestBlocks,
+      ": pixels must be finite in both images, with finite neighbours in the simulated one");
   }
   dealBlocks(pair, data.blocks,
     std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);

@@ -216,7 +216,8 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
         sums.level = scratch.level.mean();
         addDifferences(scratch, block.window, sums);
       }
-      for (Eigen::Index n = 0; weights != nullptr && n < scratch.columns.rows(); ++n)
+      Eigen::ArrayXd root(weights != nullptr ? scratch.columns.rows() : 0);
+      for (Eigen::Index n = 0; n < root.size(); ++n)
       {
         const double variance = varianceOf(weights->noise[k], scratch.level[n]);
         const double size = std::fabs(residual[n]);
@@ -225,7 +226,11 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
           (size > limit ? limit / size : 1.0) / (variance + weights->tolerance[channel]);
         sums.noise += variance;
         sums.chance += variance * weight;
-        scratch.columns.row(n) *= std::sqrt(weight);
+        root[n] = std::sqrt(weight);
+      }
+      if (weights != nullptr)
+      {
+        scratch.columns.array().colwise() *= root;
       }
       sums.normal.setZero(FieldColumn::count(), FieldColumn::count());
       sums.normal.selfadjointView<Eigen::Lower>().rankUpdate(scratch.columns.transpose());

@@ -52,6 +52,17 @@ double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
 }
 }
 
+Eigen::MatrixXd EffectFit::informationOfData() const
+{
+  Eigen::MatrixXd ofData = information;
+  for (std::size_t p = 0; p < free.size(); ++p)
+  {
+    const auto at = static_cast<Eigen::Index>(p);
+    ofData(at, at) -= 1.0 / (free[p].spread * free[p].spread);
+  }
+  return ofData;
+}
+
 EffectFitter::EffectFitter(const GapData& data, std::vector<char> training, std::uint64_t seed)
   : Data(data)
   , Training(std::move(training))

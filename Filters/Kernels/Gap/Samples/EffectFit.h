@@ -38,6 +38,8 @@ struct EffectFit
     1.0; // energy a residual element has, with the samples' correlation between channels
   int iterations = 0;
 
+  Eigen::MatrixXd informationOfData() const; // information without its prior
+
   Eigen::Index parameters() const noexcept
   {
     return jacobian.cols() + static_cast<Eigen::Index>(set.steps());

@@ -4,12 +4,11 @@
 #include "Kernels/Camera/CounterRandom.h"
 #include "Kernels/Gap/Samples/TableDecisions.h"
 #include "Kernels/Spectra/Interpolation.h"
+#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace msi
@@ -17,15 +16,6 @@ namespace msi
 
 namespace
 {
-
-template <typename... Parts>
-[[noreturn]] void reject(const Parts&... parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
-
 void validate(const GapCapture& capture)
 {
   const Eigen::Index channels = capture.camera.channelCount();

@@ -36,17 +36,11 @@ Predictor predictorOf(const SampleObservation& data, const ObservedFit& explanat
 {
   Predictor predictor{ data.linearised(explanation), {}, 0.0 };
   const EffectFit& fit = predictor.fit;
-  Eigen::VectorXd prior(static_cast<Eigen::Index>(fit.free.size()));
-  for (Eigen::Index p = 0; p < prior.size(); ++p)
-  {
-    prior[p] = std::pow(fit.free[static_cast<std::size_t>(p)].spread, -2);
-  }
-  Eigen::MatrixXd information = fit.information;
-  information.diagonal() -= prior;
-  information /= std::fmax(fit.dispersion, 1.0);
-  information.diagonal() += prior;
+  const Eigen::MatrixXd ofData = fit.informationOfData();
+  const Eigen::MatrixXd prior = fit.information - ofData;
+  const Eigen::MatrixXd posterior = ofData / std::fmax(fit.dispersion, 1.0) + prior;
   predictor.covariance =
-    information.ldlt().solve(Eigen::MatrixXd::Identity(prior.size(), prior.size()));
+    posterior.ldlt().solve(Eigen::MatrixXd::Identity(posterior.rows(), posterior.cols()));
   const GroupEnergies energies = data.energies(fit);
   const auto sum = [](const std::vector<double>& values)
   { return std::accumulate(values.begin(), values.end(), 0.0); };
@@ -354,19 +348,20 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion,
   std::uint64_t seed)
 {
-  const std::vector<std::string> separates = disputed(explanations, inQuestion);
-  std::vector<std::set<std::string>> group;
-  std::vector<Predictor> predictors;
+  std::vector<const Explanation*> likely;
   std::vector<double> probability;
+  std::vector<std::set<std::string>> group;
+  std::vector<std::string> effects;
   for (const Explanation& one : explanations)
   {
     if (one.probability >= LeastProbability)
     {
-      predictors.push_back(predictorOf(data, *one.fit));
+      likely.push_back(&one);
       probability.push_back(one.probability);
       group.emplace_back();
       std::set_intersection(one.effects.begin(), one.effects.end(), inQuestion.begin(),
         inQuestion.end(), std::inserter(group.back(), group.back().end()));
+      effects.insert(effects.end(), one.effects.begin(), one.effects.end());
     }
   }
   if (std::set<std::set<std::string>>(group.begin(), group.end()).size() < 2)
@@ -378,17 +373,16 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   {
     one /= all;
   }
+  std::vector<Predictor> predictors;
+  predictors.reserve(likely.size());
+  for (const Explanation* one : likely)
+  {
+    predictors.push_back(predictorOf(data, *one->fit));
+  }
+  const std::vector<std::string> separates = disputed(explanations, inQuestion);
   const GapData& gap = data.fitter().data();
   const CounterRandom random(seed, DrawStream);
   std::vector<GapNextCapture> captures;
-  std::vector<std::string> effects;
-  for (const Predictor& predictor : predictors)
-  {
-    for (const CameraEffect& effect : predictor.fit.set.effects)
-    {
-      effects.push_back(effect.name);
-    }
-  }
   for (const CaptureCandidate& candidate : captureCandidates(gap, effects))
   {
     const SampleScene scene(gap.camera.wavelengths(), candidate.samples);

@@ -28,13 +28,14 @@ std::vector<CaptureCandidate> captureCandidates(
 // The captures that would tell which of the effects in question are causes, the best first; empty where none would tell
 // much. Effects beside them are a nuisance: explanations that differ in those alone are one.
 //
-// Each capture is simulated with this camera and chart under every explanation: its mean by the simulator, its covariance
-// from the noise, from what the explanation leaves of the gap, and from the uncertainty of the explanation's parameters
-// (to first order). A capture's worth is the mutual information of explanation and readings,
-//   I = sum_h p_h E_{y | h} [ log2 p(y | c(h)) - log2 p(y) ]   bits, c(h) the effects in question that h has (Lindley 1956, doi:10.1214/aoms/1177728069),
-// by draws from a counter generator; with p from `explanations`. They are ranked by I per minute, getting ready included.
-// A capture that measures a part of the camera or of a sample (a lamp's spectrum, fluorescence) is the chart again with the
-// effects on that part known: explanations by them predict no gap there.
+// Each capture is simulated with this camera and chart under every explanation: its mean by the simulator, its
+// covariance from the noise, from what the explanation leaves of the gap, and from the uncertainty of the explanation's
+// parameters (to first order). A capture's worth is the mutual information of explanation and readings,
+//   I = sum_h p_h E_{y | h} [ log2 p(y | c(h)) - log2 p(y) ]   bits (Lindley 1956, doi:10.1214/aoms/1177728069),
+// with p from `explanations` and c(h) the effects in question that h has, by draws from a counter generator. They are
+// ranked by I per minute, getting ready included. A capture that measures a part of the camera or of a sample (a lamp's
+// spectrum, fluorescence) is the chart again with the effects on that part known: explanations by them predict no gap
+// there.
 std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion,
   std::uint64_t seed);

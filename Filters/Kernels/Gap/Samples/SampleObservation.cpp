@@ -159,14 +159,8 @@ FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> 
     const double value = valueOf(fit.set, parameter);
     described->atBound = described->atBound || value <= parameter.lower || value >= parameter.upper;
   }
-  Eigen::MatrixXd information = fit.information;
-  for (std::size_t p = 0; p < fit.free.size(); ++p)
-  {
-    const auto at = static_cast<Eigen::Index>(p);
-    information(at, at) -= 1.0 / (fit.free[p].spread * fit.free[p].spread);
-  }
   const LearnedPrior prior(numbersOf(fit));
-  described->information = prior.informationOf(information);
+  described->information = prior.informationOf(fit.informationOfData());
   described->surprise = prior.surprise;
   described->chanceOfCurve = prior.chanceOfCurve;
   // The place of a step is a number, too, found among those of the samples.

@@ -1,0 +1,41 @@
+"""The active view suits the selected source: ParaView shows a result in the active view where that can show it at all, and so an image as
+a table of its pixels after a table was looked at. Another table would get a view of its own each time."""
+
+from PyQt5 import QtCore
+from paraview import servermanager, simple
+
+from .menus import CATEGORY
+
+
+def install():
+    """Returns what must be kept."""
+    model = servermanager.ProxyManager().GetSelectionModel("ActiveSources")
+    model.AddObserver("CurrentChangedEvent", lambda *_: QtCore.QTimer.singleShot(0, adapt))
+    return model
+
+
+def adapt():
+    source, active = simple.GetActiveSource(), simple.GetActiveView()
+    wanted = _view_of(source) if source is not None and active is not None else None
+    if wanted is None or active.SMProxy.GetXMLName() == wanted:
+        return
+    suitable = [view for view in simple.GetViews() if view.SMProxy.GetXMLName() == wanted]
+    if suitable:
+        simple.SetActiveView(suitable[0])
+
+
+def _view_of(source):
+    """The kind of view for a source of this plugin, also before it was applied; None for others."""
+    hints = source.SMProxy.GetHints()
+    menu = hints.FindNestedElementByName("ShowInMenu") if hints is not None else None
+    if menu is None or menu.GetAttribute("category") != CATEGORY:
+        return None
+    if hints.FindNestedElementByName("Representation") is not None and _takes_image(source):
+        return "RenderView"
+    view = hints.FindNestedElementByName("View")
+    return "SpreadSheetView" if view is None or view.GetAttribute("type") != "XYChartView" else None
+
+
+def _takes_image(source):
+    first = getattr(source, "Input", None)
+    return first is None or first.GetDataInformation(first.Port).GetDataSetTypeAsString() == "vtkImageData"

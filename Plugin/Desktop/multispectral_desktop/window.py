@@ -60,6 +60,7 @@ def open_scene(window):
     folder = _ask_folder(window)
     if folder:
         _, scene = main_job.open_scene(folder)
+        view_choice.adapt()
         view = simple.GetActiveViewOrCreate("RenderView")
         simple.Show(scene, view)
         view.InteractionMode = "2D"
@@ -106,13 +107,14 @@ class MainJobDialog(QtWidgets.QDialog):
         self.swatches = self._line(form, "Swatches", "table of a few samples of the material; empty: swatches.csv of "
                                    "the scene, or none", lambda: self._browse_table(self.swatches))
         self.light = self._choice(form, "Light", lights.LIGHTS, "Under which colors are shown and compared: a CIE illuminant "
-                                  "(A, D50, D5500K, FL1 to FL12, LED-B1, ..), or a file with the lamp's power: wavelength in "
+                                  "(A, D50, D5500K, F1 to F12, LED-B1, ..), or a file with the lamp's power: wavelength in "
                                   "nm, then one column per lamp", "The lamp's power")
         self.observer = self._choice(form, "Observer", tuple(lights.OBSERVERS), "A CIE standard observer, or a file with one: "
                                      "wavelength in nm, x-bar, y-bar, z-bar", "The observer's curves")
         buttons = QtWidgets.QDialogButtonBox(QtWidgets.QDialogButtonBox.Cancel)
         self.run = buttons.addButton("Run", QtWidgets.QDialogButtonBox.AcceptRole)
         self.run.setObjectName("MultispectralRun")
+        buttons.button(QtWidgets.QDialogButtonBox.Cancel).setAutoDefault(False)  # else Enter cancels: Run is disabled at first
         self.run.setDefault(True)
         self.run.setEnabled(False)
         buttons.accepted.connect(self.accept)

@@ -10,8 +10,10 @@ import struct
 from . import command, outputs, painter
 
 _MOST_ROWS_SHOWN = 12  # longer tables are folded
+_LONG = 40  # letters: such a cell is broken into lines
 _WIDE = 2.5  # times the height: needs the whole width of the page
-_WORDS = {"p95": "95th percentile", "left_out": "left out"}  # of the tables' columns
+_WORDS = {"p95": "95th percentile", "left_out": "left out", "residual_rms": "residual rms", "OutOfRange": "excess over range",
+          "UncertaintyRms": "standard uncertainty"}  # of the tables' columns and the maps
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 62rem; margin: 2rem auto;
        padding: 0 1rem; }
@@ -25,6 +27,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size
 th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e3e3e3; }
 th:first-child, td:first-child { text-align: left; }
 td.text, th.text { text-align: left; }
+td { white-space: nowrap; } td.long { white-space: normal; min-width: 20rem; }
 .scroll { overflow-x: auto; }
 .lead { font-size: 1.2rem; } .warning { background: #fff3cd; border-left: 4px solid #e69f00; padding: .5rem .8rem; }
 details summary { cursor: pointer; } figure a { display: block; }
@@ -102,7 +105,9 @@ def _section(title, content):
 
 
 def _class(value):
-    return " class='text'" if isinstance(value, str) else ""
+    if not isinstance(value, str):
+        return ""
+    return " class='text long'" if len(value) > _LONG else " class='text'"
 
 
 def _cell(value):

@@ -27,7 +27,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size
 th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e3e3e3; }
 th:first-child, td:first-child { text-align: left; }
 td.text, th.text { text-align: left; }
-td { white-space: nowrap; } td.long { white-space: normal; min-width: 20rem; }
+td { white-space: nowrap; } td.long { white-space: normal; min-width: 12rem; }
 .scroll { overflow-x: auto; }
 .lead { font-size: 1.2rem; } .warning { background: #fff3cd; border-left: 4px solid #e69f00; padding: .5rem .8rem; }
 details summary { cursor: pointer; } figure a { display: block; }

@@ -4,7 +4,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
-from . import command, outputs, painter, pipeline, report
+from . import command, outputs, painter, pipeline
 
 # Okabe and Ito's palette: told apart with any color vision.
 COLORS = {
@@ -131,8 +131,8 @@ def _draw_image(path, pixels, title, value_range, shown):
     drawn = _draw(plot, pixels, "viridis", value_range, _even_steps() if fixed else None)
     bar = figure.colorbar(drawn, ticks=DIFFERENCES if fixed else None, cax=figure.add_axes(((width + 0.15 * legend) / (width + legend), 0.12,
                                                       0.12 * legend / (width + legend), 0.76)))
-    bar.set_label(report.in_words(title), fontsize=18 * enlarged)
-    bar.ax.tick_params(labelsize=15 * enlarged)
+    bar.set_label(title, fontsize=13 * enlarged)
+    bar.ax.tick_params(labelsize=11 * enlarged)
     bar.outline.set_visible(False)
     _save(figure, path)
 

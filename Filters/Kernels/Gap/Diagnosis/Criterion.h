@@ -12,13 +12,14 @@ namespace msi
 //
 // Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera; f: Decision::FormPart.
 // phi, the dispersion, is what one independent number of the best residual known has of energy: noise, as far as
-//   it is coherent within groups, and what is left beyond noise, which counts as Decision::DiscrepancyNumbers numbers,
+//   it is coherent within groups, and what is left beyond noise, which counts as `numbers` numbers,
 //   or as one per group where there are fewer groups.
 // m = (Q + f G) / phi of that residual: the independent numbers.
 class Criterion
 {
 public:
-  Criterion(const Observation& data, const ObservedFit& nominal);
+  // numbers: Decision::DiscrepancyNumbers, or BeliefNumbers.
+  Criterion(const Observation& data, const ObservedFit& nominal, double numbers);
 
   // The least energy known sets the dispersion. coherence: of its fit.
   void refer(double energy, double coherence);

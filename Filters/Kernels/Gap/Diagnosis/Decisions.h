@@ -8,6 +8,9 @@ namespace msi::Decision
 // independent numbers, however many samples there are; but as no more than there are groups.
 inline constexpr double DiscrepancyNumbers = 50.0;
 
+// And as this many where it is asked how sure the answer is.
+inline constexpr double BeliefNumbers = 25.0;
+
 // Part of the gap's energy that the forms of effects, approximations of physics, leave at the least.
 inline constexpr double FormPart = 0.004;
 

@@ -210,7 +210,7 @@ double unknownProbability(const Observation& data, const FoundSets& found, doubl
 std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets& found)
 {
   // Of a set of causes only the likeliest forms count: more forms make no effect likelier.
-  const double top = *std::max_element(found.score.begin(), found.score.end());
+  const double top = *std::max_element(found.belief.begin(), found.belief.end());
   std::map<std::set<std::string>, Explanation> sets;
   double all = 0.0;
   for (std::size_t v = 0; v < found.visited.size(); ++v)
@@ -220,7 +220,7 @@ std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets
     {
       names.insert(data.options()[option].effect->name);
     }
-    const double weight = std::exp((found.score[v] - top) / Decision::Temperature);
+    const double weight = std::exp((found.belief[v] - top) / Decision::Temperature);
     Explanation& explanation = sets[names];
     if (!explanation.fit || weight > explanation.probability)
     {

@@ -20,7 +20,7 @@ public:
     , Limits(limits)
     , Stop(stop)
     , Nominal(data.nominal())
-    , Score(data, *Nominal)
+    , Score(data, *Nominal, Decision::DiscrepancyNumbers)
   {
     Visited.push_back(Nominal);
   }
@@ -41,10 +41,16 @@ public:
         break;
       }
     }
-    FoundSets found{ Nominal, best(), Visited, {}, Score.gapEnergy(), Score.dispersion() };
+    FoundSets found{ Nominal, best(), Visited, {}, {}, Score.gapEnergy(), Score.dispersion() };
+    Criterion belief(Data, *Nominal, Decision::BeliefNumbers);
+    for (const FitPointer& fit : Visited)
+    {
+      belief.refer(fit->energy, fit->coherence);
+    }
     for (const FitPointer& fit : Visited)
     {
       found.score.push_back(Score(*fit));
+      found.belief.push_back(belief(*fit));
     }
     return found;
   }

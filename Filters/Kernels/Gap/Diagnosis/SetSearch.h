@@ -23,6 +23,7 @@ struct FoundSets
   FitPointer nominal, best;
   std::vector<FitPointer> visited; // every set that was fitted, of each only the likeliest form
   std::vector<double> score;       // of each, by the final criterion
+  std::vector<double> belief;      // of each, by the criterion with Decision::BeliefNumbers
   double gapEnergy = 0.0;
   double dispersion = 1.0;
 };

@@ -16,7 +16,8 @@ namespace msi
 // The values where something was measured, 0 elsewhere.
 Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values);
 
-// Without noise model and repeats: per channel what no basis predicts is noise.
+// Without noise model and repeats: per channel what no basis predicts is noise; but what the channels of a sample share only up to
+// TableDecision::SampleScatter.
 void setUnknownNoise(GapData& data);
 
 // The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than

@@ -14,7 +14,9 @@ namespace msi
 
 namespace
 {
-constexpr double LeastPart = 0.03; // of the causes together
+// Of the causes together. Every camera has small errors in its channels.
+constexpr double LeastPart = 0.03;
+constexpr double LeastPartPerChannel = 0.1;
 constexpr std::size_t EquivalentNamed = 2;
 }
 
@@ -100,7 +102,8 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes)
   };
   const double all = sumOf(causes);
   const auto first = std::stable_partition(causes.begin(), causes.end(),
-    [all](const GapCause& cause) { return cause.share > LeastPart * all; });
+    [all](const GapCause& cause)
+    { return cause.share > (cause.perChannel ? LeastPartPerChannel : LeastPart) * all; });
   report.uncredited.clear();
   std::transform(first, causes.end(), std::back_inserter(report.uncredited),
     [](const GapCause& cause) { return cause.effect; });

@@ -21,7 +21,7 @@ void requireKnown(const std::vector<std::string>& without);
 GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept;
 
 // Takes the causes into the report, and what none of them explains. Those that get less than 3 %
-// of what all get are no causes: their effects go to GapReport::uncredited.
+// of what all get are no causes, nor are numbers of single channels with less than 10 %: their effects go to GapReport::uncredited.
 void creditCauses(GapReport& report, std::vector<GapCause> causes);
 
 // Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
+#include "Kernels/Camera/CounterRandom.h"
 #include "Kernels/Gap/Samples/GapTestData.h"
 
 #include <gtest/gtest.h>
@@ -312,6 +313,24 @@ TEST(DegenerateCapture, OneReadingAndNoNoiseModel)
   EXPECT_TRUE(says(report.notes, "No noise model and one reading a sample"));
   EXPECT_EQ(report.verdict, GapVerdict::Explained);
   EXPECT_EQ(report.causes.front().effect, "exposure_gain");
+}
+
+// Channels are read one by one: their noise is independent, a sample's own gain is not.
+TEST(SimToRealGap, WithoutNoiseModelWhatChannelsShareIsAGap)
+{
+  msi::GapCapture capture = captureOf(rasterSamples(96), {}, 1, 0.01);
+  capture.noise.reset();
+  EXPECT_EQ(diagnosisOf(capture).verdict, GapVerdict::NoGap);
+  capture = captureOf(rasterSamples(96), {}, 1);
+  capture.noise.reset();
+  const msi::CounterRandom random(7, 1);
+  for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
+  {
+    capture.readings.col(j) *= 1.0 + 0.05 * random.normal(static_cast<std::uint64_t>(j));
+  }
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_EQ(report.verdict, GapVerdict::Unexplained);
+  EXPECT_EQ(report.where.front().axis, "sample");
 }
 
 TEST(DegenerateCapture, NoMediaNoPositionsNoOrder)

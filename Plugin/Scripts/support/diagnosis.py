@@ -226,9 +226,8 @@ def uncredited_lines(figures, gap):
     place = "" if not where else f" ({where})" if where.startswith("no ") else f", most of it at {where}"
     if share <= left + 0.02:
         return [f"Left over: {100 * share:.0f} % of the gap{place}."]
-    return [f"No cause accounts for {100 * share:.0f} % of the gap: {100 * left:.0f} % remains after the correction{place}. The "
-            "correction removes the rest, but the shares are conservative: they leave out what two causes cancel of each other, "
-            "and the causes may hide as much again as what remains."]
+    return [f"No cause accounts for {100 * share:.0f} % of the gap: {100 * left:.0f} % remains after the correction{place}; the "
+            "rest is removed by effects that are too small to be called causes."]
 
 
 def verdict_section(figures, causes, gap):

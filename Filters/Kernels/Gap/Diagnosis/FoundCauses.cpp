@@ -128,6 +128,7 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
     cause.effect = option.effect->name;
     cause.form = option.form;
     cause.medium = option.medium;
+    cause.perChannel = option.perChannel;
     cause.share = sum > 0.0 ? shrink * share[p] / sum : 0.0;
     cause.shrink = reached[std::size_t(1) << p];
     cause.equivalent = equivalentsAt(data, found, p);

@@ -124,4 +124,34 @@ Extent requestedExtentWithoutGhosts(vtkInformation* output)
   return requested(output, 0);
 }
 
+Extent grown(const Extent& extent, int margin, const Extent& whole)
+{
+  Extent larger = extent;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    larger[2 * axis] = std::max(whole[2 * axis], extent[2 * axis] - margin);
+    larger[2 * axis + 1] = std::min(whole[2 * axis + 1], extent[2 * axis + 1] + margin);
+  }
+  return larger;
+}
+
+bool contains(const Extent& outer, const Extent& inner)
+{
+  return outer[0] <= inner[0] && outer[1] >= inner[1] && outer[2] <= inner[2] &&
+    outer[3] >= inner[3];
+}
+
+void requestWithMargin(vtkInformation* input, vtkInformation* output, int margin)
+{
+  if (output->Get(SDDP::UPDATE_NUMBER_OF_PIECES()) > 1)
+  {
+    // The source cuts its piece itself; ghosts are the margin.
+    input->Set(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(),
+      output->Get(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS()) + margin);
+    return;
+  }
+  const Extent extent = grown(requestedExtent(output), margin, wholeExtent(input));
+  input->Set(SDDP::UPDATE_EXTENT(), extent.data(), 6);
+}
+
 } // namespace msi

@@ -31,6 +31,13 @@ Extent requestedExtent(vtkInformation* output);
 // The same without the ghosts.
 Extent requestedExtentWithoutGhosts(vtkInformation* output);
 
+// The extent with a margin of pixels in x and y, cut at the whole image.
+Extent grown(const Extent& extent, int margin, const Extent& whole);
+bool contains(const Extent& outer, const Extent& inner);
+
+// Asks an input for the pixels that are asked for of an output, and a margin around them. For RequestUpdateExtent.
+void requestWithMargin(vtkInformation* input, vtkInformation* output, int margin);
+
 } // namespace msi
 
 #endif

@@ -1,6 +1,7 @@
 #include "ImageSimulation.h"
 
 #include "CameraTable.h"
+#include "ImageStrips.h"
 #include "SpectralImage.h"
 
 #include "vtkAlgorithm.h"
@@ -16,7 +17,6 @@
 #include "Kernels/Camera/Imaging/SceneMean.h"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -27,12 +27,6 @@ namespace msi
 namespace
 {
 constexpr int LeastStripRows = 32;
-
-ImageWindow windowOf(const Extent& extent, const Extent& whole)
-{
-  return { extent[0] - whole[0], extent[2] - whole[2], extent[1] - extent[0] + 1,
-    extent[3] - extent[2] + 1 };
-}
 
 Extent extentOf(vtkImageData* image)
 {
@@ -66,62 +60,6 @@ std::vector<int> mediaOf(const ImageSimulator& simulator, const ImageSimulationI
   }
   return media;
 }
-
-// Calls work(first row, rows) for strips that cover [0, rows), in threads, with progress and the chance to abort.
-// An exception of the work stops it and goes on to the caller.
-template <typename Work>
-void forStrips(vtkAlgorithm* algorithm, int rows, int stripRows, double progress, const Work& work)
-{
-  const int strips = (rows + stripRows - 1) / stripRows;
-  const int round = std::max(1, 2 * vtkSMPTools::GetEstimatedNumberOfThreads());
-  for (int first = 0; first < strips; first += round)
-  {
-    if (algorithm->GetAbortExecute())
-    {
-      throw std::runtime_error("stopped by the user");
-    }
-    std::atomic<bool> failed{ false };
-    vtkSMPTools::For(first, std::min(strips, first + round), 1,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (auto strip = static_cast<int>(begin); strip < end && !failed; ++strip)
-        {
-          try
-          {
-            const int row = strip * stripRows;
-            work(row, std::min(stripRows, rows - row));
-          }
-          catch (const std::exception&)
-          {
-            failed = true;
-          }
-        }
-      });
-    if (failed)
-    {
-      throw std::runtime_error("the memory does not suffice for the image");
-    }
-    algorithm->UpdateProgress(
-      progress + (1.0 - progress) * std::min(1.0, static_cast<double>(first + round) / strips));
-  }
-}
-}
-
-Extent grown(const Extent& extent, int margin, const Extent& whole)
-{
-  Extent larger = extent;
-  for (std::size_t axis = 0; axis < 2; ++axis)
-  {
-    larger[2 * axis] = std::max(whole[2 * axis], extent[2 * axis] - margin);
-    larger[2 * axis + 1] = std::min(whole[2 * axis + 1], extent[2 * axis + 1] + margin);
-  }
-  return larger;
-}
-
-bool contains(const Extent& outer, const Extent& inner)
-{
-  return outer[0] <= inner[0] && outer[1] >= inner[1] && outer[2] <= inner[2] &&
-    outer[3] >= inner[3];
 }
 
 void simulateImage(vtkAlgorithm* algorithm, const ImageSimulator& simulator,

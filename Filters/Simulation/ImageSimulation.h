@@ -15,10 +15,6 @@ class vtkImageData;
 namespace msi
 {
 
-// The extent with a margin of pixels in x and y, cut at the whole image.
-Extent grown(const Extent& extent, int margin, const Extent& whole);
-bool contains(const Extent& outer, const Extent& inner);
-
 struct ImageSimulationInput
 {
   vtkImageData* image; // at least the pixels of `extent` and the simulator's halo around them

@@ -130,16 +130,9 @@ int vtkCameraSimulator::RequestUpdateExtent(
   {
     input->Set(Pipeline::UPDATE_EXTENT(), whole.data(), 6);
   }
-  else if (output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) > 1)
-  {
-    // The source cuts its piece itself; ghosts are the margin.
-    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(),
-      output->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) + this->Margin);
-  }
   else
   {
-    const auto extent = msi::grown(msi::requestedExtent(output), this->Margin, whole);
-    input->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
+    msi::requestWithMargin(input, output, this->Margin);
   }
   return 1;
 }

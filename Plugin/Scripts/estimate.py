@@ -55,6 +55,9 @@ def arguments():
                         help="exposure times of the image: one, or one per channel; with --white-exposure")
     frames.add_argument("--white-exposure", metavar="T", nargs="+", type=number(0.0),
                         help="exposure times of the white reference, in the same unit")
+    frames.add_argument("--register", metavar="FILE", nargs="?", const="",
+                        help="the channels are shifted against each other: find by how much, and move them; "
+                             "FILE: displacements.csv of an earlier run, best of a chart")
     frames.add_argument("--trust-responses", action="store_true",
                         help="estimate also an image whose responses look like raw counts beside the calibration's; "
                              "else that is an error")
@@ -83,7 +86,7 @@ from support import estimation, pipeline, report, state  # noqa: E402
 
 def require_inputs(options):
     lists = [options.image, options.white or [], options.dark or []]
-    singles = [options.calibration, options.tuning, options.labels, options.patches]
+    singles = [options.calibration, options.tuning, options.labels, options.patches, options.register or None]
     command.require_files(*[path for paths in lists for path in paths], *singles, *colors.files(options))
 
 
@@ -95,15 +98,28 @@ def read_tables(options):
     return tables
 
 
-def responses(options, stride=1):
-    """The image with its frames, which nothing has read yet."""
+def responses(options, stride=1, displacements=None):
+    """The image with its frames, registered where there are displacements, which nothing has read yet."""
     def read(files):
         return estimation.read_image(files, options.wavelengths, stride) if files else None
     given = {"WhiteReflectance": options.white_reflectance, "WhiteLevel": options.white_level,
              "SaturationLevel": options.saturation, "ExposureTimes": options.exposure,
              "WhiteExposureTimes": options.white_exposure}
-    return estimation.flat_field(read(options.image), read(options.white), read(options.dark),
-                                 **{name: value for name, value in given.items() if value is not None})
+    image = estimation.flat_field(read(options.image), read(options.white), read(options.dark),
+                                  **{name: value for name, value in given.items() if value is not None})
+    return estimation.registered(image, displacements)
+
+
+def find_displacements(options, folder):
+    """The table of the channels' displacements, written where they are found; None where they are not asked for."""
+    if options.register is None:
+        return None
+    if options.register:
+        return pipeline.create("SampleTableReader", FileName=options.register)
+    found = pipeline.create("ChannelDisplacement", Input=responses(options))
+    pipeline.update(found)
+    pipeline.save_table(found, os.path.join(folder, "displacements.csv"))
+    return found
 
 
 def summarize(options, viewed, judged, outside, missing):
@@ -125,7 +141,7 @@ WRITES = (
     "reflectance-transform.csv", "metamerism-transform.csv", "reflectance.exr", "reflectance.img", "reflectance.hdr",
     "rgb.png", "srgb.png", "out-of-range.png", "uncertainty.png", "error-rms.png",
     "error-dE*.png", "error-maps.img", "error-maps.hdr", "errors-of-pixels.csv", "errors-of-patches.csv",
-    "patches.csv", "state.pvsm", "report.html")
+    "patches.csv", "displacements.csv", "state.pvsm", "report.html")
 
 
 def main():
@@ -135,7 +151,8 @@ def main():
     pipeline.load_plugin()
     viewed = colors.Colors(options)
 
-    image = responses(options)
+    displacements = find_displacements(options, folder)
+    image = responses(options, displacements=displacements)
     stride = estimation.stride_of_pictures(image)
     pipeline.fail_on_error()
     calibration, tuning, patches = read_tables(options)
@@ -158,13 +175,13 @@ def main():
 
     transforms, summary = estimation.correction(calibration, tuning, methods.NAMES[options.method])
     judged_image, outside, missing = estimation.require_plausible(
-        responses(options, estimation.stride_of_judgement(image)), transforms, options.trust_responses)
+        responses(options, estimation.stride_of_judgement(image), displacements), transforms, options.trust_responses)
     reflectance = estimation.estimate(image, transforms, folder, options.trust_responses)
     estimation.save_reflectance(reflectance, folder, options.cube)
     view = reflectance, labels
     if stride > 1:
         command.say(f"the pictures show every {stride}th pixel of the image")
-        view = (pipeline.create("ReflectanceEstimation", Input=responses(options, stride),
+        view = (pipeline.create("ReflectanceEstimation", Input=responses(options, stride, displacements),
                                 TrustResponses=int(options.trust_responses), **transforms),
                 labels and estimation.read_labels(options.labels, stride))
     estimation.save_view(view[0], folder, reflectance, viewed)
@@ -172,6 +189,9 @@ def main():
                  "rgb.png": f"The colors under {viewed.illuminants[0]}; srgb.png has them at the image's own size"}),
              estimation.save_quality(judged_image, folder),
              report.table("The fit", *pipeline.table(summary))]
+    if displacements is not None:
+        pages.append(report.table("How the channels lay beside one another, in pixels and degrees",
+                                  *pipeline.table(displacements)))
     judged = None
     if labels is not None:
         judged = estimation.judge(reflectance, labels, held_out, folder, view=view, colors=viewed)

@@ -12,7 +12,7 @@ GROUPS = (
     ("Images", "scene", ("SceneReader", "SpectralImageReader", "LabelImageReader", "SyntheticScene")),
     ("Tables", "table", ("SampleTableReader", "CurveReader")),
     ("Cameras", "camera", ("CameraReader", "CaptureReader")),
-    ("Prepare", "chart", ("FlatFieldCorrection", "ChannelSelection", "ChartFinder", "PatchSampler")),
+    ("Prepare", "chart", ("FlatFieldCorrection", "ChannelDisplacement", "ChannelRegistration", "ChannelSelection", "ChartFinder", "PatchSampler")),
     ("Samples", "table", ("SampleSplit", "SampleChoice")),
     ("Estimate", "estimate", ("ReflectanceCalibration", "MetamerismCorrection", "ReflectanceEstimation", "MethodComparison")),
     ("Judge", "compare", ("PatchReferenceImage", "CIEDE2000Evaluator", "ErrorSummary")),

@@ -38,6 +38,13 @@ def flat_field(image, white, dark, **options):
     return pipeline.create("FlatFieldCorrection", Input=image, Preview=0, **frames)
 
 
+def registered(image, displacements):
+    """The channels of the image on one another; the image itself without displacements."""
+    if displacements is None:
+        return image
+    return pipeline.create("ChannelRegistration", Input=image, Displacements=displacements, Preview=0)
+
+
 def stride_of_pictures(image):
     """1, or every how many pixels a picture of this image shows."""
     width, height = pictures.size(image)

@@ -1,0 +1,181 @@
+#include "Kernels/Camera/CameraTestData.h"
+#include "Kernels/Camera/Imaging/ChannelDisplacement.h"
+#include "Kernels/Camera/Imaging/DisplacedChart.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace
+{
+using msi::ChannelDisplacement;
+using msi::DisplacementModel;
+using msi::DisplacementSearch;
+using msi::PixelBuffer;
+using msi::test::DisplacedChart;
+using msi::test::messageOf;
+
+constexpr int ReferenceChannel = 2;
+const std::vector<ChannelDisplacement> Shifts{ { 1.37, -0.62 }, { -2.45, 0.18 }, {}, { 0.5, 0.5 },
+  { 7.3, -5.9 } };
+const std::vector<ChannelDisplacement> Similarities{ { 1.37, -0.62, 1.5e-3, 0.11 },
+  { -2.45, 0.18, -0.8e-3, -0.23 }, {}, { 0.25, 0.75, 0.0, 0.07 }, { 4.1, -3.3, 2.2e-3, 0.0 } };
+
+std::vector<PixelBuffer> tilesOf(const DisplacedChart& chart)
+{
+  std::vector<PixelBuffer> tiles;
+  for (const msi::ImageWindow& window : msi::displacementTiles(chart.extent))
+  {
+    tiles.push_back(chart.pixels(window));
+  }
+  return tiles;
+}
+
+// The largest error anywhere in the image that wrong numbers lead to, in pixels.
+double placeError(
+  const ChannelDisplacement& found, const ChannelDisplacement& truth, const msi::ImageExtent& extent)
+{
+  const double corner = 0.5 * std::hypot(extent.width, extent.height);
+  return std::hypot(found.right - truth.right, found.down - truth.down) +
+    corner *
+    std::hypot(found.magnification - truth.magnification,
+      (found.rotation - truth.rotation) * std::acos(-1.0) / 180.0);
+}
+
+TEST(ChannelDisplacement, FindsShiftsBelowAPixelWhateverTheContrasts)
+{
+  // Contrasts of the patches are drawn for every channel: half of the edges are reversed.
+  const DisplacedChart chart{ { 260, 190 }, Shifts };
+  const auto tiles = tilesOf(chart);
+  const DisplacementSearch search(tiles, chart.extent, ReferenceChannel, DisplacementModel::Shift);
+  for (int k = 0; k < 5; ++k)
+  {
+    const auto i = static_cast<std::size_t>(k);
+    EXPECT_LT(placeError(search(k), Shifts[i], chart.extent), 0.015) << "channel " << k;
+  }
+}
+
+TEST(ChannelDisplacement, FindsMagnificationAndRotationInTilesOfALargeImage)
+{
+  const DisplacedChart chart{ { 900, 700 }, Similarities };
+  const auto tiles = tilesOf(chart);
+  ASSERT_EQ(tiles.size(), 16U);
+  const DisplacementSearch search(
+    tiles, chart.extent, ReferenceChannel, DisplacementModel::Similarity);
+  for (int k = 0; k < 5; ++k)
+  {
+    const auto i = static_cast<std::size_t>(k);
+    EXPECT_LT(placeError(search(k), Similarities[i], chart.extent), 0.03) << "channel " << k;
+  }
+}
+
+TEST(ChannelDisplacement, StandardErrorsAreTheSpreadOverNoisyImages)
+{
+  double sum = 0.0;
+  int count = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed)
+  {
+    const DisplacedChart chart{ { 200, 160 }, { { 0.7, -0.4 }, {} }, 0.02, seed };
+    const auto tiles = tilesOf(chart);
+    const ChannelDisplacement found =
+      DisplacementSearch(tiles, chart.extent, 1, DisplacementModel::Shift)(0);
+    for (const double z : { (found.right - 0.7) / found.standardError[0],
+           (found.down + 0.4) / found.standardError[1] })
+    {
+      sum += z * z;
+      ++count;
+    }
+  }
+  const double ratio = std::sqrt(sum / count);
+  EXPECT_GT(ratio, 0.6);
+  EXPECT_LT(ratio, 1.6);
+}
+
+TEST(ChannelDisplacement, RegistrationPutsTheChannelsBack)
+{
+  const DisplacedChart chart{ { 200, 170 }, Similarities };
+  DisplacedChart straight = chart;
+  straight.displacements.assign(Similarities.size(), {});
+  const PixelBuffer expected = straight.pixels(msi::wholeImage(chart.extent));
+  PixelBuffer registered = chart.pixels(msi::wholeImage(chart.extent));
+  double before = 0.0;
+  for (std::size_t i = 0; i < expected.values.size(); ++i)
+  {
+    before = std::max(before, std::abs(static_cast<double>(registered.values[i] - expected.values[i])));
+  }
+  PixelBuffer scratch;
+  msi::undoing(Similarities, chart.extent)(registered, scratch);
+  double after = 0.0;
+  int shown = 0;
+  for (int y = 0; y < chart.extent.height; ++y)
+  {
+    for (int x = 0; x < chart.extent.width; ++x)
+    {
+      for (std::size_t k = 0; k < Similarities.size(); ++k)
+      {
+        if (msi::showsPixel(Similarities[k], chart.extent, x, y))
+        {
+          ++shown;
+          // Cubic convolution reads two pixels to each side, which the edge cuts.
+          const bool isInside =
+            x > 9 && y > 9 && x < chart.extent.width - 10 && y < chart.extent.height - 10;
+          const double error = std::abs(
+            static_cast<double>(registered.pixel(x, y)[k]) - static_cast<double>(expected.pixel(x, y)[k]));
+          after = isInside ? std::max(after, error) : after;
+        }
+      }
+    }
+  }
+  EXPECT_GT(before, 0.3);
+  EXPECT_LT(after, 0.02);
+  EXPECT_GT(shown, 0.94 * static_cast<double>(expected.values.size()));
+  EXPECT_LT(shown, static_cast<int>(expected.values.size()));
+}
+
+TEST(ChannelDisplacement, SaysWhereTheImageDoesNotTell)
+{
+  DisplacedChart chart{ { 120, 100 }, { { 0.4, 0.2 }, {} } };
+  auto tiles = tilesOf(chart);
+  for (std::size_t i = 0; i < tiles[0].values.size(); i += 2)
+  {
+    tiles[0].values[i] = 0.5F; // the first channel shows nothing
+  }
+  const DisplacementSearch search(tiles, chart.extent, 1, DisplacementModel::Shift);
+  EXPECT_FALSE(std::isfinite(search(0).standardError[0]));
+  EXPECT_EQ(msi::channelOfMostStructure(tiles), 1);
+}
+
+TEST(ChannelDisplacement, WindowsWithNaNTakeNoPart)
+{
+  const DisplacedChart chart{ { 260, 190 }, Shifts };
+  auto tiles = tilesOf(chart);
+  for (int x = 90; x < 130; ++x)
+  {
+    tiles[0].pixel(x, 70)[0] = std::numeric_limits<float>::quiet_NaN();
+  }
+  const DisplacementSearch search(tiles, chart.extent, ReferenceChannel, DisplacementModel::Shift);
+  EXPECT_LT(placeError(search(0), Shifts[0], chart.extent), 0.02);
+}
+
+TEST(ChannelDisplacement, RefusesBadInputAndSaysWhy)
+{
+  const DisplacedChart chart{ { 60, 30 }, { {}, {} } };
+  const auto tiles = tilesOf(chart);
+  EXPECT_EQ(messageOf([&]
+              { DisplacementSearch(tiles, chart.extent, 0, DisplacementModel::Shift); }),
+    "the image is 60 x 30 pixels; expected at least 32 on each side to find the channels' "
+    "displacements");
+  const DisplacedChart large{ { 60, 40 }, { {}, {} } };
+  const auto good = tilesOf(large);
+  EXPECT_EQ(messageOf([&]
+              { DisplacementSearch(good, large.extent, 2, DisplacementModel::Shift); }),
+    "the reference channel is 3; the image has channels 1 to 2");
+  const std::vector<PixelBuffer> none;
+  EXPECT_EQ(messageOf([&]
+              { DisplacementSearch(none, large.extent, 0, DisplacementModel::Shift); }),
+    "there is no tile of the image; expected at least 1");
+}
+
+}

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -69,10 +70,7 @@ struct vtkChannelDisplacement::Tiles
   std::vector<msi::PixelBuffer> tiles; // zero where no block has come by
   std::string failure;
 
-  msi::ImageExtent extent() const
-  {
-    return { whole[1] - whole[0] + 1, whole[3] - whole[2] + 1 };
-  }
+  msi::ImageExtent extent() const { return { whole[1] - whole[0] + 1, whole[3] - whole[2] + 1 }; }
 
   void add(vtkImageData* image, vtkFloatArray* values)
   {
@@ -219,18 +217,22 @@ void vtkChannelDisplacement::WriteTable(vtkInformationVector* outputs)
   }
   const int reference =
     this->Reference > 0 ? this->Reference - 1 : msi::channelOfMostStructure(current.tiles);
-  const msi::DisplacementSearch search(current.tiles, current.extent(), reference,
+  const msi::DisplacementSearch search(current.tiles, current.extent(),
     this->Model == SHIFT ? msi::DisplacementModel::Shift : msi::DisplacementModel::Similarity);
+  // Each beside its neighbour on the way to the reference: neighbours are alike.
+  const auto towards = [reference](int k) {
+    return k + (k < reference ? 1 : k > reference ? -1 : 0);
+  };
   std::vector<msi::ChannelDisplacement> found(current.axis.size());
   std::atomic<bool> failed{ false };
   vtkSMPTools::For(0, static_cast<vtkIdType>(found.size()), 1,
     [&](vtkIdType begin, vtkIdType end)
     {
-      for (vtkIdType k = begin; k < end; ++k)
+      for (auto k = static_cast<int>(begin); k < end; ++k)
       {
         try
         {
-          found[static_cast<std::size_t>(k)] = search(static_cast<int>(k));
+          found[static_cast<std::size_t>(k)] = search(towards(k), k);
         }
         catch (const std::exception&)
         {
@@ -244,9 +246,21 @@ void vtkChannelDisplacement::WriteTable(vtkInformationVector* outputs)
   }
   for (std::size_t k = 0; k < found.size(); ++k)
   {
-    requireFound(found[k], current.axis, k, static_cast<std::size_t>(reference));
+    requireFound(found[k], current.axis, k, static_cast<std::size_t>(towards(static_cast<int>(k))));
   }
-  msi::writeDisplacements(
-    found, current.axis, current.spacing, vtkTable::GetData(outputs, 0));
+  const auto compose = [&](int k)
+  {
+    auto& own = found[static_cast<std::size_t>(k)];
+    own = msi::composed(found[static_cast<std::size_t>(towards(k))], own);
+  };
+  for (int k = reference - 1; k >= 0; --k)
+  {
+    compose(k);
+  }
+  for (int k = reference + 1; k < static_cast<int>(found.size()); ++k)
+  {
+    compose(k);
+  }
+  msi::writeDisplacements(found, current.axis, current.spacing, vtkTable::GetData(outputs, 0));
   *this->Current = Tiles();
 }

@@ -6,7 +6,8 @@
  * a filter wheel gives them. Output 0 is a table of one row per channel: the columns "channel", "x", "y" (displacement
  * beside the reference channel, in the image's length unit: pixels for images from files), "magnification" (relative
  * growth), "rotation" (degrees, from the axis x to the axis y), their standard errors ("x error", ..), and "agreement"
- * (0 to 1: share of the reference's local variance that the channel explains). Channel Registration takes it.
+ * (0 to 1: share of the local variance of the neighbour, in the order of channels, that the channel explains; the lowest
+ * on the way to the reference). Channel Registration takes it.
  *
  * The image is taken in blocks of rows. At most 16 squares of 128 pixels, spread evenly over it, are looked at.
  */
@@ -27,7 +28,7 @@ public:
 
   ///@{
   /**
-   * The channel that the others are compared with, counted from 1. 0 (default): the one with the strongest edges.
+   * The channel that stays where it is, counted from 1. 0 (default): the one with the strongest edges.
    */
   vtkSetMacro(Reference, int);
   vtkGetMacro(Reference, int);

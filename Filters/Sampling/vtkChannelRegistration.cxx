@@ -49,8 +49,7 @@ void registerStrip(const msi::ChannelRegistration& registration,
   buffer.resize(read, static_cast<int>(channels));
   for (int y = read.y; y < read.y + read.height; ++y)
   {
-    const auto pixel =
-      static_cast<std::size_t>(y - held.y) * static_cast<std::size_t>(held.width) +
+    const auto pixel = static_cast<std::size_t>(y - held.y) * static_cast<std::size_t>(held.width) +
       static_cast<std::size_t>(read.x - held.x);
     std::copy_n(values + pixel * channels, static_cast<std::size_t>(read.width) * channels,
       buffer.pixel(read.x, y));
@@ -121,8 +120,7 @@ int vtkChannelRegistration::RequestData(
     });
 }
 
-bool vtkChannelRegistration::Resample(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
+bool vtkChannelRegistration::Resample(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   auto* image = vtkImageData::GetData(inputs[0]);
   auto* outputInformation = outputs->GetInformationObject(0);
@@ -135,8 +133,8 @@ bool vtkChannelRegistration::Resample(
   msi::Extent whole{};
   inputs[0]->GetInformationObject(0)->Get(Pipeline::WHOLE_EXTENT(), whole.data());
   const msi::ImageExtent extent{ whole[1] - whole[0] + 1, whole[3] - whole[2] + 1 };
-  const auto displacements = msi::readDisplacements(vtkTable::GetData(inputs[1]), axis,
-    { image->GetSpacing()[0], image->GetSpacing()[1] });
+  const auto displacements = msi::readDisplacements(
+    vtkTable::GetData(inputs[1]), axis, { image->GetSpacing()[0], image->GetSpacing()[1] });
   const msi::ChannelRegistration registration = msi::undoing(displacements, extent);
   this->Margin = registration.reach();
 

@@ -47,7 +47,10 @@ def main():
     command.require_files(options.calibration, options.target, *colors.files(options))
     folder = command.make_folder(options.output, WRITES)
     chosen = methods.chosen(options.methods)
-    command.say(f"{len(chosen)} methods, {options.draws} draws of {options.tuning} tuning samples, the rest held out")
+    def counted(number, noun):
+        return f"{number} {noun}{'' if number == 1 else 's'}"
+    command.say(f"{counted(len(chosen), 'method')}, {counted(options.draws, 'draw')} of {options.tuning} tuning samples, "
+                "the rest held out")
     pipeline.load_plugin()
     judged = colors.Colors(options)
     tables = [pipeline.create("SampleTableReader", FileName=path)

@@ -41,6 +41,17 @@ TEST_F(SampleTables, KeepsMetadataReflectanceAndResponsesApart)
   EXPECT_TRUE(t.notes.empty());
 }
 
+TEST_F(SampleTables, KeepsDisplacementsOfChannelsAsTheyAre)
+{
+  const SampleTable t =
+    table("channel,x,y,magnification,rotation\n400,0.25,-1,0.001,0\n500,0,0,0,0\n");
+  ASSERT_EQ(t.metadata.size(), 5u);
+  EXPECT_EQ(t.findMetadata("channel")->text[0], "400");
+  EXPECT_EQ(t.findMetadata("y")->numbers()[0], -1.0);
+  EXPECT_EQ(t.reflectance.size(), 0);
+  EXPECT_EQ(t.responses.size(), 0);
+}
+
 TEST_F(SampleTables, KnowsEverySpellingOfAWavelengthInAnyOrder)
 {
   const SampleTable t =

@@ -50,6 +50,27 @@ def cases(folder):
     yield ["choose", "--calibration", CHART, "--candidates", no_responses], 1, "camera responses"
     yield ["choose", "--calibration", CHART, "--candidates", FABRIC, "--count", "500"], 1, \
         "500 samples are to be chosen from 120"
+    book = ["choose", "--calibration", CHART, "--image", *IMAGE]
+    yield book, 2, "--image and --labels go together"
+    yield [*book, "--labels", LABELS, "--candidates", FABRIC], 2, "give --candidates, or --image with --labels"
+    yield [*book, "--labels", CHART], 1, "demo-chart.csv"
+    yield [*book, "--labels", LABELS, "--count", "25"], 1, "25 samples are to be chosen from 24"
+    yield ["choose", "--calibration", CHART, "--image", *IMAGE[:9], "--labels", LABELS], 1, "9 channels"
+    # A lamp that ends within the bands.
+    lamp = folder / "short.csv"
+    lamp.write_text("wavelength,power\n500,1\n550,1\n600,1\n", encoding="utf-8")
+    compared = ["evaluate", "--calibration", CHART, "--target", FABRIC, "--draws", "1"]
+    yield [*compared, "--methods", "direct", "--illuminant", lamp], 1, \
+        "the curve 'short' covers 500 to 600 nm; expected at least 400 to 700 nm"
+    # Fewer samples than a method needs.
+    one, few = folder / "one.csv", folder / "few.csv"
+    one.write_text("".join(FABRIC.read_text(encoding="utf-8").splitlines(True)[:2]), encoding="utf-8")
+    few.write_text("".join(FABRIC.read_text(encoding="utf-8").splitlines(True)[:4]), encoding="utf-8")
+    image = ["estimate", "--image", *IMAGE, "--calibration", CHART]
+    yield [*image, "--tuning", one, "--method", "transfer"], 1, \
+        "there is 1 tuning sample; the method transfer expects at least 2 samples"
+    yield [*image, "--tuning", few, "--method", "r-model"], 1, \
+        "the R-model has 3 tuning samples for 4 unknowns a band; expected at least 4 samples"
     yield ["estimate", "--image", *IMAGE], 2, "give --calibration"
     yield ["estimate", "--image", *IMAGE[:9], "--calibration", CHART], 1, \
         "the image has 9 channels (400, 420, .., 560 nm), but the reflectance transform has 16 channels"

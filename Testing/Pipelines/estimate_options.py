@@ -123,6 +123,78 @@ def own_lamp(launcher, base):
             faults.append(f"{options}: status {got}, expected '{part}': {stderr}")
 
 
+def few_samples(launcher, base):
+    """Methods that do with fewer samples than they would like say so, and what they did."""
+    flat = ["--image", *stack(), "--white", *stack("white"), "--dark", *stack("dark"), "--trust-responses"]
+
+    def first(count, source, name):
+        path = base / name
+        path.write_text("".join(source.read_text(encoding="utf-8").splitlines(True)[:count + 1]), encoding="utf-8")
+        return path
+    chart = first(3, CHART, "three-of-the-chart.csv")
+    fabric = root / "Data" / "Samples" / "demo-fabric.csv"
+    for method, tuning, part in (
+            # Four samples carry three components and a mean.
+            ("pca", 1, "pca: 3 components, tuning weight 1, taken as given: 1 tuning sample is too few to choose; expected at least 3"),
+            ("direct", 2, "undetermined: the 3 samples have rank 3 but a band has 17 unknowns; the transform of least norm was taken")):
+        got, stderr, _, page = estimate(launcher, base / "few", *flat, "--calibration", chart, "--tuning",
+                                        first(tuning, fabric, "few.csv"), "--method", method)
+        if got != 0 or part not in stderr or part not in page:
+            faults.append(f"{method} of few samples: status {got}, expected '{part}': {stderr}")
+
+
+def register(launcher, base):
+    """Channels that are moved by whole pixels are found and put back; a table of displacements does the same."""
+    import csv
+    from PIL import Image
+    import spectral
+
+    def pixels(path):
+        return np.asarray(Image.open(path)).astype(np.float64)
+    moves = {3: (2, -1), 7: (-3, 2)}  # channel: to the right, upward
+    straight, moved = [], []
+    for k, (raw, white, dark) in enumerate(zip(stack(), stack("white"), stack("dark"))):
+        dark_level = pixels(dark)
+        response = (pixels(raw) - dark_level) / (pixels(white) - dark_level)
+        right, up = moves.get(k, (0, 0))
+        for files, values in ((straight, response), (moved, np.roll(response, (-up, right), (0, 1)))):
+            files.append(base / f"{'moved' if files is moved else 'straight'}_{raw.name}")
+            Image.fromarray(values.astype(np.float32)).save(files[-1])
+    table = base / "displacements.csv"
+    runs = {"as-it-is": (straight, []), "found": (moved, ["--register"]), "given": (moved, ["--register", table])}
+    cubes = {}
+    for name, (files, options) in runs.items():
+        got, stderr, _, page = estimate(launcher, base / name, "--image", *files, "--cube", "envi", *options)
+        if got != 0 or ("How the channels lay" in page) != bool(options):
+            faults.append(f"register, {name}: status {got}: {stderr}")
+            return
+        cubes[name] = np.asarray(spectral.open_image(str(base / name / "reflectance.hdr")).load())
+        if name == "found":
+            shutil.copy(base / name / "displacements.csv", table)
+    with open(table, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    reference = next(k for k, row in enumerate(rows) if float(row["agreement"]) == 1.0)
+    for k, row in enumerate(rows):
+        expected = np.subtract(moves.get(k, (0, 0)), moves.get(reference, (0, 0)))
+        error = np.abs(np.array([float(row["x"]), float(row["y"])]) - expected).max()
+        if error > 0.1:
+            faults.append(f"channel {row['channel']}: {row['x']}, {row['y']} found, moved by {expected}")
+    if not np.array_equal(cubes["found"], cubes["given"], equal_nan=True):
+        faults.append("displacements from a file give another reflectance")
+    inside = np.s_[8:-8, 8:-8]
+    error = np.sqrt(np.mean((cubes["found"][inside] - cubes["as-it-is"][inside]) ** 2))
+    if not error < 0.01:
+        faults.append(f"the registered image differs from the one that was never moved by {error:.4f}")
+    if not np.isnan(cubes["found"][0]).all() and not np.isnan(cubes["found"][-1]).all():
+        faults.append("rows that a channel does not show have a reflectance")
+    table.write_text("channel,x,y\n400,0,0\n")
+    for options, part in ((["--register", table], "expected channel, x, y, magnification, rotation"),
+                          (["--register", base / "none.csv"], "none.csv: no such file")):
+        got, stderr, _, _ = estimate(launcher, base / "bad-table", "--image", *moved, *options)
+        if got == 0 or part not in stderr or stderr.count("\n") != 1:
+            faults.append(f"{options}: status {got}, expected '{part}': {stderr}")
+
+
 def white_reflectance(launcher, base):
     """Half the white's reflectance is half the image's responses: exposures do the same."""
     import spectral
@@ -146,7 +218,7 @@ def main():
     launcher, base = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(base, ignore_errors=True)
     base.mkdir(parents=True)
-    for test in (said, written, own_lamp, white_reflectance):
+    for test in (said, few_samples, written, own_lamp, register, white_reflectance):
         test(launcher, base)
     print("\n".join(faults) or "what is wrong is said, what is written is right")
     sys.exit(1 if faults else 0)

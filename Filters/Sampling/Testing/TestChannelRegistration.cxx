@@ -33,8 +33,8 @@ vtkSmartPointer<vtkImageData> imageOf(const DisplacedChart& chart)
   const PixelBuffer pixels = chart.pixels(wholeImage(chart.extent));
   const Eigen::Map<const Eigen::MatrixXf> values(
     pixels.values.data(), pixels.channels, static_cast<Eigen::Index>(pixels.window.pixels()));
-  return newImage(chart.extent.width, chart.extent.height, ResponsesArray, values.cast<double>(),
-    DisplacedGrid);
+  return newImage(
+    chart.extent.width, chart.extent.height, ResponsesArray, values.cast<double>(), DisplacedGrid);
 }
 
 const vtkSmartPointer<vtkImageData>& displacedImage()
@@ -179,8 +179,8 @@ TEST(ChannelDisplacementFilter, SaysWhatIsMissing)
   flat.row(2).setConstant(0.4);
   displacement->SetReference(0);
   displacement->SetInputData(newImage(230, 170, ResponsesArray, flat, DisplacedGrid));
-  EXPECT_NE(errorOf(displacement).find("the place of channel 650 beside channel "),
-    std::string::npos);
+  EXPECT_NE(
+    errorOf(displacement).find("the place of channel 650 beside channel "), std::string::npos);
   std::mt19937 generator(1);
   std::normal_distribution<double> noise(0.5, 0.1);
   const Eigen::MatrixXd noisy =

@@ -163,6 +163,10 @@ bool isTransform(const TextTable& table)
   }
   const bool rowIsABand = others.erase("wavelength") > 0;
   const bool rowIsAChannel = others.erase("channel") > 0;
+  if (channels == 0 && rowIsAChannel && others.count("x") > 0 && others.count("y") > 0)
+  {
+    return true; // displacements of an image's channels
+  }
   const bool rowIsOne = rowIsABand != rowIsAChannel;
   others.erase("constant");
   return (channels > 0 && rowIsOne && others.empty()) ||

@@ -23,7 +23,7 @@ constexpr int MostLevels = 3;
 constexpr int WidestStart = 3; // pixels of the coarsest level
 constexpr double PriceOfShift = 0.02;
 constexpr int MostSteps = 30;
-constexpr double LargestShift = 16.0; // pixels
+constexpr double LargestShift = 16.0;  // pixels
 constexpr double LargestStep = 1.5;    // pixels of a level, at the image's corner
 constexpr double SmallestStep = 1e-3;  // the same
 constexpr double RelativeNoise = 1e-3; // of the mean: what a window leaves unexplained at least
@@ -67,11 +67,13 @@ Plane smoothed(const Plane& plane)
       for (int x = 0; x < in.width; ++x)
       {
         float sum = 0.0F;
-        for (int i = -2; i <= 2; ++i)
+        int offset = -2;
+        for (const float weight : Weights)
         {
-          sum += Weights[static_cast<std::size_t>(i + 2)] *
-            in.at(std::clamp(x + i * alongX, 0, in.width - 1),
-              std::clamp(y + i * alongY, 0, in.height - 1));
+          sum += weight *
+            in.at(std::clamp(x + offset * alongX, 0, in.width - 1),
+              std::clamp(y + offset * alongY, 0, in.height - 1));
+          ++offset;
         }
         out.values.push_back(sum);
       }
@@ -222,10 +224,10 @@ private:
       const int y = firstY + i / WindowSide;
       const double offX = Place.x + x * Step - Center.middleX;
       const double offY = Place.y + y * Step - Center.middleY;
-      const double u =
-        (Center.middleX + cosine * offX - sine * offY + at[0] - Place.x) / static_cast<double>(Step);
-      const double v =
-        (Center.middleY + sine * offX + cosine * offY + at[1] - Place.y) / static_cast<double>(Step);
+      const double u = (Center.middleX + cosine * offX - sine * offY + at[0] - Place.x) /
+        static_cast<double>(Step);
+      const double v = (Center.middleY + sine * offX + cosine * offY + at[1] - Place.y) /
+        static_cast<double>(Step);
       if (!(u >= 1.0 && v >= 1.0 && u < Moving.width - 2 && v < Moving.height - 2))
       {
         return;
@@ -393,11 +395,10 @@ double floorOf(const std::vector<PixelBuffer>& tiles, int channel)
 }
 }
 
-DisplacementSearch::DisplacementSearch(const std::vector<PixelBuffer>& tiles,
-  const ImageExtent& extent, int reference, DisplacementModel model)
+DisplacementSearch::DisplacementSearch(
+  const std::vector<PixelBuffer>& tiles, const ImageExtent& extent, DisplacementModel model)
   : Tiles(tiles)
   , Extent(extent)
-  , Reference(reference)
   , Model(model)
 {
   if (tiles.empty())
@@ -412,16 +413,11 @@ DisplacementSearch::DisplacementSearch(const std::vector<PixelBuffer>& tiles,
         LeastTileSide, " on each side to find the channels' displacements");
     }
   }
-  if (reference < 0 || reference >= tiles.front().channels)
-  {
-    reject("the reference channel is ", reference + 1, "; the image has channels 1 to ",
-      tiles.front().channels);
-  }
 }
 
-ChannelDisplacement DisplacementSearch::operator()(int channel) const
+ChannelDisplacement DisplacementSearch::operator()(int reference, int channel) const
 {
-  if (channel == Reference)
+  if (channel == reference)
   {
     return {};
   }
@@ -439,7 +435,7 @@ ChannelDisplacement DisplacementSearch::operator()(int channel) const
   std::vector<std::vector<Plane>> movings;
   for (const PixelBuffer& tile : Tiles)
   {
-    references.push_back(pyramid(tile, Reference, levels));
+    references.push_back(pyramid(tile, reference, levels));
     movings.push_back(pyramid(tile, channel, levels));
   }
   const Frame frame(Extent);
@@ -502,6 +498,20 @@ ChannelDisplacement DisplacementSearch::operator()(int channel) const
   return found;
 }
 
+ChannelDisplacement composed(const ChannelDisplacement& first, const ChannelDisplacement& second)
+{
+  const double cosine = (1.0 + second.magnification) * std::cos(second.rotation * Degree);
+  const double sine = (1.0 + second.magnification) * std::sin(second.rotation * Degree);
+  ChannelDisplacement both;
+  both.right = cosine * first.right - sine * first.down + second.right;
+  both.down = sine * first.right + cosine * first.down + second.down;
+  both.magnification = (1.0 + first.magnification) * (1.0 + second.magnification) - 1.0;
+  both.rotation = first.rotation + second.rotation;
+  both.standardError = (first.standardError.square() + second.standardError.square()).sqrt();
+  both.agreement = std::min(first.agreement, second.agreement);
+  return both;
+}
+
 int channelOfMostStructure(const std::vector<PixelBuffer>& tiles)
 {
   const int channels = tiles.front().channels;
@@ -517,8 +527,8 @@ int channelOfMostStructure(const std::vector<PixelBuffer>& tiles)
       {
         for (int x = 1; x < plane.width; ++x)
         {
-          const double change = std::hypot(
-            plane.at(x, y) - plane.at(x - 1, y), plane.at(x, y) - plane.at(x, y - 1));
+          const double change =
+            std::hypot(plane.at(x, y) - plane.at(x - 1, y), plane.at(x, y) - plane.at(x, y - 1));
           sum += std::isfinite(change) ? change * change : 0.0;
         }
       }

@@ -47,19 +47,23 @@ class DisplacementSearch
 public:
   static constexpr int LeastTileSide = 32; // pixels
 
-  // Tiles are rectangles of the image of that extent, all with the same channels. Throws std::invalid_argument where there is
-  // none, where one is smaller than LeastTileSide, or where the reference (counted from 0) is no channel.
-  DisplacementSearch(const std::vector<PixelBuffer>& tiles, const ImageExtent& extent,
-    int reference, DisplacementModel model);
+  // Tiles are rectangles of the image of that extent, all with the same channels. Throws std::invalid_argument where
+  // there is none, or where one is smaller than LeastTileSide.
+  DisplacementSearch(
+    const std::vector<PixelBuffer>& tiles, const ImageExtent& extent, DisplacementModel model);
 
-  ChannelDisplacement operator()(int channel) const;
+  // Channels counted from 0.
+  ChannelDisplacement operator()(int reference, int channel) const;
 
 private:
   const std::vector<PixelBuffer>& Tiles;
   ImageExtent Extent;
-  int Reference;
   DisplacementModel Model;
 };
+
+// Of a channel beside a reference, where a third channel lies between: `first` of that beside the reference, `second` of the
+// channel beside it. Errors add as squares, the agreement is the lower one.
+ChannelDisplacement composed(const ChannelDisplacement& first, const ChannelDisplacement& second);
 
 // The channel, counted from 0, that varies most within windows, relative to its mean: a good reference.
 int channelOfMostStructure(const std::vector<PixelBuffer>& tiles);

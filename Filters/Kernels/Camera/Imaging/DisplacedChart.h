@@ -53,7 +53,8 @@ private:
   {
     // A multiplicative hash: patches are asked for at every pixel.
     std::uint32_t hash = 7919U * static_cast<std::uint32_t>(channel + 1) +
-      131U * static_cast<std::uint32_t>(column + 500) + 52711U * static_cast<std::uint32_t>(row + 500);
+      131U * static_cast<std::uint32_t>(column + 500) +
+      52711U * static_cast<std::uint32_t>(row + 500);
     for (int i = 0; i < 3; ++i)
     {
       hash = (hash ^ (hash >> 15U)) * 0x2c1b3c6dU;
@@ -73,8 +74,7 @@ private:
     const double b = edge(y - Pitch * (row + 1));
     return (1.0 - a) * (1.0 - b) * patch(column, row, channel) +
       a * (1.0 - b) * patch(column + 1, row, channel) +
-      (1.0 - a) * b * patch(column, row + 1, channel) +
-      a * b * patch(column + 1, row + 1, channel);
+      (1.0 - a) * b * patch(column, row + 1, channel) + a * b * patch(column + 1, row + 1, channel);
   }
 };
 

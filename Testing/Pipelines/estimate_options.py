@@ -161,28 +161,28 @@ def register(launcher, base):
             files.append(base / f"{'moved' if files is moved else 'straight'}_{raw.name}")
             Image.fromarray(values.astype(np.float32)).save(files[-1])
     table = base / "displacements.csv"
-    runs = {"as-it-is": (straight, []), "found": (moved, ["--register"]), "given": (moved, ["--register", table])}
-    cubes = {}
+    runs = {"straight": (straight, ["--register"]), "found": (moved, ["--register"]), "given": (moved, ["--register", table])}
+    cubes, places = {}, {}
     for name, (files, options) in runs.items():
         got, stderr, _, page = estimate(launcher, base / name, "--image", *files, "--cube", "envi", *options)
-        if got != 0 or ("How the channels lay" in page) != bool(options):
+        if got != 0 or "How the channels lay" not in page:
             faults.append(f"register, {name}: status {got}: {stderr}")
             return
         cubes[name] = np.asarray(spectral.open_image(str(base / name / "reflectance.hdr")).load())
-        if name == "found":
+        if name != "given":
             shutil.copy(base / name / "displacements.csv", table)
-    with open(table, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    reference = next(k for k, row in enumerate(rows) if float(row["agreement"]) == 1.0)
-    for k, row in enumerate(rows):
-        expected = np.subtract(moves.get(k, (0, 0)), moves.get(reference, (0, 0)))
-        error = np.abs(np.array([float(row["x"]), float(row["y"])]) - expected).max()
-        if error > 0.1:
-            faults.append(f"channel {row['channel']}: {row['x']}, {row['y']} found, moved by {expected}")
+            with open(table, newline="", encoding="utf-8") as file:
+                places[name] = np.array([[float(row["x"]), float(row["y"])] for row in csv.DictReader(file)])
+    # The relief of the fabric moves edges by up to .15 pixels between channels: only what was planted on top is known.
+    expected = np.zeros_like(places["found"])
+    for k, move in moves.items():
+        expected[k] = move
+    if np.abs(places["found"] - places["straight"] - expected).max() > 0.05:
+        faults.append(f"displacements found: {places['found'] - places['straight']}")
     if not np.array_equal(cubes["found"], cubes["given"], equal_nan=True):
         faults.append("displacements from a file give another reflectance")
     inside = np.s_[8:-8, 8:-8]
-    error = np.sqrt(np.mean((cubes["found"][inside] - cubes["as-it-is"][inside]) ** 2))
+    error = np.sqrt(np.mean((cubes["found"][inside] - cubes["straight"][inside]) ** 2))
     if not error < 0.01:
         faults.append(f"the registered image differs from the one that was never moved by {error:.4f}")
     if not np.isnan(cubes["found"][0]).all() and not np.isnan(cubes["found"][-1]).all():

@@ -335,14 +335,14 @@ def help_page(window):
 
 def menus(window):
     """The plugin's sources and filters stand in groups, each entry with an icon."""
-    for menu, first, count in (("Sources", "Synthetic Scene", 2), ("Filters", "Flat Field Correction", 21)):
+    for menu, first, count in (("Sources", "Synthetic Scene", 2), ("Filters", "Flat Field Correction", 23)):
         window.click(window.state()["named"][menu])
         state = window.wait(f"the menu {menu}", lambda s: "Multispectral menu" in s["named"])
         x, y = state["named"]["Multispectral menu"]
         for shift in (-40, -20, 0):  # a menu opens under a pointer that moves over it, not under one that is there at once
             window.xdotool("mousemove", x + shift, y)
             time.sleep(0.4)
-        entries = window.wait("its entries", lambda s: s["menu"])["menu"]
+        entries = window.wait("its entries", lambda s: any(separator for _, separator, _ in s["menu"]))["menu"]
         window.picture(f"menu {menu}")
         window.key("Escape", "Escape", "Escape")
         window.wait("the menu closed", lambda s: "Multispectral menu" not in s["named"])

@@ -26,6 +26,8 @@ public:
   void apply(const float* pixels, Eigen::Index count, unsigned char* rgb) const noexcept;
   // What the colors are, one remark.
   const std::string& description() const noexcept { return Description; }
+  // Whether the colors are those of the spectra.
+  bool isColorimetric() const noexcept { return Picture.isColorimetric(); }
   // The value that is shown as white.
   double white() const noexcept { return White; }
 

@@ -271,9 +271,15 @@ void vtkSpectralImageReader::AddPreview(vtkImageData* image, vtkFloatArray* spec
   if (!this->Picture)
   {
     this->Picture = std::make_unique<msi::SpectralPreview>(*this->File);
+    if (this->File->info().wavelengths.empty() && this->File->info().bands() > 1)
+    {
+      vtkWarningMacro(<< this->File->info().bands() << " channels without wavelengths; enter them "
+                      << "in nm in the property Wavelengths; until then the picture is in false "
+                      << "color, and colors cannot be computed: " << this->FileNames.front());
+    }
   }
   vtkNew<vtkUnsignedCharArray> picture;
-  picture->SetName(msi::PictureArray);
+  picture->SetName(this->Picture->isColorimetric() ? msi::PictureArray : msi::FalseColorArray);
   picture->SetNumberOfComponents(3);
   picture->SetNumberOfTuples(spectra->GetNumberOfTuples());
   const float* in = spectra->GetPointer(0);

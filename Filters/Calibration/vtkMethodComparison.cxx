@@ -379,6 +379,7 @@ void vtkMethodComparison::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Seed: " << this->Seed << "\n"
      << indent << "Difference: " << this->Difference << "\n"
      << indent << "Illuminants: " << this->Illuminants << "\n"
+     << indent << "OtherIlluminants: " << this->OtherIlluminants << "\n"
      << indent << "Observer: " << this->Observer << "\n";
 }
 
@@ -397,6 +398,26 @@ int vtkMethodComparison::RequestInformation(
 {
   msi::declareCollective(outputs);
   return 1;
+}
+
+void vtkMethodComparison::AddMethod(const char* name)
+{
+  this->SetMethods(msi::withNames(this->Methods, name).c_str());
+}
+
+void vtkMethodComparison::ClearMethods()
+{
+  this->SetMethods("");
+}
+
+void vtkMethodComparison::AddIlluminant(const char* name)
+{
+  this->SetIlluminants(msi::withNames(this->Illuminants, name).c_str());
+}
+
+void vtkMethodComparison::ClearIlluminants()
+{
+  this->SetIlluminants("");
 }
 
 int vtkMethodComparison::RequestUpdateExtent(
@@ -439,8 +460,10 @@ int vtkMethodComparison::RequestData(
       const auto& target = medium.samples.reflectance;
       const msi::ViewingConditions conditions(
         vtkTable::GetData(inputs[2]), vtkTable::GetData(inputs[3]), this->Observer);
-      const msi::HeldOutJudge judge(*chart.bands.wavelengths, msi::namesIn(this->Illuminants),
-        conditions, this->Difference, target);
+      const auto illuminants =
+        msi::namesIn(msi::withNames(this->Illuminants, this->OtherIlluminants));
+      const msi::HeldOutJudge judge(
+        *chart.bands.wavelengths, illuminants, conditions, this->Difference, target);
       const std::size_t judged = judge.metrics().size() - msi::IntervalCount;
       const auto draws = static_cast<std::size_t>(this->Draws);
 

@@ -49,6 +49,8 @@ public:
    */
   vtkSetStdStringFromCharMacro(Methods);
   vtkGetCharFromStdStringMacro(Methods);
+  void AddMethod(const char* name);
+  void ClearMethods();
   ///@}
 
   ///@{
@@ -101,6 +103,16 @@ public:
    */
   vtkSetStdStringFromCharMacro(Illuminants);
   vtkGetCharFromStdStringMacro(Illuminants);
+  void AddIlluminant(const char* name);
+  void ClearIlluminants();
+  ///@}
+
+  ///@{
+  /**
+   * More of them, for who ticks those of a list; default none.
+   */
+  vtkSetStdStringFromCharMacro(OtherIlluminants);
+  vtkGetCharFromStdStringMacro(OtherIlluminants);
   ///@}
 
   ///@{
@@ -135,6 +147,7 @@ private:
   int Seed = 1;
   std::string Difference = "ciede2000";
   std::string Illuminants = "D65, F2";
+  std::string OtherIlluminants;
   std::string Observer = "CIE 1931 2 degree";
 };
 

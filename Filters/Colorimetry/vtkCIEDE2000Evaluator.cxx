@@ -99,6 +99,7 @@ void vtkCIEDE2000Evaluator::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Metrics: " << this->Metrics << "\n"
      << indent << "Illuminants: " << this->Illuminants << "\n"
+     << indent << "OtherIlluminants: " << this->OtherIlluminants << "\n"
      << indent << "Observer: " << this->Observer << "\n"
      << indent << "EstimateArray: " << this->EstimateArray << "\n"
      << indent << "ReferenceArray: " << this->ReferenceArray << "\n"
@@ -106,6 +107,26 @@ void vtkCIEDE2000Evaluator::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "KL: " << this->KL << "\n"
      << indent << "KC: " << this->KC << "\n"
      << indent << "KH: " << this->KH << "\n";
+}
+
+void vtkCIEDE2000Evaluator::AddMetric(const char* name)
+{
+  this->SetMetrics(msi::withNames(this->Metrics, name).c_str());
+}
+
+void vtkCIEDE2000Evaluator::ClearMetrics()
+{
+  this->SetMetrics("");
+}
+
+void vtkCIEDE2000Evaluator::AddIlluminant(const char* name)
+{
+  this->SetIlluminants(msi::withNames(this->Illuminants, name).c_str());
+}
+
+void vtkCIEDE2000Evaluator::ClearIlluminants()
+{
+  this->SetIlluminants("");
 }
 
 int vtkCIEDE2000Evaluator::FillInputPortInformation(int port, vtkInformation* info)
@@ -187,7 +208,7 @@ int vtkCIEDE2000Evaluator::RequestData(
         vtkTable::GetData(inputs[2]), vtkTable::GetData(inputs[3]), this->Observer);
       msi::AskedErrors asked;
       asked.metrics = msi::namesIn(this->Metrics);
-      asked.illuminants = msi::namesIn(this->Illuminants);
+      asked.illuminants = msi::namesIn(msi::withNames(this->Illuminants, this->OtherIlluminants));
       asked.factors = { this->KL, this->KC, this->KH };
       asked.rms = this->SpectralRms;
       const auto names = asked.names();
@@ -262,9 +283,9 @@ int vtkCIEDE2000Evaluator::RequestData(
           {
             return; // more ranks than pixels
           }
-          auto* estimate =
-            msi::requireSpectralArray(image, "the estimate", this->EstimateArray.c_str());
-          auto* reference = msi::requireSpectralArray(
+          auto* estimate = (model ? msi::requireSpectralArray : msi::requireReflectanceArray)(
+            image, "the estimate", this->EstimateArray.c_str());
+          auto* reference = msi::requireReflectanceArray(
             referenceImage, "the reference", this->ReferenceArray.c_str());
           const auto bands = msi::axisOf(referenceImage, reference);
           requireBands(msi::axisOf(image, estimate), bands);

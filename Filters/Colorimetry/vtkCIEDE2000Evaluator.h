@@ -46,6 +46,8 @@ public:
    */
   vtkSetStdStringFromCharMacro(Metrics);
   vtkGetCharFromStdStringMacro(Metrics);
+  void AddMetric(const char* name);
+  void ClearMetrics();
   ///@}
 
   ///@{
@@ -55,6 +57,16 @@ public:
    */
   vtkSetStdStringFromCharMacro(Illuminants);
   vtkGetCharFromStdStringMacro(Illuminants);
+  void AddIlluminant(const char* name);
+  void ClearIlluminants();
+  ///@}
+
+  ///@{
+  /**
+   * More of them, for who ticks those of a list; default none.
+   */
+  vtkSetStdStringFromCharMacro(OtherIlluminants);
+  vtkGetCharFromStdStringMacro(OtherIlluminants);
   ///@}
 
   ///@{
@@ -118,6 +130,7 @@ private:
 
   std::string Metrics = "ciede2000";
   std::string Illuminants = "D65, F2";
+  std::string OtherIlluminants;
   std::string Observer = "CIE 1931 2 degree";
   std::string EstimateArray;
   std::string ReferenceArray;

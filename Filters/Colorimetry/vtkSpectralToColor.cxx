@@ -84,7 +84,7 @@ struct vtkSpectralToColor::Colorimetry
 
   Colorimetry(const vtkSpectralToColor& self, const msi::WavelengthGrid& bands,
     const msi::ViewingConditions& conditions)
-    : tristimulus(bands, conditions.illuminant(self.Illuminant), conditions.observer())
+    : tristimulus(bands, illuminantOf(self, conditions), conditions.observer())
     , lab(tristimulus.whitePoint())
     , srgb(tristimulus.whitePoint(), msi::displaySpaceNamed(self.Display),
         msi::chromaticAdaptationNamed(self.Adaptation))
@@ -94,9 +94,24 @@ struct vtkSpectralToColor::Colorimetry
     for (const auto& name : msi::namesIn(self.Quantities))
     {
       quantities.push_back(&msi::colorQuantityNamed(name));
-      requireDefined(
-        *quantities.back(), conditions.illuminant(self.Illuminant), conditions.observer());
+      requireDefined(*quantities.back(), illuminantOf(self, conditions), conditions.observer());
     }
+  }
+
+  static msi::Illuminant illuminantOf(
+    const vtkSpectralToColor& self, const msi::ViewingConditions& conditions)
+  {
+    if (self.Illuminant != "other")
+    {
+      return conditions.illuminant(self.Illuminant);
+    }
+    if (self.OtherIlluminant.empty())
+    {
+      throw std::invalid_argument(
+        "OtherIlluminant is empty; type an illuminant, such as D5300K for daylight of 5300 K or "
+        "BB3200K for a blackbody of 3200 K, or choose one from the list Illuminant");
+    }
+    return conditions.illuminant(self.OtherIlluminant);
   }
 
   static void requireDefined(const msi::ColorQuantity& quantity, const msi::Illuminant& illuminant,
@@ -125,6 +140,7 @@ void vtkSpectralToColor::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Illuminant: " << this->Illuminant << "\n"
+     << indent << "OtherIlluminant: " << this->OtherIlluminant << "\n"
      << indent << "Observer: " << this->Observer << "\n"
      << indent << "SpectralArray: " << this->SpectralArray << "\n"
      << indent << "ComputeXYZ: " << this->ComputeXYZ << "\n"
@@ -134,6 +150,16 @@ void vtkSpectralToColor::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Adaptation: " << this->Adaptation << "\n"
      << indent << "GamutMask: " << this->GamutMask << "\n"
      << indent << "ClippedCount: " << this->ClippedCount << "\n";
+}
+
+void vtkSpectralToColor::AddQuantity(const char* name)
+{
+  this->SetQuantities(msi::withNames(this->Quantities, name).c_str());
+}
+
+void vtkSpectralToColor::ClearQuantities()
+{
+  this->SetQuantities("");
 }
 
 int vtkSpectralToColor::FillInputPortInformation(int port, vtkInformation* info)
@@ -241,7 +267,7 @@ vtkIdType vtkSpectralToColor::ColorTable(
 vtkIdType vtkSpectralToColor::ColorImage(
   vtkImageData* image, const msi::ViewingConditions& conditions, vtkImageData* output)
 {
-  auto* array = msi::requireSpectralArray(image, "the image", this->SpectralArray.c_str());
+  auto* array = msi::requireReflectanceArray(image, "the image", this->SpectralArray.c_str());
   const auto axis = msi::axisOf(image, array);
   const Colorimetry color(*this, requireWavelengths(axis), conditions);
   const auto spectra = msi::asFloats(array);

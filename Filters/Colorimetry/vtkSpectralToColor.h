@@ -50,6 +50,14 @@ public:
 
   ///@{
   /**
+   * The illuminant where Illuminant is "other": for who chooses from a list and types what the list has not.
+   */
+  vtkSetStdStringFromCharMacro(OtherIlluminant);
+  vtkGetCharFromStdStringMacro(OtherIlluminant);
+  ///@}
+
+  ///@{
+  /**
    * "CIE 1931 2 degree" (default) or "CIE 1964 10 degree".
    */
   vtkSetStdStringFromCharMacro(Observer);
@@ -83,6 +91,8 @@ public:
    */
   vtkSetStdStringFromCharMacro(Quantities);
   vtkGetCharFromStdStringMacro(Quantities);
+  void AddQuantity(const char* name);
+  void ClearQuantities();
   ///@}
 
   ///@{
@@ -132,6 +142,7 @@ private:
     vtkImageData* image, const msi::ViewingConditions& conditions, vtkImageData* output);
 
   std::string Illuminant = "D65";
+  std::string OtherIlluminant;
   std::string Observer = "CIE 1931 2 degree";
   std::string SpectralArray;
   std::string Quantities;

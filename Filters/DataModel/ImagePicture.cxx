@@ -16,6 +16,17 @@
 namespace msi
 {
 
+namespace
+{
+void removePictureArrays(vtkImageData* image)
+{
+  for (const char* name : { PictureArray, FalseColorArray })
+  {
+    image->GetPointData()->RemoveArray(name);
+  }
+}
+}
+
 void setPicture(vtkAlgorithm* self, vtkImageData* image, vtkDataArray* spectra)
 {
   const auto axis = axisOf(image, spectra);
@@ -25,7 +36,7 @@ void setPicture(vtkAlgorithm* self, vtkImageData* image, vtkDataArray* spectra)
     axis.wavelengths ? axis.wavelengths->values() : std::vector<double>(), {}, white);
   const auto floats = asFloats(spectra);
   vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetName(PictureArray);
+  colors->SetName(picture.isColorimetric() ? PictureArray : FalseColorArray);
   colors->SetNumberOfComponents(3);
   colors->SetNumberOfTuples(floats->GetNumberOfTuples());
   const float* in = floats->GetPointer(0);
@@ -34,12 +45,20 @@ void setPicture(vtkAlgorithm* self, vtkImageData* image, vtkDataArray* spectra)
   forBlocks(self, floats->GetNumberOfTuples(),
     [&](vtkIdType begin, vtkIdType end)
     { picture.apply(in + begin * bands, end - begin, out + 3 * begin); });
+  removePictureArrays(image);
   image->GetPointData()->AddArray(colors);
+}
+
+vtkUnsignedCharArray* findPicture(vtkImageData* image)
+{
+  auto* points = image->GetPointData();
+  auto* colors = vtkUnsignedCharArray::SafeDownCast(points->GetArray(PictureArray));
+  return colors ? colors : vtkUnsignedCharArray::SafeDownCast(points->GetArray(FalseColorArray));
 }
 
 void removePicture(vtkImageData* image)
 {
-  image->GetPointData()->RemoveArray(PictureArray);
+  removePictureArrays(image);
   image->GetFieldData()->RemoveArray(PictureWhiteArray);
 }
 

@@ -1,10 +1,12 @@
-// The picture that goes with an image's spectra: point array "sRGB", 3 bytes a pixel, which views show first.
+// The picture that goes with an image's spectra: point array "sRGB" or "False Color", 3 bytes a
+// pixel, which views show first.
 #ifndef ImagePicture_h
 #define ImagePicture_h
 
 class vtkAlgorithm;
 class vtkDataArray;
 class vtkImageData;
+class vtkUnsignedCharArray;
 
 namespace msi
 {
@@ -13,6 +15,9 @@ namespace msi
 // and leaves the active scalars as they are. White is the value of the field data "PictureWhite", else 1.
 // Throws std::runtime_error where 'self' was stopped.
 void setPicture(vtkAlgorithm* self, vtkImageData* image, vtkDataArray* spectra);
+
+// The image's picture; null where it has none.
+vtkUnsignedCharArray* findPicture(vtkImageData* image);
 
 // Takes away a picture that would show something else than the image's spectra, and its white.
 void removePicture(vtkImageData* image);

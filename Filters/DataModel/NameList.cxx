@@ -9,17 +9,48 @@
 namespace msi
 {
 
+namespace
+{
+// What stands between the separators, without blanks around it.
+std::vector<std::string> partsOf(const std::string& list, char separator)
+{
+  constexpr const char* Blanks = " \t\r\n";
+  std::vector<std::string> parts;
+  std::istringstream text(list);
+  for (std::string part; std::getline(text, part, separator);)
+  {
+    const auto begin = part.find_first_not_of(Blanks);
+    if (begin != std::string::npos)
+    {
+      parts.push_back(part.substr(begin, part.find_last_not_of(Blanks) + 1 - begin));
+    }
+  }
+  return parts;
+}
+}
+
 std::vector<std::string> namesIn(const std::string& list)
 {
+  if (list.find('\n') != std::string::npos)
+  {
+    return partsOf(list, '\n');
+  }
   std::string plain = list;
   std::replace(plain.begin(), plain.end(), ',', ' ');
-  std::istringstream words(plain);
-  std::vector<std::string> names;
-  for (std::string name; words >> name;)
+  return partsOf(plain, ' ');
+}
+
+std::string withNames(const std::string& list, const std::string& more)
+{
+  std::string result;
+  for (const auto& names : { namesIn(list), partsOf(more, ',') })
   {
-    names.push_back(name);
+    for (const auto& name : names)
+    {
+      result += name + '\n';
+    }
   }
-  return names;
+  return result;
 }
 
 std::vector<ErrorName> errorNames(

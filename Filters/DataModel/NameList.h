@@ -9,8 +9,11 @@
 namespace msi
 {
 
-// The names in a list that commas or spaces separate.
+// The names in a list that line ends separate, or commas and spaces where it has no line end.
 std::vector<std::string> namesIn(const std::string& list);
+
+// The list with more names, which commas separate and which may hold spaces.
+std::string withNames(const std::string& list, const std::string& more);
 
 // What an error is called: a metric of spectra ("rms", "gfc") or of colors ("dE00"), with the illuminant of the latter.
 struct ErrorName

@@ -48,7 +48,7 @@ vtkDataArray* requireSpectralArray(
     return array;
   }
   array = points->GetScalars();
-  if (array && array->GetName() && std::string(array->GetName()) == PictureArray)
+  if (array && isPictureName(array->GetName()))
   {
     for (const char* name : { ReflectanceArray, ResponsesArray })
     {
@@ -68,6 +68,27 @@ vtkDataArray* requireSpectralArray(
       " has several point arrays and none is active; choose one of " + arrayNames(points));
   }
   return array;
+}
+
+vtkDataArray* requireReflectanceArray(
+  vtkImageData* image, const std::string& nameOfImage, const char* arrayName)
+{
+  auto* array = requireSpectralArray(image, nameOfImage, arrayName);
+  const bool named = arrayName && *arrayName;
+  if (!named && array->GetName() && std::string(array->GetName()) == ResponsesArray)
+  {
+    throw std::invalid_argument(nameOfImage +
+      " holds camera responses (the array 'Responses'); expected reflectance; estimate it with "
+      "Reflectance Estimation, or, where the values are reflectance, set Array Kind of the "
+      "image's reader to Reflectance");
+  }
+  return array;
+}
+
+bool isPictureName(const char* arrayName)
+{
+  const std::string name = arrayName ? arrayName : "";
+  return name == PictureArray || name == FalseColorArray;
 }
 
 void requireOneLabelPerPixel(vtkDataArray* labels, const std::string& nameOfImage)

@@ -22,7 +22,9 @@ inline constexpr const char* ReflectanceArray = "Reflectance";
 inline constexpr const char* ResponsesArray = "Responses";
 inline constexpr const char* UncertaintyArray = "Uncertainty";
 inline constexpr const char* LabelArray = "Label";
-inline constexpr const char* PictureArray = "sRGB"; // 3 bytes a pixel, for views
+// 3 bytes a pixel, for views: colors, or three of the channels where colors cannot be computed.
+inline constexpr const char* PictureArray = "sRGB";
+inline constexpr const char* FalseColorArray = "False Color";
 // Field data: the value of the spectra that the picture shows as white; 1 where it is missing.
 inline constexpr const char* PictureWhiteArray = "PictureWhite";
 inline constexpr const char* WavelengthArray = "Wavelength";
@@ -38,6 +40,12 @@ inline constexpr const char* FileMetadataArray = "FileMetadata";
 // Throws std::invalid_argument, naming what the image holds, where there is none.
 vtkDataArray* requireSpectralArray(
   vtkImageData* image, const std::string& nameOfImage, const char* arrayName = nullptr);
+
+// The same for reflectance: camera responses are refused unless their array is named.
+vtkDataArray* requireReflectanceArray(
+  vtkImageData* image, const std::string& nameOfImage, const char* arrayName);
+
+bool isPictureName(const char* arrayName);
 
 // Throws std::invalid_argument where an array of labels has several components.
 void requireOneLabelPerPixel(vtkDataArray* labels, const std::string& nameOfImage);

@@ -161,10 +161,13 @@ int vtkChannelSelection::RequestData(
         addChosen(output, image->GetFieldData()->GetArray(name), axis.size(), chosen);
       }
       msi::replaceArray(output, array, cut);
-      output->GetPointData()->RemoveArray(msi::PictureArray);
       if (this->Preview)
       {
         msi::setPicture(this, output, cut);
+      }
+      else
+      {
+        msi::removePicture(output);
       }
     });
 }

@@ -287,12 +287,12 @@ vtkSmartPointer<vtkUnsignedCharArray> pictureOf(
 {
   vtkNew<vtkImageData> part;
   part->ShallowCopy(image);
-  if (!vtkUnsignedCharArray::SafeDownCast(part->GetPointData()->GetArray(msi::PictureArray)))
+  if (!msi::findPicture(part))
   {
     msi::setPicture(self, part, spectra);
   }
   part->Crop(extent);
-  return vtkUnsignedCharArray::SafeDownCast(part->GetPointData()->GetArray(msi::PictureArray));
+  return msi::findPicture(part);
 }
 }
 

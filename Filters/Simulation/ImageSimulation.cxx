@@ -66,7 +66,7 @@ void simulateImage(vtkAlgorithm* algorithm, const ImageSimulator& simulator,
   const ImageSimulationInput& input, const CameraModel& camera, vtkImageData* output)
 {
   vtkImageData* image = input.image;
-  auto* array = requireSpectralArray(image, "the image", input.reflectanceArray.c_str());
+  auto* array = requireReflectanceArray(image, "the image", input.reflectanceArray.c_str());
   if (array->GetNumberOfComponents() != simulator.wavelengthCount())
   {
     throw std::invalid_argument("the image has " + std::to_string(array->GetNumberOfComponents()) +

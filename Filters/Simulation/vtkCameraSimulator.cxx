@@ -217,7 +217,7 @@ void vtkCameraSimulator::SimulateTable(const Work& work, vtkTable* input, vtkTab
 bool vtkCameraSimulator::SimulateImage(const Work& work, vtkInformation* information,
   vtkImageData* image, vtkInformation* outputInformation, vtkImageData* output)
 {
-  auto* array = msi::requireSpectralArray(image, "the image", this->ReflectanceArray.c_str());
+  auto* array = msi::requireReflectanceArray(image, "the image", this->ReflectanceArray.c_str());
   const auto axis = msi::axisOf(image, array);
   if (!axis.wavelengths)
   {

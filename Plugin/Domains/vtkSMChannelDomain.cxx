@@ -25,7 +25,7 @@ namespace
 vtkPVArrayInformation* spectralArray(vtkPVDataSetAttributesInformation* points)
 {
   auto* active = points->GetAttributeInformation(vtkDataSetAttributes::SCALARS);
-  if (active && active->GetName() != std::string(msi::PictureArray))
+  if (active && !msi::isPictureName(active->GetName()))
   {
     return active;
   }

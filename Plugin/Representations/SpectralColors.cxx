@@ -96,7 +96,7 @@ bool isPicture(vtkPVArrayInformation* array)
     return false;
   }
   const std::string name = array->GetName() ? array->GetName() : "";
-  return name == "sRGB" || name == "Display P3" || name == "Overlay";
+  return name == "sRGB" || name == "False Color" || name == "Display P3" || name == "Overlay";
 }
 
 bool isColorDifference(const std::string& arrayName)

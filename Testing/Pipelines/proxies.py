@@ -74,8 +74,19 @@ own = strings(simple.SpectralToColor(Input=chart, IlluminantTable=curves), "Illu
 if own != ["gallery", "shop", *illuminants]:
     faults.append(f"with a table of one's own Spectral To Color offers {own}")
 for name in own:
-    if rows(simple.SpectralToColor(Input=chart, IlluminantTable=curves, Illuminant=name)) == 0:
+    if rows(simple.SpectralToColor(Input=chart, IlluminantTable=curves, Illuminant=name, OtherIlluminant="D5300K")) == 0:
         faults.append(f"Spectral To Color does not take {name}")
+typed = simple.SpectralToColor(Input=chart, Illuminant="D5300")
+if "D5300" not in strings(typed, "Illuminant", "illuminants"):
+    faults.append("a list without the typed D5300 would change it")
+errors = simple.CIEDE2000Evaluator(Input=chart)
+metrics, lights = (strings(errors, name, "names") for name in ("Metrics", "Illuminants"))
+if list(errors.Metrics) != ["ciede2000"] or list(errors.Illuminants) != ["D65", "F2"] or \
+        not {"cmc", "sam", "metamerism"} <= set(metrics) or not {"D65", "F2", "LED-V2"} <= set(lights):
+    faults.append(f"CIEDE2000 Evaluator starts with {errors.Metrics}, {errors.Illuminants} and offers {metrics}, {lights}")
+methods = strings(simple.MethodComparison(Calibration=chart, Target=chart), "Methods", "names")
+if not {"direct", "transfer", "wiener"} <= set(methods):
+    faults.append(f"Method Comparison offers {methods}")
 fit = simple.ReflectanceCalibration(Input=chart)
 channels = simple.ChannelSelection(Input=chart)
 if list(channels.Channels) != [f"{nm} nm" for nm in range(400, 720, 20)]:

@@ -395,8 +395,15 @@ def panels(window):
         raise Failed(f"the channels that are ticked are {channels}")
     window.picture("panel of channels")
 
+    shown(window.panel("SpectralToColor", {"Input": chart}), ["Illuminant"], ["OtherIlluminant"])
+    shown(window.panel("SpectralToColor", {"Input": chart}, Illuminant="other"), ["Illuminant", "OtherIlluminant"])
+    if (box := window.panel("SpectralToColor", {"Input": chart}, Illuminant="D5300")["Illuminant"])["text"] != "D5300":
+        raise Failed(f"the panel changes the illuminant D5300 to {box['text']}")
+    ticked = window.panel("CIEDE2000Evaluator", {"Input": chart})["Illuminants"]["offered"]
+    if sorted(ticked) != ["D65", "F2"]:
+        raise Failed(f"the illuminants that are ticked are {ticked}")
     box = window.panel("SpectralToColor", {"Input": chart})["Illuminant"]
-    if box["text"] != "D65" or not {"D50", "FL12", "LED-V2"} <= set(box["offered"]):
+    if box["text"] != "D65" or not {"D50", "F12", "LED-V2"} <= set(box["offered"]):
         raise Failed(f"the illuminants are {box}")
 
 

@@ -173,6 +173,27 @@ TEST(CIEDE2000Evaluator, TakesTheReferenceFromASecondTable)
   EXPECT_NEAR(cell(output, 1, "dE00 D65"), 0.0, 1e-12);
 }
 
+TEST(CIEDE2000Evaluator, TakesListsNameByName)
+{
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, grayImage({ 0.5 }));
+  evaluator->SetInputData(1, grayImage({ 0.4 }));
+  evaluator->SetInputData(
+    2, newTable({ { "wavelength", { 380.0, 720.0 } }, { "gallery left", { 1.0, 1.0 } } }));
+  evaluator->ClearIlluminants();
+  evaluator->AddIlluminant("gallery left");
+  evaluator->AddIlluminant("A");
+  evaluator->SetOtherIlluminants("3200 K");
+  evaluator->ClearMetrics();
+  evaluator->AddMetric("cie76");
+  ASSERT_EQ(errorOf(evaluator), "");
+  auto* points = vtkImageData::SafeDownCast(evaluator->GetOutputDataObject(0))->GetPointData();
+  for (const char* name : { "rms", "dEab gallery left", "dEab A", "dEab 3200 K" })
+  {
+    EXPECT_TRUE(points->HasArray(name)) << name;
+  }
+}
+
 TEST(CIEDE2000Evaluator, GivesOnlyRmsWithoutIlluminants)
 {
   vtkNew<vtkCIEDE2000Evaluator> evaluator;

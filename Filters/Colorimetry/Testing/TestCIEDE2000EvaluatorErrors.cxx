@@ -39,6 +39,21 @@ TEST(CIEDE2000EvaluatorErrors, AskForTheReferenceOfAnImage)
   EXPECT_EQ(errorWith(grayImage({ 0.5 }), grayTable('R', { 0.5 })), expected);
 }
 
+TEST(CIEDE2000EvaluatorErrors, RefuseResponsesAsReflectance)
+{
+  const auto responses =
+    newImage(1, 1, ResponsesArray, patternValues(GrayGrid.size(), 1), GrayGrid);
+  EXPECT_EQ(errorWith(responses, grayImage({ 0.5 })),
+    "the estimate holds camera responses (the array 'Responses'); expected reflectance; estimate "
+    "it with Reflectance Estimation, or, where the values are reflectance, set Array Kind of the "
+    "image's reader to Reflectance");
+  vtkNew<vtkCIEDE2000Evaluator> evaluator;
+  evaluator->SetInputData(0, responses);
+  evaluator->SetInputData(1, grayImage({ 0.5 }));
+  evaluator->SetEstimateArray(ResponsesArray);
+  EXPECT_EQ(errorOf(evaluator), "");
+}
+
 TEST(CIEDE2000EvaluatorErrors, NameTheSizesThatDiffer)
 {
   EXPECT_EQ(errorWith(grayImage({ 0.1, 0.2, 0.3 }), grayImage({ 0.1, 0.2 })),

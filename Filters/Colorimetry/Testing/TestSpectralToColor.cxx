@@ -184,6 +184,31 @@ vtkSmartPointer<vtkTable> curvesAt1nm(
 }
 
 // The CIE's own observer and illuminant, handed in as a user's, change nothing.
+TEST(SpectralToColor, TakesAnIlluminantThatTheListHasNot)
+{
+  vtkNew<vtkSpectralToColor> color;
+  color->SetInputData(grayImage({ 0.5 }));
+  color->ComputeXYZOn();
+  color->SetIlluminant("other");
+  EXPECT_NE(errorOf(color).find("OtherIlluminant is empty; type an illuminant"), std::string::npos);
+  color->SetOtherIlluminant("D5300");
+  ASSERT_EQ(errorOf(color), "");
+  const auto other = valuesOf(imageOf(color), "XYZ");
+  color->SetIlluminant("D5300K");
+  ASSERT_EQ(errorOf(color), "");
+  EXPECT_EQ(valuesOf(imageOf(color), "XYZ"), other);
+}
+
+TEST(SpectralToColor, RefusesResponses)
+{
+  vtkNew<vtkSpectralToColor> color;
+  color->SetInputData(newImage(1, 1, ResponsesArray, patternValues(GrayGrid.size(), 1), GrayGrid));
+  EXPECT_EQ(
+    errorOf(color).rfind("the image holds camera responses (the array 'Responses')", 0), 0u);
+  color->SetSpectralArray(ResponsesArray);
+  EXPECT_EQ(errorOf(color), "");
+}
+
 TEST(SpectralToColor, TakesALampAndAnObserverFromTables)
 {
   const auto grid = WavelengthGrid::uniform(360.0, 830.0, 1.0);

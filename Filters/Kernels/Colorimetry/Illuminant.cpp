@@ -29,9 +29,11 @@ std::string_view illuminantName(const StandardTable& table)
   return table.name.substr(TablePrefix.size());
 }
 
+// In capitals and without spaces.
 std::string upperCase(std::string_view text)
 {
   std::string result(text);
+  result.erase(std::remove(result.begin(), result.end(), ' '), result.end());
   for (char& letter : result)
   {
     if (letter >= 'a' && letter <= 'z')
@@ -146,6 +148,15 @@ std::optional<Illuminant> illuminantByFormula(const std::string& name)
     return blackbody(name, *kelvin);
   }
   if (const auto kelvin = numberWithin(name, "D", "K"))
+  {
+    return daylight(name, *kelvin);
+  }
+  constexpr double ColdestDaylight = 4000.0;
+  if (const auto kelvin = numberWithin(name, "", "K"); kelvin && *kelvin < ColdestDaylight)
+  {
+    return blackbody(name, *kelvin);
+  }
+  if (const auto kelvin = numberWithin(name, "D", ""); kelvin && *kelvin >= 1000.0)
   {
     return daylight(name, *kelvin);
   }

@@ -34,7 +34,8 @@ public:
   // An illuminant by name, without regard to case: one of names(); E of equal energy; F1..F12 for
   // FL1..FL12; CWF, TL83, TL84, TL85, as the trade calls FL2, FL12, FL11, FL10; D55, D75, ..: daylight
   // of the nominal 5500 K, 7500 K, .., that is of 1.4388/1.4380 times as much; D5500K: daylight of just
-  // this correlated color temperature, 4000..25000 K; BB3200K: a blackbody, 1000..100000 K.
+  // this correlated color temperature, 4000..25000 K, and D5300 without K from 1000 on; BB3200K: a blackbody,
+  // 1000..100000 K, and below 4000 K "3200K" alone. Spaces do not count.
   // Throws std::invalid_argument listing the known names, or the range of the temperature.
   static Illuminant named(std::string_view name);
   // The tables: A, C, D50, D65, FL1..FL12, LED-B1..LED-B5, LED-BH1, LED-RGB1, LED-V1, LED-V2.

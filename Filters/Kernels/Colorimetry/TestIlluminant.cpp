@@ -145,6 +145,15 @@ TEST(Illuminant, OldNamesAndSmallLettersAreUnderstood)
   EXPECT_EQ(Illuminant::named("led-b1").name(), "LED-B1");
 }
 
+TEST(Illuminant, TemperaturesAreUnderstoodAsTheyAreTyped)
+{
+  EXPECT_EQ(Illuminant::named("D5300").power(), Illuminant::named("D5300K").power());
+  EXPECT_EQ(Illuminant::named("d 5300 k").power(), Illuminant::named("D5300K").power());
+  EXPECT_EQ(Illuminant::named("3200 K").power(), Illuminant::named("BB3200K").power());
+  // Daylight or a blackbody: it is not said which.
+  EXPECT_THROW(Illuminant::named("5300 K"), std::invalid_argument);
+}
+
 TEST(Illuminant, AnUnknownNameListsTheKnownOnes)
 {
   for (const char* name : { "D5x", "F13", "", "2deg" })

@@ -8,7 +8,7 @@ from .messages import Missing
 
 LIGHT, OBSERVER = "D65", "CIE 1931 2 degree"
 # What the window offers; CIEDE2000 Evaluator knows more names.
-LIGHTS = ("D65", "D50", "A", "FL2", "FL11", "LED-B3")
+LIGHTS = ("D65", "D50", "A", "F2", "F11", "LED-B3")
 OBSERVERS = {OBSERVER: "2\u00b0", "CIE 1964 10 degree": "10\u00b0"}
 _XYZ = 3  # curves of an observer
 

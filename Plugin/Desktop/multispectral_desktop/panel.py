@@ -203,7 +203,10 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             return
         source, port, display, name, _ = shown
         if number == 0:
-            simple.ColorBy(display, ("POINTS", "sRGB"))
+            pictures = [picture for picture in ("sRGB", "False Color") if source.GetDataInformation(port).DataInformation
+                        .GetPointDataInformation().GetArrayInformation(picture) is not None]
+            if pictures:
+                simple.ColorBy(display, ("POINTS", pictures[0]))
         else:
             array = source.PointData[name] if port == 0 else simple.OutputPort(source, port).PointData[name]
             simple.ColorBy(display, ("POINTS", name, array.GetComponentName(number - 1)))
@@ -266,6 +269,8 @@ def describe(pin):
         parts.append("band: \u00b12 standard deviations" + (" of the pixels" if pin.region is not None else ""))
     if pin.measured:
         parts.append("dashed: measured")
+    if not pin.wavelengths:
+        parts.append("channels without wavelengths: enter them in the properties of the image's reader")
     return "; ".join(parts)
 
 

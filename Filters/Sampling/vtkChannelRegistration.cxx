@@ -171,10 +171,13 @@ bool vtkChannelRegistration::Resample(vtkInformationVector** inputs, vtkInformat
   output->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   output->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   msi::replaceArray(output, nullptr, registered);
-  output->GetPointData()->RemoveArray(msi::PictureArray);
   if (this->Preview)
   {
     msi::setPicture(this, output, registered);
+  }
+  else
+  {
+    msi::removePicture(output);
   }
   if (outputInformation->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0)
   {

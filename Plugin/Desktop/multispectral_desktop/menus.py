@@ -28,19 +28,23 @@ def icon(name):
 class Order(QtCore.QObject):
     def __init__(self, window):
         super().__init__(window)
+        self._menus = []  # Python would forget them, and with them what was connected
         for action in window.menuBar().actions():
             if action.menu() is not None and action.text().replace("&", "") in ("Sources", "Filters"):
-                action.menu().aboutToShow.connect(lambda menu=action.menu(): self._arrange(menu))
+                self._watch(action.menu(), self._arrange)
 
-    @staticmethod
-    def _arrange(menu):
+    def _watch(self, menu, act):
+        self._menus.append(menu)
+        menu.aboutToShow.connect(lambda: act(menu))
+
+    def _arrange(self, menu):
         for action in menu.actions():
             group = action.menu()
             if group is not None and action.text().replace("&", "") == CATEGORY:
                 arrange(group)
                 if not group.property("multispectral"):
                     group.setProperty("multispectral", True)
-                    group.aboutToShow.connect(lambda group=group: arrange(group))
+                    self._watch(group, arrange)
 
 
 def arrange(menu):

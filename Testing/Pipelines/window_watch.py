@@ -70,14 +70,14 @@ def _panel(main):
         if not place.isVisible() or not place.metaObject().className().endswith(("PropertyWidget", "pqInputSelectorWidget")):
             continue
         box, line, tree = (next(iter(place.findChildren(kind)), None)
-                           for kind in (QtWidgets.QComboBox, QtWidgets.QLineEdit, QtWidgets.QTreeWidget))
+                           for kind in (QtWidgets.QComboBox, QtWidgets.QLineEdit, QtWidgets.QTreeView))
         field = box or line or tree or place
-        rows = [tree.topLevelItem(i) for i in range(tree.topLevelItemCount())] if tree is not None else []
+        rows = [tree.model().index(i, 0) for i in range(tree.model().rowCount())] if tree is not None else []
         found[place.objectName()] = {
             "kind": place.metaObject().className(), "middle": _middle(field),
             "text": box.currentText() if box is not None else line.text() if line is not None else "",
             "offered": [box.itemText(i) for i in range(box.count())] if box is not None else
-            [row.text(0) for row in rows if row.checkState(0) == QtCore.Qt.Checked]}
+            [row.data() for row in rows if row.data(QtCore.Qt.CheckStateRole) == QtCore.Qt.Checked]}
     return found
 
 

@@ -78,8 +78,8 @@ struct GapCause
   double shrink = 0.0;                 // by this effect alone
   std::vector<std::string> equivalent; // effects that this data cannot tell from it; at most two
   std::vector<GapParameter> parameters;
-  bool perChannel = false;  // a number for every channel
   double probability = 0.0; // of this effect, and not another or an unknown one, being a cause
+  bool perChannel = false;  // a number for every channel
 };
 
 struct GapCandidate

@@ -14,9 +14,6 @@ namespace msi
 
 namespace
 {
-// Of the causes together. Every camera has small errors in its channels.
-constexpr double LeastPart = 0.03;
-constexpr double LeastPartPerChannel = 0.1;
 constexpr std::size_t EquivalentNamed = 2;
 }
 
@@ -93,7 +90,7 @@ GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept
                                                  : GapVerdict::Unexplained;
 }
 
-void creditCauses(GapReport& report, std::vector<GapCause> causes)
+void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastPerChannel)
 {
   const auto sumOf = [](const std::vector<GapCause>& some)
   {
@@ -102,8 +99,8 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes)
   };
   const double all = sumOf(causes);
   const auto first = std::stable_partition(causes.begin(), causes.end(),
-    [all](const GapCause& cause)
-    { return cause.share > (cause.perChannel ? LeastPartPerChannel : LeastPart) * all; });
+    [all, leastPerChannel](const GapCause& cause)
+    { return cause.share > (cause.perChannel ? leastPerChannel : LeastPart) * all; });
   report.uncredited.clear();
   std::transform(first, causes.end(), std::back_inserter(report.uncredited),
     [](const GapCause& cause) { return cause.effect; });

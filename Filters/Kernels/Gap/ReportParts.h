@@ -20,9 +20,12 @@ void requireKnown(const std::vector<std::string>& without);
 // Of a gap with causes. noiseAlone: nothing but noise is left.
 GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept;
 
-// Takes the causes into the report, and what none of them explains. Those that get less than 3 %
-// of what all get are no causes, nor are numbers of single channels with less than 10 %: their effects go to GapReport::uncredited.
-void creditCauses(GapReport& report, std::vector<GapCause> causes);
+inline constexpr double LeastPart = 0.03; // of the causes together
+
+// Takes the causes into the report, and what none of them explains. Those that get less than LeastPart of what all get are no
+// causes, nor are numbers of single channels with less than leastPerChannel: their effects go to GapReport::uncredited.
+void creditCauses(
+  GapReport& report, std::vector<GapCause> causes, double leastPerChannel = LeastPart);
 
 // Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.
 void believe(GapReport& report, std::vector<std::pair<std::string, double>> probabilities);

@@ -12,6 +12,8 @@ inline constexpr double FormTolerance = 0.03;  // of the gap: forms are approxim
 inline constexpr double HuberCut = 5.0;        // median residuals
 
 // How much of what a cause does is believed?
+inline constexpr double LeastPartPerChannel =
+  0.1; // of the causes together: every camera has small errors in its channels
 inline constexpr double UnconfirmedShare = 0.4; // of what samples left out cannot confirm
 inline constexpr double UnrepeatedProbability =
   0.4; // of scatter beyond the noise model: an error of each sample looks the same

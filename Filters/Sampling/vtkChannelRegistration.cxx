@@ -39,11 +39,11 @@ struct StripBuffers
 
 // The strip `rows` of the result; `held` are the pixels at `values`.
 void registerStrip(const msi::ChannelRegistration& registration,
-  const std::vector<msi::ChannelDisplacement>& displacements, const msi::ImageExtent& extent,
+  const std::vector<msi::ShownPixels>& shown, const msi::ImageExtent& extent,
   const msi::ImageWindow& held, const float* values, const msi::ImageWindow& rows,
   StripBuffers& buffers, float* out)
 {
-  const auto channels = displacements.size();
+  const auto channels = shown.size();
   const msi::ImageWindow read = msi::grown(rows, registration.reach(), extent);
   msi::PixelBuffer& buffer = buffers.pixels;
   buffer.resize(read, static_cast<int>(channels));
@@ -62,9 +62,7 @@ void registerStrip(const msi::ChannelRegistration& registration,
       const float* pixel = buffer.pixel(x, y);
       for (std::size_t k = 0; k < channels; ++k)
       {
-        out[k] = msi::showsPixel(displacements[k], extent, x, y)
-          ? pixel[k]
-          : std::numeric_limits<float>::quiet_NaN();
+        out[k] = shown[k].contain(x, y) ? pixel[k] : std::numeric_limits<float>::quiet_NaN();
       }
     }
   }
@@ -136,6 +134,12 @@ bool vtkChannelRegistration::Resample(vtkInformationVector** inputs, vtkInformat
   const auto displacements = msi::readDisplacements(
     vtkTable::GetData(inputs[1]), axis, { image->GetSpacing()[0], image->GetSpacing()[1] });
   const msi::ChannelRegistration registration = msi::undoing(displacements, extent);
+  std::vector<msi::ShownPixels> shown;
+  shown.reserve(displacements.size());
+  for (const msi::ChannelDisplacement& displacement : displacements)
+  {
+    shown.emplace_back(displacement, extent);
+  }
   this->Margin = registration.reach();
 
   const msi::Extent wanted = msi::requestedExtent(outputInformation);
@@ -158,7 +162,7 @@ bool vtkChannelRegistration::Resample(vtkInformationVector** inputs, vtkInformat
     {
       float* out = registered->GetPointer(
         static_cast<vtkIdType>(row) * window.width * registered->GetNumberOfComponents());
-      registerStrip(registration, displacements, extent, held, floats->GetPointer(0),
+      registerStrip(registration, shown, extent, held, floats->GetPointer(0),
         { window.x, window.y + row, window.width, rows }, buffers.Local(), out);
     });
 

@@ -592,19 +592,27 @@ ChannelRegistration undoing(
   return { right, down, magnification, rotation, extent };
 }
 
-bool showsPixel(const ChannelDisplacement& d, const ImageExtent& extent, int x, int y) noexcept
+ShownPixels::ShownPixels(const ChannelDisplacement& d, const ImageExtent& extent) noexcept
+  : Extent(extent)
+  , MiddleX(Frame(extent).middleX)
+  , MiddleY(Frame(extent).middleY)
+  , Right(d.right)
+  , Down(d.down)
+  , Cosine((1.0 + d.magnification) * std::cos(d.rotation * Degree))
+  , Sine((1.0 + d.magnification) * std::sin(d.rotation * Degree))
 {
-  const Frame frame(extent);
-  const double cosine = (1.0 + d.magnification) * std::cos(d.rotation * Degree);
-  const double sine = (1.0 + d.magnification) * std::sin(d.rotation * Degree);
-  const double offX = x - frame.middleX;
-  const double offY = y - frame.middleY;
-  const double u = frame.middleX + cosine * offX - sine * offY + d.right;
-  const double v = frame.middleY + sine * offX + cosine * offY + d.down;
+}
+
+bool ShownPixels::contain(int x, int y) const noexcept
+{
+  const double offX = x - MiddleX;
+  const double offY = y - MiddleY;
+  const double u = MiddleX + Cosine * offX - Sine * offY + Right;
+  const double v = MiddleY + Sine * offX + Cosine * offY + Down;
   // Rounding of a displacement that is a whole number must not take the last row away.
   constexpr double Rounding = 1e-6;
-  return u >= -Rounding && v >= -Rounding && u <= extent.width - 1 + Rounding &&
-    v <= extent.height - 1 + Rounding;
+  return u >= -Rounding && v >= -Rounding && u <= Extent.width - 1 + Rounding &&
+    v <= Extent.height - 1 + Rounding;
 }
 
 } // namespace msi

@@ -75,8 +75,18 @@ std::vector<ImageWindow> displacementTiles(const ImageExtent& extent);
 ChannelRegistration undoing(
   const std::vector<ChannelDisplacement>& displacements, const ImageExtent& extent);
 
-// Whether the registered pixel (x, y) of a channel is read from within the image, not from its repeated edge.
-bool showsPixel(
-  const ChannelDisplacement& displacement, const ImageExtent& extent, int x, int y) noexcept;
+// The registered pixels of a channel that are read from within the image, not from its repeated edge.
+class ShownPixels
+{
+public:
+  ShownPixels(const ChannelDisplacement& displacement, const ImageExtent& extent) noexcept;
+  bool contain(int x, int y) const noexcept;
+
+private:
+  ImageExtent Extent;
+  double MiddleX, MiddleY;
+  double Right, Down;
+  double Cosine, Sine; // times the magnification
+};
 
 } // namespace msi

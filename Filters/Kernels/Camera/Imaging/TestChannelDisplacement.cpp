@@ -118,7 +118,7 @@ TEST(ChannelDisplacement, RegistrationPutsTheChannelsBack)
     {
       for (std::size_t k = 0; k < Similarities.size(); ++k)
       {
-        if (msi::showsPixel(Similarities[k], chart.extent, x, y))
+        if (msi::ShownPixels(Similarities[k], chart.extent).contain(x, y))
         {
           ++shown;
           // Cubic convolution reads two pixels to each side, which the edge cuts.

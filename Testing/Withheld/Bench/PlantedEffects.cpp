@@ -532,7 +532,6 @@ PlantedEffect plantStranger(
   effect.kind = kind;
   const std::size_t channels = bench.filters.size();
   const auto seed = random();
-  using Responses = std::vector<std::vector<double>>;
   using Change = std::function<double(double u, std::size_t i, std::size_t k)>;
   Change change;
   if (kind == "flicker")

@@ -65,7 +65,7 @@ std::vector<double> whiteOf(const Bench& bench)
   return white;
 }
 
-std::vector<std::vector<double>> expose(
+Responses expose(
   const Bench& bench, const std::vector<Patch>& patches, const std::vector<double>& white)
 {
   const std::size_t channels = bench.filters.size();

@@ -12,6 +12,7 @@ namespace withheld
 {
 
 using Curve = std::vector<double>; // one value a nanometre, FirstNanometre .. LastNanometre
+using Responses = std::vector<std::vector<double>>; // of each patch, of each channel
 constexpr int FirstNanometre = 380;
 constexpr int LastNanometre = 730;
 constexpr int Nanometres = LastNanometre - FirstNanometre + 1;
@@ -74,7 +75,7 @@ struct Bench
   double fullWell = 1e9;
   std::function<double(double, int)> drift; // factor at time 0..1 in a channel
   // For effects that no library has: changes the finished response; (responses[patch][channel], patches).
-  std::function<void(std::vector<std::vector<double>>&, const std::vector<Patch>&)> other;
+  std::function<void(Responses&, const std::vector<Patch>&)> other;
   double noiseFactor = 1.0;
 };
 
@@ -85,7 +86,7 @@ Curve responsivityOf(const Bench& bench, std::size_t channel);
 std::vector<double> whiteOf(const Bench& bench);
 
 // Noise-free responses [patch][channel] relative to `white`.
-std::vector<std::vector<double>> expose(
+Responses expose(
   const Bench& bench, const std::vector<Patch>& patches, const std::vector<double>& white);
 
 } // namespace withheld

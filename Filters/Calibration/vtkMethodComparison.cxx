@@ -5,6 +5,7 @@
 #include "NameList.h"
 #include "ResponseRange.h"
 #include "SampleColumns.h"
+#include "ThreadedParts.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -505,13 +505,10 @@ int vtkMethodComparison::RequestData(
         kept, options.methods.size(), static_cast<std::size_t>(target.cols()));
       msi::ComparisonDraw firstDraw; // on the rank that runs it
 
-      // Exceptions must not leave a thread; the first one is kept for the caller.
       auto* controller = msi::controllerOfTables();
       const vtkIdType ranks = controller ? controller->GetNumberOfProcesses() : 1;
       const vtkIdType rank = controller ? controller->GetLocalProcessId() : 0;
       const auto taskCount = static_cast<vtkIdType>(tasks.size());
-      std::mutex failureLock;
-      std::string failure;
       const auto runTask = [&](vtkIdType task)
       {
         const auto [count, draw] = tasks[static_cast<std::size_t>(task)];
@@ -542,37 +539,9 @@ int vtkMethodComparison::RequestData(
           firstDraw = std::move(result);
         }
       };
-      const vtkIdType round =
-        std::max<vtkIdType>(4 * ranks * vtkSMPTools::GetEstimatedNumberOfThreads(), taskCount / 50);
-      for (vtkIdType first = 0; first < taskCount && !this->GetAbortExecute(); first += round)
-      {
-        const auto last = std::min(first + round, taskCount);
-        vtkSMPTools::For(first, last, 1,
-          [&](vtkIdType begin, vtkIdType end)
-          {
-            for (vtkIdType task = begin; task < end; ++task)
-            {
-              try
-              {
-                if (task % ranks == rank)
-                {
-                  runTask(task);
-                }
-              }
-              catch (const std::exception& error)
-              {
-                const std::lock_guard<std::mutex> hold(failureLock);
-                failure = error.what();
-              }
-            }
-          });
-        this->UpdateProgress(static_cast<double>(last) / static_cast<double>(taskCount));
-      }
-      if (failure.empty() && this->GetAbortExecute())
-      {
-        failure = "stopped by the user";
-      }
-      msi::throwOnAnyRank(failure, controller);
+      const vtkIdType mine = (taskCount - rank + ranks - 1) / ranks;
+      msi::beforeRanksMeet(controller,
+        [&] { msi::forParts(this, mine, [&](vtkIdType part) { runTask(rank + part * ranks); }); });
       store.sumOverRanks(controller);
       errors.sumOverRanks(controller);
       std::vector<LeftOutMethod> without;

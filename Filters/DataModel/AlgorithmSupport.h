@@ -2,6 +2,8 @@
 #ifndef AlgorithmSupport_h
 #define AlgorithmSupport_h
 
+#include "ThreadedParts.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
 #include "vtkDataObject.h"
@@ -9,7 +11,6 @@
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObject.h"
-#include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -136,24 +137,13 @@ void beforeRanksMeet(vtkMultiProcessController* controller, Work&& work)
   throwOnAnyRank(failure, controller);
 }
 
-// Calls work(begin, end) for blocks that cover [0, count), spread over the SMP threads, with progress
-// and the chance to abort in between. 'work' must not throw. Throws std::runtime_error when aborted.
+// Calls work(begin, end) for blocks that cover [0, count), as forParts() does.
 template <typename Work>
 void forBlocks(vtkAlgorithm* algorithm, vtkIdType count, const Work& work)
 {
-  constexpr vtkIdType Rounds = 32;
-  constexpr vtkIdType LeastRound = 1 << 16;
-  const vtkIdType step = std::max(LeastRound, (count + Rounds - 1) / Rounds);
-  for (vtkIdType begin = 0; begin < count; begin += step)
-  {
-    if (algorithm->GetAbortExecute())
-    {
-      throw std::runtime_error("stopped by the user");
-    }
-    vtkSMPTools::For(begin, std::min(count, begin + step), 1024, work);
-    algorithm->UpdateProgress(
-      static_cast<double>(std::min(count, begin + step)) / static_cast<double>(count));
-  }
+  constexpr vtkIdType Block = 1024;
+  forParts(algorithm, (count + Block - 1) / Block,
+    [&](vtkIdType block) { work(block * Block, std::min(count, (block + 1) * Block)); });
 }
 
 } // namespace msi

@@ -3,16 +3,11 @@
 #define ImageStrips_h
 
 #include "ImagePieces.h"
-
-#include "vtkAlgorithm.h"
-#include "vtkSMPTools.h"
+#include "ThreadedParts.h"
 
 #include "Kernels/Camera/Imaging/ImageWindow.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <stdexcept>
 
 namespace msi
 {
@@ -23,43 +18,18 @@ inline ImageWindow windowOf(const Extent& extent, const Extent& whole)
     extent[3] - extent[2] + 1 };
 }
 
-// Calls work(first row, rows) for strips that cover [0, rows), in threads, with progress and the chance to abort.
-// An exception of the work stops it and goes on to the caller.
+// Calls work(first row, rows) for strips that cover [0, rows), as forParts() does.
 template <typename Work>
 void forStrips(vtkAlgorithm* algorithm, int rows, int stripRows, double progress, const Work& work)
 {
-  const int strips = (rows + stripRows - 1) / stripRows;
-  const int round = std::max(1, 2 * vtkSMPTools::GetEstimatedNumberOfThreads());
-  for (int first = 0; first < strips; first += round)
-  {
-    if (algorithm->GetAbortExecute())
+  forParts(
+    algorithm, (rows + stripRows - 1) / stripRows,
+    [&](vtkIdType strip)
     {
-      throw std::runtime_error("stopped by the user");
-    }
-    std::atomic<bool> failed{ false };
-    vtkSMPTools::For(first, std::min(strips, first + round), 1,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (auto strip = static_cast<int>(begin); strip < end && !failed; ++strip)
-        {
-          try
-          {
-            const int row = strip * stripRows;
-            work(row, std::min(stripRows, rows - row));
-          }
-          catch (const std::exception&)
-          {
-            failed = true;
-          }
-        }
-      });
-    if (failed)
-    {
-      throw std::runtime_error("the memory does not suffice for the image");
-    }
-    algorithm->UpdateProgress(
-      progress + (1.0 - progress) * std::min(1.0, static_cast<double>(first + round) / strips));
-  }
+      const int row = static_cast<int>(strip) * stripRows;
+      work(row, std::min(stripRows, rows - row));
+    },
+    progress);
 }
 
 } // namespace msi

@@ -1,11 +1,11 @@
 #include "DiagnosisRun.h"
 
+#include "ThreadedParts.h"
+
 #include "vtkAlgorithm.h"
-#include "vtkSMPTools.h"
 
 #include <atomic>
 #include <chrono>
-#include <exception>
 #include <future>
 #include <mutex>
 #include <stdexcept>
@@ -51,33 +51,6 @@ private:
   std::atomic<bool> Stop{ false };
 };
 
-// vtkSMPTools::For whose body may throw: the first exception goes to the caller.
-void forEach(int count, const std::function<void(int)>& body)
-{
-  std::mutex lock;
-  std::exception_ptr failure;
-  vtkSMPTools::For(0, count, 1,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        try
-        {
-          body(static_cast<int>(i));
-        }
-        catch (...)
-        {
-          const std::lock_guard<std::mutex> hold(lock);
-          failure = failure ? failure : std::current_exception();
-        }
-      }
-    });
-  if (failure)
-  {
-    std::rethrow_exception(failure);
-  }
-}
-
 // diagnose(options) beside the calling thread.
 template <typename Diagnose>
 auto runBeside(vtkAlgorithm* algorithm, GapOptions options, Diagnose diagnose)
@@ -86,7 +59,8 @@ auto runBeside(vtkAlgorithm* algorithm, GapOptions options, Diagnose diagnose)
   std::mutex exclusive;
   options.progress = [&messages](double fraction, const char* what)
   { return messages.tell(fraction, what); };
-  options.parallelFor = forEach;
+  options.parallelFor = [](int count, const std::function<void(int)>& body)
+  { forParts(count, [&body](vtkIdType i) { body(static_cast<int>(i)); }); };
   options.exclusive = [&exclusive](const std::function<void()>& body)
   {
     const std::lock_guard<std::mutex> hold(exclusive);

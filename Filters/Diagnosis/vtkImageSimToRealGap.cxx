@@ -5,6 +5,7 @@
 #include "GapReportTables.h"
 #include "ImagePieces.h"
 #include "SpectralImage.h"
+#include "ThreadedParts.h"
 
 #include "vtkDataObject.h"
 #include "vtkFloatArray.h"
@@ -14,7 +15,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSMPThreadLocal.h"
-#include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -69,28 +69,24 @@ void writeGap(const msi::FieldPair& pair, const msi::FieldGap& found, float* gap
   const int rows = (pair.extent.height + WindowSide - 1) / WindowSide;
   const std::size_t K = pair.channels.size();
   vtkSMPThreadLocal<msi::CorrectionWorkspace> workspaces;
-  vtkSMPTools::For(0, static_cast<vtkIdType>(columns) * rows, 1,
-    [&](vtkIdType begin, vtkIdType end)
+  msi::forParts(static_cast<vtkIdType>(columns) * rows,
+    [&](vtkIdType number)
     {
-      std::vector<float> values;
-      for (vtkIdType number = begin; number < end; ++number)
+      const int x = static_cast<int>(number % columns) * WindowSide;
+      const int y = static_cast<int>(number / columns) * WindowSide;
+      const msi::ImageWindow window{ x, y, std::min(WindowSide, pair.extent.width - x),
+        std::min(WindowSide, pair.extent.height - y) };
+      std::vector<float> values(window.pixels() * K);
+      correction(window, values.data(), workspaces.Local());
+      const float* value = values.data();
+      for (int v = y; v < y + window.height; ++v)
       {
-        const int x = static_cast<int>(number % columns) * WindowSide;
-        const int y = static_cast<int>(number / columns) * WindowSide;
-        const msi::ImageWindow window{ x, y, std::min(WindowSide, pair.extent.width - x),
-          std::min(WindowSide, pair.extent.height - y) };
-        values.resize(window.pixels() * K);
-        correction(window, values.data(), workspaces.Local());
-        const float* value = values.data();
-        for (int v = y; v < y + window.height; ++v)
+        for (std::size_t i = pair.index(x, v) * K; i < pair.index(x + window.width, v) * K; ++i)
         {
-          for (std::size_t i = pair.index(x, v) * K; i < pair.index(x + window.width, v) * K; ++i)
-          {
-            const float real = pair.real[i] * white[static_cast<Eigen::Index>(i % K)];
-            corrected[i] = *value++;
-            gap[i] = real - pair.simulated[i];
-            after[i] = real - corrected[i];
-          }
+          const float real = pair.real[i] * white[static_cast<Eigen::Index>(i % K)];
+          corrected[i] = *value++;
+          gap[i] = real - pair.simulated[i];
+          after[i] = real - corrected[i];
         }
       }
     });

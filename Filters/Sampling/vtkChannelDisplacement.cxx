@@ -5,6 +5,7 @@
 #include "ImageBlocks.h"
 #include "ImageStrips.h"
 #include "SpectralImage.h"
+#include "ThreadedParts.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -14,9 +15,7 @@
 #include "Kernels/Camera/Imaging/ChannelDisplacement.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -224,26 +223,14 @@ void vtkChannelDisplacement::WriteTable(vtkInformationVector* outputs)
     return k + (k < reference ? 1 : k > reference ? -1 : 0);
   };
   std::vector<msi::ChannelDisplacement> found(current.axis.size());
-  std::atomic<bool> failed{ false };
-  vtkSMPTools::For(0, static_cast<vtkIdType>(found.size()), 1,
-    [&](vtkIdType begin, vtkIdType end)
+  msi::forParts(
+    this, static_cast<vtkIdType>(found.size()),
+    [&](vtkIdType part)
     {
-      for (auto k = static_cast<int>(begin); k < end; ++k)
-      {
-        try
-        {
-          found[static_cast<std::size_t>(k)] = search(towards(k), k);
-        }
-        catch (const std::exception&)
-        {
-          failed = true;
-        }
-      }
-    });
-  if (failed)
-  {
-    throw std::bad_alloc();
-  }
+      const auto k = static_cast<int>(part);
+      found[static_cast<std::size_t>(k)] = search(towards(k), k);
+    },
+    0.5);
   for (std::size_t k = 0; k < found.size(); ++k)
   {
     requireFound(found[k], current.axis, k, static_cast<std::size_t>(towards(static_cast<int>(k))));

@@ -122,7 +122,6 @@ void drawPatches(Random& random, const CaseRequest& request, bool mediumMatters,
   }
 }
 
-
 // camera.csv: its mean through a slit around each wavelength or, where the curve is smooth on the grid, its value
 // there; scaled to the white.
 void measureCamera(Random& random, const Bench& bench, Capture& capture)

@@ -17,8 +17,9 @@ APT_GET = '''case "$*" in
   *" update") exit 0 ;;
   *" install "*) for p in "$@"; do case $p in -*|install) ;; *) echo "$p" >>"$STATE/have" ;; esac; done ;;
 esac'''
-CMAKE = '''while [ $# -gt 0 ]; do [ "$1" = -B ] && tree=$2; shift; done
-echo configured >>"$STATE/log"
+CMAKE = '''case " $* " in *" -DBUILD_TESTING=OFF "*) done=configured ;; *) done=configured-with-tests ;; esac
+while [ $# -gt 0 ]; do [ "$1" = -B ] && tree=$2; shift; done
+echo $done >>"$STATE/log"
 mkdir -p "$tree"
 { echo "CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT"; echo "CMAKE_CACHEFILE_DIR:INTERNAL=$tree"; } >"$tree/CMakeCache.txt"
 touch "$tree/build.ninja"'''

@@ -19,12 +19,40 @@ namespace
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
+constexpr Eigen::Index Together = 4;    // values of a group, and pixels side by side
+constexpr Eigen::Index GroupsAFold = 8; // the groups that are summed before the total
+
+#if HWY_TARGET ==                                                                                  \
+  HWY_SCALAR // where Highway has no vectors of four (GCC before 12.3): the same sums in the same order
+void fourPixels(const float* weights, const float* constant, Eigen::Index groups,
+  const float* values, Eigen::Index stride, Eigen::Index lastGroup, float* xyz)
+{
+  using Sums = Eigen::Array4f;
+  for (Eigen::Index plane = 0; plane < 3; ++plane)
+  {
+    for (Eigen::Index pixel = 0; pixel < Together; ++pixel)
+    {
+      Sums total = Sums::Zero();
+      for (Eigen::Index begin = 0; begin < groups; begin += GroupsAFold)
+      {
+        Sums fold = Sums::Zero();
+        for (Eigen::Index g = begin; g < std::min(begin + GroupsAFold, groups); ++g)
+        {
+          const float* at = values + (g + 1 < groups ? Together * g : lastGroup);
+          fold += Sums::Map(weights + 16 * g + Together * plane) * Sums::Map(at + pixel * stride);
+        }
+        total += fold;
+      }
+      xyz[3 * pixel + plane] =
+        ((total[0] + total[2]) + (total[1] + total[3])) + constant[Together * plane + pixel];
+    }
+  }
+}
+#else
 using Tag = hn::CappedTag<float, 16>;
 using Sums = hn::Vec<Tag>;
 using Four = hn::FixedTag<float, 4>;
-
-constexpr Eigen::Index Together = 4;    // values of a group, and pixels side by side
-constexpr Eigen::Index GroupsAFold = 8; // the groups that are summed before the total
+static_assert(hn::MaxLanes(Tag()) >= 4, "XYZ are summed four values at a time");
 
 // [a0 + a2, b0 + b2, a1 + a3, b1 + b3] of each four.
 Sums addHalves(Sums a, Sums b)
@@ -78,12 +106,12 @@ void fourPixels(const float* weights, const float* constant, Eigen::Index groups
   hn::StoreInterleaved3(hn::Load(four, planes.data()), hn::Load(four, planes.data() + 4),
     hn::Load(four, planes.data() + 8), four, xyz);
 }
+#endif
 }
 
 void runTristimulus(const float* weights, const float* constant, Eigen::Index count,
   const float* values, float* xyz, Eigen::Index pixels)
 {
-  static_assert(hn::MaxLanes(Tag()) >= 4, "XYZ are summed four values at a time");
   const Eigen::Index groups = (count + Together - 1) / Together;
   const Eigen::Index lastGroup = std::max<Eigen::Index>(count - Together, 0);
   Eigen::Index first = 0;

@@ -188,79 +188,82 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     const DetectorAnswer answer = detector(linear);
     const double u = answer.bySignal * linear;
     const double through = answer.bySignal * chain * light.lost();
-    const double direct = through * light.light(i, factors[at]); // what the field's factors act on
+    const double lens = light.light(i, factors[at]);
+    const double direct = through * lens; // what the field's factors act on
     const double local = through * factors[at];
     const double sharp = local * (1.0 - light.fraction());
     auto out = scratch.columns.row(n);
-    out[FieldColumn::Gain] = u;
-    out[FieldColumn::One] = answer.byOffset;
+    const auto by = [&out](P parameter) -> double& { return out[FieldColumn::of(parameter)]; };
+    by(P::Gain) = u;
+    by(P::Dark) = answer.byOffset;
     const double even = direct / std::fmax(model.gradient(x, y), LeastFactor);
     const GradientSlope slope = gradientSlope(model, x, y);
-    out[FieldColumn::GradientRight] = slope.right * even;
-    out[FieldColumn::GradientDown] = slope.down * even;
-    out[FieldColumn::GradientBend] = slope.bend * even;
+    by(P::GradientRight) = slope.right * even;
+    by(P::GradientDown) = slope.down * even;
+    by(P::GradientBend) = slope.bend * even;
     const double offX = x - model.at(P::CenterX, 0);
     const double offY = y - model.at(P::CenterY, 0);
     const double square = offX * offX + offY * offY;
     const double bright = direct / std::fmax(model.vignetting(x, y), LeastFactor);
-    out[FieldColumn::RadiusSquared] = square * bright;
-    out[FieldColumn::RadiusFourth] = square * square * bright;
-    out[FieldColumn::RadiusSixth] = square * square * square * bright;
+    by(P::Falloff) = -square * bright;
+    by(P::Fourth) = -square * square * bright;
+    by(P::Sixth) = -square * square * square * bright;
     const double steep = 2.0 * bright *
       (model.at(P::Falloff, 0) +
         square * (2.0 * model.at(P::Fourth, 0) + 3.0 * square * model.at(P::Sixth, 0)));
-    out[FieldColumn::CenterX] = offX * steep;
-    out[FieldColumn::CenterY] = offY * steep;
-    out[FieldColumn::Square] = answer.bySquare;
-    out[FieldColumn::Exponent] = answer.byExponent;
-    out[FieldColumn::Clip] = answer.byClip;
-    out[FieldColumn::ClipLevel] = answer.byClipLevel;
-    out[FieldColumn::Before] = answer.bySignal * chain * before;
-    out[FieldColumn::FromPrevious] = answer.bySignal * chain * fromBefore;
-    out[FieldColumn::FromNext] = answer.bySignal * chain * fromBehind;
-    out[FieldColumn::Mean] = answer.bySignal * chain * glare[channel];
+    by(P::CenterX) = offX * steep;
+    by(P::CenterY) = offY * steep;
+    by(P::Square) = answer.bySquare;
+    by(P::Compression) = -answer.bySquare;
+    by(P::Exponent) = answer.byExponent;
+    by(P::Clip) = answer.byClip;
+    by(P::ClipLevel) = answer.byClipLevel;
+    by(P::Retained) = answer.bySignal * chain * before;
+    by(P::FromPrevious) = answer.bySignal * chain * fromBefore;
+    by(P::FromNext) = answer.bySignal * chain * fromBehind;
+    by(P::Glare) = answer.bySignal * chain * glare[channel];
+    by(P::ConservingGlare) = answer.bySignal * chain * (glare[channel] - lens);
     const double right = sharp * light.scene().right(column, row);
     const double down = sharp * light.scene().down(column, row);
-    out[FieldColumn::Right] = right;
-    out[FieldColumn::Down] = down;
-    out[FieldColumn::Magnification] =
+    by(P::Right) = right;
+    by(P::Down) = down;
+    by(P::Magnification) =
       data.pair.offX(window.x + column) * right + data.pair.offY(window.y + row) * down;
-    out[FieldColumn::Rotation] =
+    by(P::Rotation) =
       Degree * (data.pair.offX(window.x + column) * down - data.pair.offY(window.y + row) * right);
-    out[FieldColumn::BlurVariance] = sharp * light.scene().blur(column, row);
+    by(P::BlurVariance) = sharp * light.scene().blur(column, row);
     for (std::size_t other = 0; other < imageLights().size(); ++other)
     {
-      out[FieldColumn::Lights + static_cast<int>(other)] =
-        answer.bySignal * chain * light.other(other, i);
+      by(imageLight(other)) = answer.bySignal * chain * light.other(other, i);
     }
     const TailSurround surround = light.surround(i) - light.self(i);
     for (int pass = 0; pass < TailPasses; ++pass)
     {
-      out[FieldColumn::Tail + pass] = local * surround[pass];
+      out[FieldColumn::pass(pass)] = local * surround[pass];
     }
     const double open = answer.bySignal * gain * lit; // without stripes
     if (model.rowPeriod > 0.0)
     {
-      out[FieldColumn::RowSine] = rows.sine[row] * open;
-      out[FieldColumn::RowCosine] = rows.cosine[row] * open;
+      by(P::RowSine) = rows.sine[row] * open;
+      by(P::RowCosine) = rows.cosine[row] * open;
     }
     if (model.columnPeriod > 0.0)
     {
-      out[FieldColumn::ColumnSine] = columns.sine[column] * open;
-      out[FieldColumn::ColumnCosine] = columns.cosine[column] * open;
+      by(P::ColumnSine) = columns.sine[column] * open;
+      by(P::ColumnCosine) = columns.cosine[column] * open;
     }
     if (rowGain != nullptr)
     {
-      out[FieldColumn::RowGain] = rowGain[row] * open;
-      out[FieldColumn::RowOffset] = rowOffset[row] * answer.bySignal * gain;
+      by(P::RowGain) = rowGain[row] * open;
+      by(P::RowOffset) = rowOffset[row] * answer.bySignal * gain;
     }
     if (columnGain != nullptr)
     {
-      out[FieldColumn::ColumnGain] = columnGain[column] * open;
-      out[FieldColumn::ColumnOffset] = columnOffset[column] * answer.bySignal * gain;
+      by(P::ColumnGain) = columnGain[column] * open;
+      by(P::ColumnOffset) = columnOffset[column] * answer.bySignal * gain;
     }
-    out[FieldColumn::Diagonal] = x * y * direct;
-    out[FieldColumn::Saddle] = (x * x - y * y) * direct;
+    out[FieldColumn::diagonal()] = x * y * direct;
+    out[FieldColumn::saddle()] = (x * x - y * y) * direct;
     out[FieldColumn::residual()] = static_cast<double>(block.real[at * K + k]) - answer.value;
     scratch.level[n] = answer.value;
   }

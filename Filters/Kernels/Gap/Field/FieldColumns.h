@@ -11,52 +11,33 @@
 namespace msi
 {
 
-// The columns of the linear model of a block's residual, one channel.
+// The columns of the linear model of a block's residual, one channel: derivatives of the prediction.
 namespace FieldColumn
 {
-enum Index : int
+// By a parameter; by Gain relative to it. Those of TailFraction and TailRadius are empty: their derivatives are sums of the
+// tail's passes.
+constexpr int of(ImageParameter parameter) noexcept
 {
-  Gain, // u
-  One,
-  GradientRight, // x u
-  GradientDown,  // y u
-  GradientBend,  // n^2 u, n the place along the gradient; 0 without gradient
-  RadiusSquared, // rho^2 u, rho from the center of vignetting
-  RadiusFourth,
-  RadiusSixth,
-  CenterX,
-  CenterY,
-  Square,   // u^2
-  Exponent, // u ln u
-  Clip,     // u above the level of clipping
-  ClipLevel,
-  Before,       // the channel before
-  FromPrevious, // the same less this channel, where there is one
-  FromNext,
-  Mean,  // of the scene, what glare adds
-  Right, // derivative by displacement
-  Down,
-  Magnification,
-  Rotation,
-  BlurVariance, // derivative by the blur's variance
-  Tail,         // the surround minus u, TailPasses columns
-  RowSine = Tail + TailPasses,
-  RowCosine,
-  ColumnSine,
-  ColumnCosine,
-  RowGain, // the profile of lines times u
-  RowOffset,
-  ColumnGain,
-  ColumnOffset,
-  Diagonal, // x y u, (x^2 - y^2) u: only to see where a gap lies
-  Saddle,
-  Lights // from elsewhere in the image, one column each of imageLights(); the last is real - predicted
-};
-
-// The number of the residual, and how many there are before it.
+  return static_cast<int>(parameter);
+}
+// By the weight of one of TailPasses passes, counted from 0: the surround minus u.
+inline int pass(int number)
+{
+  return number > 0 ? of(surroundWeight(number - 1)) : static_cast<int>(fieldParameterCount());
+}
+// x y u and (x^2 - y^2) u: only to see where a gap lies.
+inline int diagonal()
+{
+  return pass(0) + 1;
+}
+inline int saddle()
+{
+  return pass(0) + 2;
+}
+// real - predicted, the last one; how many stand before it, and how many there are.
 inline int residual()
 {
-  return Lights + static_cast<int>(imageLights().size());
+  return pass(0) + 3;
 }
 inline int count()
 {

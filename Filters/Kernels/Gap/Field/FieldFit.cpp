@@ -1,6 +1,12 @@
-#include "Kernels/Gap/Field/FieldBound.h"
+#include "Kernels/Gap/Field/FieldFit.h"
+
+#include "Kernels/Gap/Field/FieldDecisions.h"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 namespace msi
 {
@@ -8,7 +14,16 @@ namespace msi
 namespace
 {
 constexpr int Rounds = 3;
+constexpr double Held = 1e4; // times the information, of a parameter that is held
 }
+
+// A term with the value that is wanted (prior or hold), channel by channel.
+struct FieldFitter::Bound
+{
+  ImageTerm term;
+  Eigen::ArrayXd wanted;
+  std::vector<char> held;
+};
 
 FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistics)
   : Data(data)
@@ -141,12 +156,6 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
     fit.next[bound.term.parameter] =
       again ? Eigen::ArrayXd(fit.next[bound.term.parameter] + value - before) : value;
   }
-  const auto energyOf = [](const Eigen::MatrixXd& normal, const Eigen::VectorXd& change)
-  {
-    return normal(FieldColumn::residual(), FieldColumn::residual()) -
-      2.0 * change.dot(normal.col(FieldColumn::residual()).head(FieldColumn::residual())) +
-      change.dot(normal.topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * change);
-  };
   fit.blockEnergy.setZero(
     detail == FieldDetail::Blocks ? static_cast<Eigen::Index>(Data.blocks.size()) : 0);
   for (int fold = 0; fold < FieldFolds; ++fold)
@@ -160,18 +169,262 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
     const std::vector<Eigen::VectorXd> change = solve(others, terms, values, shape);
     for (std::size_t k = 0; k < K; ++k)
     {
-      fit.energy += energyOf(own[k], change[k]);
+      fit.energy += energyLeft(own[k], change[k]);
     }
     for (std::size_t b = 0; detail == FieldDetail::Blocks && b < Data.blocks.size(); ++b)
     {
       for (std::size_t k = 0; Data.blocks[b].fold == fold && k < K; ++k)
       {
         fit.blockEnergy[static_cast<Eigen::Index>(b)] +=
-          energyOf(Statistics.at(b, static_cast<Eigen::Index>(k)).normal, change[k]);
+          energyLeft(Statistics.at(b, static_cast<Eigen::Index>(k)).normal, change[k]);
       }
     }
   }
   return fit;
+}
+
+ArrowSolution solved(ArrowEquations equations)
+{
+  const Eigen::Index C = equations.common.rows();
+  std::vector<Eigen::MatrixXd> toCommon;
+  ArrowSolution solution;
+  for (std::size_t k = 0; k < equations.own.size(); ++k)
+  {
+    const Eigen::MatrixXd& across = equations.across[k];
+    const Eigen::VectorXd& gradient = equations.ownGradient[k];
+    const bool own = gradient.size() > 0;
+    const Eigen::LDLT<Eigen::MatrixXd> factor(equations.own[k]);
+    toCommon.emplace_back(own && C > 0 ? Eigen::MatrixXd(factor.solve(across)) : across);
+    solution.own.emplace_back(own ? Eigen::VectorXd(factor.solve(gradient)) : gradient);
+    if (own)
+    {
+      equations.common -= across.transpose() * toCommon.back();
+      equations.gradient -= across.transpose() * solution.own.back();
+    }
+  }
+  solution.common =
+    C > 0 ? Eigen::VectorXd(equations.common.ldlt().solve(equations.gradient)) : equations.gradient;
+  for (std::size_t k = 0; k < equations.own.size(); ++k)
+  {
+    solution.own[k] -= toCommon[k] * solution.common;
+  }
+  return solution;
+}
+
+// Returns the change of the columns, K; `values` gets the parameters.
+std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixXd>& normal,
+  const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values,
+  const FieldShape& shape) const
+{
+  std::vector<const Bound*> common;
+  std::vector<const Bound*> own;
+  for (const Bound& bound : terms)
+  {
+    (bound.term.perChannel ? own : common).push_back(&bound);
+  }
+  const auto design = [&](const std::vector<const Bound*>& bounds, Eigen::Index channel)
+  {
+    Eigen::MatrixXd columns(FieldColumn::residual(), static_cast<Eigen::Index>(bounds.size()));
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+    {
+      columns.col(static_cast<Eigen::Index>(b)) =
+        coefficients(bounds[b]->term.parameter, channel, shape);
+    }
+    return columns;
+  };
+  // Priors and holds.
+  const auto pull = [&](const std::vector<const Bound*>& bounds, Eigen::Index channel,
+                      Eigen::MatrixXd& information, Eigen::VectorXd& gradient)
+  {
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+    {
+      const Bound& bound = *bounds[b];
+      const auto at = static_cast<Eigen::Index>(b);
+      const double precision = bound.held[static_cast<std::size_t>(channel)] != 0
+        ? Held * (information(at, at) + 1.0)
+        : std::pow(ImageDecision::PriorSize * bound.term.typical, -2);
+      gradient[at] +=
+        precision * (bound.wanted[channel] - Statistics.model.at(bound.term.parameter, channel));
+      information(at, at) += precision;
+    }
+  };
+  const auto C = static_cast<Eigen::Index>(common.size());
+  ArrowEquations equations{ Eigen::MatrixXd::Zero(C, C), Eigen::VectorXd::Zero(C), {}, {}, {} };
+  std::vector<Eigen::MatrixXd> A;
+  std::vector<Eigen::MatrixXd> B;
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    const auto channel = static_cast<Eigen::Index>(k);
+    A.push_back(design(common, channel));
+    B.push_back(design(own, channel));
+    const auto local = normal[k].topLeftCorner(FieldColumn::residual(), FieldColumn::residual());
+    const auto residual = normal[k].col(FieldColumn::residual()).head(FieldColumn::residual());
+    equations.common += A[k].transpose() * local * A[k];
+    equations.gradient += A[k].transpose() * residual;
+    const Eigen::MatrixXd along = local * B[k];
+    equations.own.emplace_back(B[k].transpose() * along);
+    equations.ownGradient.emplace_back(B[k].transpose() * residual);
+    equations.across.emplace_back(along.transpose() * A[k]);
+    pull(own, channel, equations.own[k], equations.ownGradient[k]);
+  }
+  pull(common, 0, equations.common, equations.gradient);
+  const ArrowSolution solution = solved(std::move(equations));
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    columns.emplace_back(A[k] * solution.common + B[k] * solution.own[k]);
+  }
+  values.clear();
+  Eigen::Index nextCommon = 0;
+  Eigen::Index nextOwn = 0;
+  for (const Bound& bound : terms)
+  {
+    values.push_back(Statistics.model[bound.term.parameter]);
+    for (std::size_t k = 0; bound.term.perChannel && k < normal.size(); ++k)
+    {
+      values.back()[static_cast<Eigen::Index>(k)] += solution.own[k][nextOwn];
+    }
+    values.back() += bound.term.perChannel ? 0.0 : solution.common[nextCommon];
+    ++(bound.term.perChannel ? nextOwn : nextCommon);
+  }
+  return columns;
+}
+
+Eigen::VectorXd FieldFitter::coefficients(
+  ImageParameter parameter, Eigen::Index channel, const FieldShape& shape) const
+{
+  using P = ImageParameter;
+  const FieldModel& model = Statistics.model;
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::residual());
+  const auto by = [&column](P other) -> double& { return column[FieldColumn::of(other)]; };
+  const auto surround = [&column](const Eigen::ArrayXd& weights)
+  {
+    for (int pass = 0; pass < TailPasses; ++pass)
+    {
+      column[FieldColumn::pass(pass)] = weights[pass];
+    }
+  };
+  const double x = model.at(P::CenterX, 0);
+  const double y = model.at(P::CenterY, 0);
+  by(parameter) = parameter == P::Gain ? 1.0 / model.at(P::Gain, channel) : 1.0;
+  if (parameter == P::GradientBend && hasDirection(shape))
+  {
+    // (a x + b y)^2 out of x^2 + y^2, x^2 - y^2 and x y, a^2 + b^2 = 1
+    const double a = shape.gradientRight;
+    const double b = shape.gradientDown;
+    by(P::GradientBend) = 0.0;
+    by(P::Falloff) = -0.5;
+    by(P::GradientRight) = x;
+    by(P::GradientDown) = y;
+    by(P::Gain) = -0.5 * (x * x + y * y);
+    column[FieldColumn::saddle()] = 0.5 * (a * a - b * b);
+    column[FieldColumn::diagonal()] = 2.0 * a * b;
+  }
+  if (parameter == P::Falloff)
+  {
+    // About another center than the model's: the same polynomial.
+    const double right = shape.centerX - x;
+    const double down = shape.centerY - y;
+    by(P::GradientRight) = 2.0 * right;
+    by(P::GradientDown) = 2.0 * down;
+    by(P::Gain) = -(right * (shape.centerX + x) + down * (shape.centerY + y));
+  }
+  if (parameter == P::TailFraction)
+  {
+    surround(tailWeights(shape.radius));
+  }
+  if (parameter == P::TailRadius)
+  {
+    surround(model.at(P::TailFraction, channel) * tailSlope(shape.radius));
+  }
+  return column;
+}
+
+// What each number of the set changes in the columns of a channel; terms in order, channels within a per-channel term.
+std::vector<Eigen::MatrixXd> FieldFitter::design(const FieldSet& set) const
+{
+  const auto K = Data.channels();
+  const FieldShape shape = this->shape();
+  Eigen::Index count = 0;
+  for (const FieldChoice* choice : set)
+  {
+    for (const ImageTerm& term : choice->terms)
+    {
+      count += term.perChannel ? K : 1;
+    }
+  }
+  std::vector<Eigen::MatrixXd> design(
+    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(FieldColumn::residual(), count));
+  for (Eigen::Index k = 0; k < K; ++k)
+  {
+    Eigen::Index next = 0;
+    for (const FieldChoice* choice : set)
+    {
+      for (const ImageTerm& term : choice->terms)
+      {
+        design[static_cast<std::size_t>(k)].col(next + (term.perChannel ? k : 0)) =
+          coefficients(term.parameter, k, shape);
+        next += term.perChannel ? K : 1;
+      }
+    }
+  }
+  return design;
+}
+
+Eigen::MatrixXd FieldFitter::information(const FieldSet& set) const
+{
+  const std::vector<Eigen::MatrixXd> columns = design(set);
+  const Eigen::Index count = columns.front().cols();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+  {
+    information += columns[k].transpose() *
+      Total[k].topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * columns[k];
+  }
+  return information;
+}
+
+Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
+{
+  const auto K = Data.channels();
+  const std::vector<Eigen::MatrixXd> columns = design(set);
+  Eigen::MatrixXd normal = information(set);
+  const Eigen::Index p = normal.rows();
+  Eigen::Index next = 0;
+  for (const FieldChoice* choice : set)
+  {
+    for (const ImageTerm& term : choice->terms)
+    {
+      const Eigen::Index size = term.perChannel ? K : 1;
+      normal.diagonal().segment(next, size).array() +=
+        std::pow(ImageDecision::PriorSize * term.typical, -2);
+      next += size;
+    }
+  }
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(p, p);
+  std::map<int, Eigen::VectorXd> ofGroup;
+  for (std::size_t b = 0; b < Data.blocks.size(); ++b)
+  {
+    if (Data.blocks[b].fold < 0)
+    {
+      continue;
+    }
+    Eigen::VectorXd& g =
+      ofGroup.try_emplace(Data.blocks[b].group, Eigen::VectorXd::Zero(p)).first->second;
+    for (Eigen::Index k = 0; k < K; ++k)
+    {
+      g += columns[static_cast<std::size_t>(k)].transpose() *
+        Statistics.at(b, k).normal.col(FieldColumn::residual()).head(FieldColumn::residual());
+    }
+  }
+  for (const auto& [number, g] : ofGroup)
+  {
+    scatter += g * g.transpose();
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(normal);
+  const Eigen::MatrixXd half = factor.solve(scatter);
+  const Eigen::MatrixXd covariance = factor.solve(half.transpose());
+  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
 } // namespace msi

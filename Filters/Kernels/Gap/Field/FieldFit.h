@@ -70,6 +70,23 @@ struct FieldFit
   double energy = 0.0;         // its sum
 };
 
+// Least squares in which the numbers of a channel meet only each other and those common to all channels.
+struct ArrowEquations
+{
+  Eigen::MatrixXd common;
+  Eigen::VectorXd gradient; // of the common numbers
+  // Of each channel; across: own x common.
+  std::vector<Eigen::MatrixXd> own, across;
+  std::vector<Eigen::VectorXd> ownGradient;
+};
+struct ArrowSolution
+{
+  Eigen::VectorXd common;
+  std::vector<Eigen::VectorXd> own;
+};
+// Eliminates the channels one by one, then solves for the common numbers.
+ArrowSolution solved(ArrowEquations equations);
+
 // Everything that linear algebra needs from one set of statistics.
 class FieldFitter
 {

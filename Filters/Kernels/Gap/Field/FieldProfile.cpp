@@ -34,7 +34,7 @@ LineSums sumsOf(const FieldData& data, const FieldModel& model, const Eigen::Arr
   for (Eigen::Index k = 0; k < data.channels(); ++k)
   {
     fieldColumns(data, model, glare, block, k, scratch);
-    const auto u = scratch.columns.col(FieldColumn::Gain);
+    const auto u = scratch.columns.col(FieldColumn::of(ImageParameter::Gain));
     const auto r = scratch.columns.col(FieldColumn::residual());
     for (Eigen::Index n = 0; n < u.size(); ++n)
     {

@@ -109,6 +109,13 @@ ReadingNoise lineThrough(const std::vector<double>& level, const std::vector<dou
 }
 }
 
+double energyLeft(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change)
+{
+  return normal(FieldColumn::residual(), FieldColumn::residual()) -
+    2.0 * change.dot(normal.col(FieldColumn::residual()).head(FieldColumn::residual())) +
+    change.dot(normal.topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * change);
+}
+
 std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics)
 {
   std::vector<ReadingNoise> noise;

@@ -50,6 +50,9 @@ struct FieldStatistics
   }
 };
 
+// Squared residual after a change of the columns.
+double energyLeft(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change);
+
 // weights: null: all pixels the same.
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   const FieldWeights* weights, const FieldLoop& loop);

@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldWhere.h"
 
-#include "Kernels/Gap/Field/FieldAxisBases.h"
 #include "Kernels/Gap/Field/FieldCells.h"
+#include "Kernels/Gap/Field/FieldFit.h"
 #include "Kernels/Gap/Shapley.h"
 
 #include <algorithm>
@@ -19,6 +19,158 @@ constexpr double LeastShare = 0.005;
 constexpr double ContrastPart = 0.9;
 constexpr std::size_t ChannelBit = 1;
 constexpr std::size_t LevelBit = 2;
+
+using P = ImageParameter;
+
+constexpr double Ridge = 1e-6;
+
+struct FieldAxis
+{
+  const char* name;
+  std::vector<int> common, own; // columns: one coefficient for all channels, or one for each
+};
+
+// channel and level first. Where the surround is partly not simulated (gaps) it is no part of the edges.
+std::vector<FieldAxis> fieldAxisBases(const FieldModel& model, bool gaps)
+{
+  std::vector<FieldAxis> axes = {
+    { "channel", {}, { FieldColumn::of(P::Gain), FieldColumn::of(P::Dark) } },
+    { "level", { FieldColumn::of(P::Gain), FieldColumn::of(P::Square) }, {} },
+    { "position", {},
+      { FieldColumn::of(P::GradientRight), FieldColumn::of(P::GradientDown),
+        FieldColumn::of(P::Falloff), FieldColumn::of(P::Fourth), FieldColumn::diagonal(),
+        FieldColumn::saddle() } },
+    { "edges", {},
+      { FieldColumn::of(P::Right), FieldColumn::of(P::Down), FieldColumn::of(P::BlurVariance) } },
+  };
+  for (int pass = 0; !gaps && pass < TailPasses; ++pass)
+  {
+    axes[3].own.push_back(FieldColumn::pass(pass));
+  }
+  const auto stripes = [&](const char* name, bool sines, bool profile, P sine, P gain)
+  {
+    std::vector<int> own;
+    if (sines)
+    {
+      own = { FieldColumn::of(sine), FieldColumn::of(sine) + 1 };
+    }
+    if (profile)
+    {
+      own.insert(own.end(), { FieldColumn::of(gain), FieldColumn::of(gain) + 1 });
+    }
+    if (!own.empty())
+    {
+      axes.push_back({ name, {}, own });
+    }
+  };
+  stripes("rows", model.rowPeriod > 0.0, model.rows != nullptr, P::RowSine, P::RowGain);
+  stripes(
+    "columns", model.columnPeriod > 0.0, model.columns != nullptr, P::ColumnSine, P::ColumnGain);
+  return axes;
+}
+
+// The normal matrices of one part of the blocks, K.
+std::vector<Eigen::MatrixXd> sumOfNormals(
+  const FieldData& data, const FieldStatistics& statistics, bool training)
+{
+  std::vector<Eigen::MatrixXd> sum(static_cast<std::size_t>(data.channels()),
+    Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count()));
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    for (std::size_t k = 0; (data.blocks[b].fold >= 0) == training && k < sum.size(); ++k)
+    {
+      sum[k] += statistics.at(b, static_cast<Eigen::Index>(k)).normal;
+    }
+  }
+  return sum;
+}
+
+// Least squares of the common and the channels' own columns; change of the columns, K.
+std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
+  const std::vector<int>& common, const std::vector<int>& own)
+{
+  const auto ridged = [](Eigen::MatrixXd matrix)
+  {
+    matrix.diagonal() *= 1.0 + Ridge;
+    matrix.diagonal().array() += 1e-12;
+    return matrix;
+  };
+  const auto C = static_cast<Eigen::Index>(common.size());
+  ArrowEquations equations{ Eigen::MatrixXd::Zero(C, C), Eigen::VectorXd::Zero(C), {}, {}, {} };
+  for (const Eigen::MatrixXd& N : normal)
+  {
+    const Eigen::VectorXd residual = N.col(FieldColumn::residual());
+    equations.common += N(common, common);
+    equations.gradient += residual(common);
+    equations.own.push_back(ridged(N(own, own)));
+    equations.ownGradient.emplace_back(residual(own));
+    equations.across.emplace_back(N(own, common));
+  }
+  equations.common = ridged(equations.common);
+  const ArrowSolution solution = solved(std::move(equations));
+  std::vector<Eigen::VectorXd> change;
+  for (const Eigen::VectorXd& mine : solution.own)
+  {
+    change.emplace_back(Eigen::VectorXd::Zero(FieldColumn::residual()));
+    change.back()(own) += mine;
+    change.back()(common) += solution.common;
+  }
+  return change;
+}
+
+// The common gain is the level's: takes it off the channels' and solves for the others again.
+void takeCommonGain(
+  std::vector<Eigen::MatrixXd> normal, std::vector<int> own, std::vector<Eigen::VectorXd>& change)
+{
+  double mean = 0.0;
+  for (const Eigen::VectorXd& columns : change)
+  {
+    mean += columns[FieldColumn::of(P::Gain)] / static_cast<double>(change.size());
+  }
+  std::vector<double> gain;
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    gain.push_back(change[k][FieldColumn::of(P::Gain)] - mean);
+    const Eigen::VectorXd along = normal[k].col(FieldColumn::of(P::Gain));
+    normal[k].col(FieldColumn::residual()) -= gain[k] * along;
+  }
+  own.erase(std::remove(own.begin(), own.end(), FieldColumn::of(P::Gain)), own.end());
+  change = regress(normal, {}, own);
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    change[k][FieldColumn::of(P::Gain)] = gain[k];
+  }
+}
+
+// Leaves to the columns of the position only what differs over the field: takes off their part along u.
+void centerPosition(std::vector<Eigen::MatrixXd>& training, std::vector<Eigen::MatrixXd>& test)
+{
+  for (std::size_t k = 0; k < training.size(); ++k)
+  {
+    Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(FieldColumn::count(), FieldColumn::count());
+    const double square = training[k](FieldColumn::of(P::Gain), FieldColumn::of(P::Gain));
+    for (const int column : { FieldColumn::of(P::GradientRight), FieldColumn::of(P::GradientDown),
+           FieldColumn::of(P::Falloff), FieldColumn::of(P::Fourth), FieldColumn::diagonal(),
+           FieldColumn::saddle() })
+    {
+      mix(FieldColumn::of(P::Gain), column) =
+        -training[k](FieldColumn::of(P::Gain), column) / std::fmax(square, 1e-12);
+    }
+    training[k] = mix.transpose() * training[k] * mix;
+    test[k] = mix.transpose() * test[k] * mix;
+  }
+}
+
+double energyAfter(
+  const std::vector<Eigen::MatrixXd>& normal, const std::vector<Eigen::VectorXd>& change)
+{
+  double energy = 0.0;
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    energy += energyLeft(normal[k], change[k]);
+  }
+  return energy;
+}
 
 // Mean residual and pixels of each label and channel.
 using LabelMeans = std::map<int, std::vector<std::array<double, 3>>>; // sum, pixels, energy
@@ -58,10 +210,7 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
   }
   return means;
 }
-}
 
-namespace
-{
 std::vector<GapCell> stripeCells(double period, const std::string& lines)
 {
   return { { period > 0.0 ? "period " + rounded(period) + " " + lines : lines + " without period",
@@ -134,7 +283,7 @@ std::vector<GapAxis> fieldAxes(
     {
       takeCommonGain(training, own, change);
     }
-    explained[subset] = (before - energyLeft(test, change)) / beyond;
+    explained[subset] = (before - energyAfter(test, change)) / beyond;
   };
   explain(ChannelBit | LevelBit);
   explain(subsets - 1);
@@ -194,9 +343,9 @@ std::vector<GapAxis> fieldAxes(
       for (std::size_t k = 0; data.blocks[b].fold < 0 && k < K; ++k)
       {
         const Eigen::MatrixXd& N = plain.at(b, static_cast<Eigen::Index>(k)).normal;
-        const double pixels = N(FieldColumn::One, FieldColumn::One);
-        const double sum = N(FieldColumn::One, FieldColumn::residual()) -
-          N.row(FieldColumn::One).head(FieldColumn::residual()).dot(change[k]);
+        const double pixels = N(FieldColumn::of(P::Dark), FieldColumn::of(P::Dark));
+        const double sum = N(FieldColumn::of(P::Dark), FieldColumn::residual()) -
+          N.row(FieldColumn::of(P::Dark)).head(FieldColumn::residual()).dot(change[k]);
         const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
         if (pixels > 0.0)
         {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Kernels/Gap/Field/FieldData.h"
-#include "Kernels/Gap/Field/FieldDisplacement.h"
-#include "Kernels/Gap/Field/FieldNeighbourhood.h"
+#include "Kernels/Gap/Field/FieldModel.h"
+#include "Kernels/Gap/Field/FieldPair.h"
 
 #include <Eigen/Core>
 
@@ -12,6 +12,62 @@
 
 namespace msi
 {
+
+// Out of the source at middle + R(-rotation) (position - middle - displacement) / (1 + magnification), as
+// ChannelRegistration.
+class FieldDisplacement
+{
+public:
+  struct Place
+  {
+    double right;
+    double down;
+  };
+
+  FieldDisplacement(const FieldPair& pair, const FieldModel& model, Eigen::Index channel);
+
+  // Not the same everywhere.
+  bool varies() const noexcept { return Varies; }
+  Place at(double x, double y) const noexcept;
+  Place atMiddle(const ImageWindow& window) const noexcept
+  {
+    return at(window.x + 0.5 * (window.width - 1), window.y + 0.5 * (window.height - 1));
+  }
+  // At (x, y) beyond that in the middle of the window.
+  Place beyondMiddle(const ImageWindow& window, double x, double y) const noexcept;
+
+private:
+  const FieldPair* Pair;
+  Place Moved;
+  double Cosine; // over 1 + magnification
+  double Sine;
+  bool Varies;
+};
+
+// Cubic convolution for a displacement (as ChannelRegistration) with a Gaussian of a variance, along one axis.
+class AxisKernels
+{
+public:
+  // A kernel with weights from `first` on.
+  struct Taps
+  {
+    int first = 0;
+    std::vector<double> weight;
+  };
+
+  AxisKernels(double displacement, double variance);
+
+  Taps value, shift, blur; // itself, its derivatives by displacement and variance
+};
+
+struct FieldNeighbourhood
+{
+  Eigen::ArrayXXd value, right, down, blur; // width x height
+
+  // derivatives: false leaves right, down and blur empty.
+  FieldNeighbourhood(const FieldData& data, const ImageWindow& window, Eigen::Index channel,
+    const AxisKernels& x, const AxisKernels& y, bool derivatives);
+};
 
 using TailSurround = Eigen::Array<double, TailPasses, 1>;
 
@@ -23,7 +79,7 @@ public:
     const FieldBlock& block, Eigen::Index channel, bool derivatives);
 
   const FieldNeighbourhood& scene() const noexcept { return Near; }
-  double fraction() const noexcept { return Fraction; }
+  double fraction() const { return Weights.sum(); }
   double lost() const noexcept { return Lost; }
 
   TailSurround surround(int pixel) const
@@ -80,7 +136,6 @@ private:
   TailSurround Weights;
   double Added;
   double Lost;
-  double Fraction = 0.0;
   std::vector<double> Strength, Others; // light after light, pixel after pixel
 };
 

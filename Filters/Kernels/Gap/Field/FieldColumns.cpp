@@ -3,7 +3,7 @@
 #include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldBlockLight.h"
-#include "Kernels/Gap/Field/FieldDetector.h"
+#include "Kernels/Gap/Field/FieldModel.h"
 
 #include <algorithm>
 #include <array>
@@ -15,38 +15,6 @@ namespace msi
 namespace
 {
 constexpr double LeastFactor = 0.05; // of the field, where its derivatives are asked for
-
-// The sines of the lines of a block.
-struct Stripes
-{
-  ImageParameter bySine, byCosine;
-  Eigen::ArrayXd sine, cosine; // empty without period
-
-  Stripes(double period, int first, int lines, ImageParameter ofSine, ImageParameter ofCosine)
-    : bySine(ofSine)
-    , byCosine(ofCosine)
-  {
-    if (period > 0.0)
-    {
-      const Eigen::ArrayXd angle =
-        TwoPi / period * Eigen::ArrayXd::LinSpaced(lines, first, first + lines - 1);
-      sine = angle.sin();
-      cosine = angle.cos();
-    }
-  }
-  double factor(const FieldModel& model, Eigen::Index channel, int line) const
-  {
-    return sine.size() == 0
-      ? 0.0
-      : model.at(bySine, channel) * sine[line] + model.at(byCosine, channel) * cosine[line];
-  }
-};
-
-// The numbers of the lines of a block; null without a profile.
-const double* linesOf(const Eigen::ArrayXXd* profile, int first, Eigen::Index channel)
-{
-  return profile == nullptr ? nullptr : &(*profile)(first, channel);
-}
 
 // Derivatives of FieldModel::gradient.
 struct GradientSlope
@@ -110,12 +78,72 @@ Eigen::ArrayXd tailWeights(double radius)
   return weights;
 }
 
+Eigen::ArrayXd tailWeights(const FieldModel& model, Eigen::Index channel)
+{
+  Eigen::ArrayXd weights = model.at(ImageParameter::TailFraction, channel) *
+    tailWeights(model.at(ImageParameter::TailRadius, channel));
+  for (int i = 0; i < FreePasses; ++i)
+  {
+    weights[i + 1] += model.at(surroundWeight(i), channel);
+  }
+  return weights;
+}
+
 Eigen::ArrayXd tailSlope(double radius)
 {
   const double step = 0.02 * radius;
   const double above = std::min(radius + step, 64.0);
   const double below = std::max(radius - step, 1.0);
   return (tailWeights(above) - tailWeights(below)) / (above - below);
+}
+
+Eigen::VectorXd columnsChanged(
+  ImageParameter parameter, const FieldModel& model, Eigen::Index channel, const FieldShape& shape)
+{
+  using P = ImageParameter;
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::residual());
+  const auto by = [&column](P other) -> double& { return column[FieldColumn::of(other)]; };
+  const auto surround = [&column](const Eigen::ArrayXd& weights)
+  {
+    for (int pass = 0; pass < TailPasses; ++pass)
+    {
+      column[FieldColumn::pass(pass)] = weights[pass];
+    }
+  };
+  const double x = model.at(P::CenterX, 0);
+  const double y = model.at(P::CenterY, 0);
+  by(parameter) = parameter == P::Gain ? 1.0 / model.at(P::Gain, channel) : 1.0;
+  if (parameter == P::GradientBend && hasDirection(shape))
+  {
+    // (a x + b y)^2 out of x^2 + y^2, x^2 - y^2 and x y, a^2 + b^2 = 1
+    const double a = shape.gradientRight;
+    const double b = shape.gradientDown;
+    by(P::GradientBend) = 0.0;
+    by(P::Falloff) = -0.5;
+    by(P::GradientRight) = x;
+    by(P::GradientDown) = y;
+    by(P::Gain) = -0.5 * (x * x + y * y);
+    column[FieldColumn::saddle()] = 0.5 * (a * a - b * b);
+    column[FieldColumn::diagonal()] = 2.0 * a * b;
+  }
+  if (parameter == P::Falloff)
+  {
+    // About another center than the model's: the same polynomial.
+    const double right = shape.centerX - x;
+    const double down = shape.centerY - y;
+    by(P::GradientRight) = 2.0 * right;
+    by(P::GradientDown) = 2.0 * down;
+    by(P::Gain) = -(right * (shape.centerX + x) + down * (shape.centerY + y));
+  }
+  if (parameter == P::TailFraction)
+  {
+    surround(tailWeights(shape.radius));
+  }
+  if (parameter == P::TailRadius)
+  {
+    surround(model.at(P::TailFraction, channel) * tailSlope(shape.radius));
+  }
+  return column;
 }
 
 void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
@@ -141,20 +169,12 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     }
   }
   const FieldDetector detector(model, channel);
-  const Stripes rows(model.rowPeriod, window.y, window.height, P::RowSine, P::RowCosine);
-  const Stripes columns(model.columnPeriod, window.x, window.width, P::ColumnSine, P::ColumnCosine);
+  const FieldLines rows(model, true, channel, block.fold, window.y, window.height);
+  const FieldLines columns(model, false, channel, block.fold, window.x, window.width);
   const double gain = model.at(P::Gain, channel);
   const double retained = model.at(P::Retained, channel);
   const double fromPrevious = channel > 0 ? model.at(P::FromPrevious, channel) : 0.0;
   const double fromNext = channel + 1 < data.channels() ? model.at(P::FromNext, channel) : 0.0;
-  const double* rowGain =
-    linesOf(model.rows ? &model.rows->gainFor(block.fold) : nullptr, window.y, channel);
-  const double* rowOffset =
-    linesOf(model.rows ? &model.rows->offsetFor(block.fold) : nullptr, window.y, channel);
-  const double* columnGain =
-    linesOf(model.columns ? &model.columns->gainFor(block.fold) : nullptr, window.x, channel);
-  const double* columnOffset =
-    linesOf(model.columns ? &model.columns->offsetFor(block.fold) : nullptr, window.x, channel);
   const auto count = static_cast<Eigen::Index>(scratch.pixel.size());
   scratch.columns.setZero(count, FieldColumn::count());
   scratch.level.resize(count);
@@ -166,18 +186,8 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
     const int row = i / window.width;
     const double x = data.pair.fieldX(window.x + column);
     const double y = data.pair.fieldY(window.y + row);
-    double bands = 1.0 + rows.factor(model, channel, row) + columns.factor(model, channel, column);
-    double added = 0.0;
-    if (rowGain != nullptr)
-    {
-      bands += model.at(P::RowGain, channel) * rowGain[row];
-      added += model.at(P::RowOffset, channel) * rowOffset[row];
-    }
-    if (columnGain != nullptr)
-    {
-      bands += model.at(P::ColumnGain, channel) * columnGain[column];
-      added += model.at(P::ColumnOffset, channel) * columnOffset[column];
-    }
+    const double bands = 1.0 + rows.factor[row] + columns.factor[column];
+    const double added = rows.added[row] + columns.added[column];
     const double chain = gain * bands;
     const double before = scratch.before[at];
     const double self = scratch.signal[at];
@@ -242,26 +252,14 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
       out[FieldColumn::pass(pass)] = local * surround[pass];
     }
     const double open = answer.bySignal * gain * lit; // without stripes
-    if (model.rowPeriod > 0.0)
-    {
-      by(P::RowSine) = rows.sine[row] * open;
-      by(P::RowCosine) = rows.cosine[row] * open;
-    }
-    if (model.columnPeriod > 0.0)
-    {
-      by(P::ColumnSine) = columns.sine[column] * open;
-      by(P::ColumnCosine) = columns.cosine[column] * open;
-    }
-    if (rowGain != nullptr)
-    {
-      by(P::RowGain) = rowGain[row] * open;
-      by(P::RowOffset) = rowOffset[row] * answer.bySignal * gain;
-    }
-    if (columnGain != nullptr)
-    {
-      by(P::ColumnGain) = columnGain[column] * open;
-      by(P::ColumnOffset) = columnOffset[column] * answer.bySignal * gain;
-    }
+    by(P::RowSine) = rows.sine[row] * open;
+    by(P::RowCosine) = rows.cosine[row] * open;
+    by(P::RowGain) = rows.gain[row] * open;
+    by(P::RowOffset) = rows.offset[row] * answer.bySignal * gain;
+    by(P::ColumnSine) = columns.sine[column] * open;
+    by(P::ColumnCosine) = columns.cosine[column] * open;
+    by(P::ColumnGain) = columns.gain[column] * open;
+    by(P::ColumnOffset) = columns.offset[column] * answer.bySignal * gain;
     out[FieldColumn::diagonal()] = x * y * direct;
     out[FieldColumn::saddle()] = (x * x - y * y) * direct;
     out[FieldColumn::residual()] = static_cast<double>(block.real[at * K + k]) - answer.value;

@@ -48,6 +48,28 @@ inline int count()
 // The weights of the tail's passes for a radius (ScatterTail), and their derivative by the radius.
 Eigen::ArrayXd tailWeights(double radius);
 Eigen::ArrayXd tailSlope(double radius);
+// Those of a model: the signal becomes signal + sum of weight (surround - signal).
+Eigen::ArrayXd tailWeights(const FieldModel& model, Eigen::Index channel);
+
+// Where a fit starts from what the normal equations do not have yet, and what they are taken to be there.
+struct FieldShape
+{
+  double radius = 0.0;  // of the tail; 0: the model's
+  double centerX = 0.0; // of vignetting
+  double centerY = 0.0;
+  // Direction of the gradient, of length 1; 0: the model's.
+  double gradientRight = 0.0;
+  double gradientDown = 0.0;
+};
+
+constexpr bool hasDirection(const FieldShape& shape) noexcept
+{
+  return shape.gradientRight != 0.0 || shape.gradientDown != 0.0;
+}
+
+// What one parameter changes in the columns of a channel, which are those at `model`.
+Eigen::VectorXd columnsChanged(
+  ImageParameter parameter, const FieldModel& model, Eigen::Index channel, const FieldShape& shape);
 
 // Memory of a thread.
 struct FieldScratch

@@ -1,7 +1,8 @@
 #include "Kernels/Gap/Field/FieldCorrection.h"
 
+#include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldBlockLight.h"
-
+#include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Gap/Field/FieldScene.h"
 
 #include <cmath>
@@ -15,7 +16,6 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   , Model(model)
   , Glare(sceneMean(pair, model))
   , Filled(filledScene(pair))
-  , Surround(model)
 {
   using P = ImageParameter;
   if (!model.isNeutral(P::Right) || !model.isNeutral(P::Down) ||
@@ -28,13 +28,15 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   {
     Blur = gaussianKernel(model[P::BlurVariance].max(0.0).sqrt());
   }
-  if (!model.isNeutral(P::TailFraction))
-  {
-    Tail.emplace(model.at(P::TailRadius, 0));
-  }
   for (std::size_t k = 0; k < pair.channels.size(); ++k)
   {
-    Detector.emplace_back(model, static_cast<Eigen::Index>(k));
+    const auto channel = static_cast<Eigen::Index>(k);
+    Detector.emplace_back(model, channel);
+    Tail.push_back(tailWeights(model, channel).cast<float>());
+    for (int pass = Passes; pass < TailPasses; ++pass)
+    {
+      Passes = Tail.back()[pass] != 0.0F ? pass + 1 : Passes;
+    }
   }
 }
 
@@ -44,7 +46,7 @@ void FieldCorrection::operator()(
   using P = ImageParameter;
   const std::size_t K = Pair.channels.size();
   const int halo = (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) +
-    (Tail ? Tail->reach() : 0) + Surround.reach();
+    2 * ((1 << Passes) - 1);
   PixelBuffer& signal = workspace.signal;
   signal.resize(grown(window, halo, Pair.extent), static_cast<int>(K));
   const ImageWindow& region = signal.window;
@@ -70,14 +72,23 @@ void FieldCorrection::operator()(
   {
     convolve(*Blur, signal);
   }
-  if (Tail)
+  PixelBuffer& wide = workspace.scratch;
+  wide = signal;
+  workspace.tail = signal;
+  for (int pass = 0; pass < Passes; ++pass)
   {
-    workspace.scratch = signal;
-    (*Tail)(workspace.scratch, workspace.tail);
+    convolve(splineKernel(signal.channels, 1 << pass), wide);
+    for (std::size_t i = 0; i < signal.values.size(); ++i)
+    {
+      signal.values[i] += Tail[i % K][pass] * (wide.values[i] - workspace.tail.values[i]);
+    }
   }
-  if (!Surround.isNeutral())
+  std::vector<FieldLines> rows, columns;
+  for (std::size_t k = 0; k < K; ++k)
   {
-    Surround(signal, workspace.scratch);
+    const auto channel = static_cast<Eigen::Index>(k);
+    rows.emplace_back(Model, true, channel, -1, window.y, window.height);
+    columns.emplace_back(Model, false, channel, -1, window.x, window.width);
   }
   std::vector<double>& light = workspace.light;
   light.resize(K);
@@ -92,11 +103,6 @@ void FieldCorrection::operator()(
         const auto channel = static_cast<Eigen::Index>(k);
         double& u = light[k];
         u = static_cast<double>(self[k]);
-        if (Tail)
-        {
-          u += Model.at(P::TailFraction, channel) *
-            (static_cast<double>(workspace.tail.pixel(x, y)[k]) - u);
-        }
         u += Model.at(P::Glare, channel) * Glare[channel] +
           Model.at(P::ConservingGlare, channel) * (Glare[channel] - u);
         for (std::size_t number = 0; number < imageLights().size(); ++number)
@@ -112,7 +118,10 @@ void FieldCorrection::operator()(
         double lit = light[k] + Model.at(P::Retained, channel) * before;
         lit += k > 0 ? Model.at(P::FromPrevious, channel) * (before - light[k]) : 0.0;
         lit += k + 1 < K ? Model.at(P::FromNext, channel) * (light[k + 1] - light[k]) : 0.0;
-        const double u = (lit * Model.bandFactor(channel, x, y) + Model.bandOffset(channel, x, y)) *
+        const Eigen::Index row = y - window.y;
+        const Eigen::Index column = x - window.x;
+        const double u = (lit * (1.0 + rows[k].factor[row] + columns[k].factor[column]) +
+                           rows[k].added[row] + columns[k].added[column]) *
           Model.at(P::Gain, channel);
         *corrected++ = std::isfinite(simulated[k]) ? static_cast<float>(Detector[k](u).value)
                                                    : std::numeric_limits<float>::quiet_NaN();

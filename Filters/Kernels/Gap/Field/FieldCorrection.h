@@ -2,12 +2,9 @@
 #pragma once
 
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
-#include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Camera/Imaging/SeparableFilter.h"
-#include "Kernels/Gap/Field/FieldDetector.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/Field/FieldPair.h"
-#include "Kernels/Gap/Field/FieldTail.h"
 
 #include <Eigen/Core>
 
@@ -42,8 +39,8 @@ private:
   std::vector<float> Filled;
   std::optional<ChannelRegistration> Registration;
   std::optional<SymmetricKernel> Blur;
-  std::optional<ScatterTail> Tail;
-  FieldTail Surround;
+  std::vector<Eigen::ArrayXf> Tail;    // weights of the passes, of each channel
+  int Passes = 0;                      // that have a weight
   std::vector<FieldDetector> Detector; // of each channel
 };
 

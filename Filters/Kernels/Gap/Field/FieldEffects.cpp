@@ -1,16 +1,22 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 
 #include "Kernels/Camera/Angle.h"
-#include "Kernels/Gap/Field/FieldBanding.h"
-#include "Kernels/Gap/Field/FieldTail.h"
+#include "Kernels/Gap/Field/FieldColumns.h"
+#include "Kernels/Gap/Field/FieldStripes.h"
+#include "Kernels/Gap/ReportParts.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace msi
 {
 
 namespace
 {
+// What a profile counts for beside its strength. Its lines are no parameters: blocks that took no part in it judge it.
+constexpr Eigen::Index ProfileParameters = 3;
+constexpr int RadiusSteps = 48;
 constexpr double LeastBlur = 1e-4;   // pixels^2
 constexpr double LeastSquare = 1e-8; // of a gradient
 
@@ -65,10 +71,113 @@ double libraryScale(const ImageTerm& term, const FieldModel& model)
   return term.scale == ImageScale::AlongSlope ? 1.0 / std::fmax(square, LeastSquare) : 1.0;
 }
 
+// The fraction and radius of the effect's own form that come nearest to free weights of the passes.
+struct TailForm
+{
+  double fraction;
+  double radius;
+};
+
+TailForm tailForm(const FieldModel& model)
+{
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(TailPasses);
+  for (int i = 0; i < FreePasses; ++i)
+  {
+    weight[i + 1] = model.at(surroundWeight(i), 0);
+  }
+  TailForm best{ 0.0, 0.0 };
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step <= RadiusSteps; ++step)
+  {
+    const double radius = std::exp2(6.0 * step / RadiusSteps); // 1 .. 64 pixels
+    const Eigen::ArrayXd form = tailWeights(radius);
+    const double fraction = (form * weight).sum() / form.square().sum();
+    const double error = (weight - fraction * form).square().sum();
+    if (error < least)
+    {
+      least = error;
+      best = { fraction, radius };
+    }
+  }
+  return best;
+}
+
 bool isFree(const FieldChoice& choice)
 {
   return choice.terms.front().parameter == ImageParameter::SurroundFirst;
 }
+}
+
+std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
+{
+  requireKnown(without);
+  std::vector<FieldChoice> choices;
+  for (const EffectDefinition& effect : effectLibrary())
+  {
+    for (const ImageForm& form : effect.imageForms)
+    {
+      if (std::find(without.begin(), without.end(), effect.name) == without.end())
+      {
+        choices.push_back({ &effect, form.form, form.terms });
+      }
+    }
+  }
+  // Of effects that do as well the exact ones come first.
+  std::stable_partition(choices.begin(), choices.end(),
+    [](const FieldChoice& choice) { return choice.has(EffectTrait::Exact); });
+  return choices;
+}
+
+bool FieldChoice::has(ImageParameter parameter) const noexcept
+{
+  return std::any_of(terms.begin(), terms.end(),
+    [parameter](const ImageTerm& term) { return term.parameter == parameter; });
+}
+
+bool isBanding(const FieldChoice& choice)
+{
+  const ImageParameter first = choice.terms.front().parameter;
+  return first >= ImageParameter::RowSine && first <= ImageParameter::ColumnOffset;
+}
+
+bool isProfile(const FieldChoice& choice)
+{
+  return choice.terms.front().parameter >= ImageParameter::RowGain && isBanding(choice);
+}
+
+bool isOfRows(const FieldChoice& choice)
+{
+  return choice.form.rfind("row", 0) == 0;
+}
+
+bool compatible(const FieldSet& set, const FieldChoice& choice)
+{
+  for (const FieldChoice* other : set)
+  {
+    const bool bothBands =
+      isBanding(*other) && isBanding(choice) && isOfRows(*other) != isOfRows(choice);
+    if (other == &choice || (other->effect == choice.effect && !bothBands) ||
+      other->terms.front().parameter == choice.terms.front().parameter)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels)
+{
+  Eigen::Index count = 0;
+  for (const FieldChoice* choice : set)
+  {
+    for (const ImageTerm& term : choice->terms)
+    {
+      count += term.perChannel ? channels : 1;
+    }
+    count += isBanding(*choice) ? 1 : 0; // the period
+    count += isProfile(*choice) ? ProfileParameters * channels : 0;
+  }
+  return count;
 }
 
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,

@@ -1,7 +1,8 @@
-// The effects that were found, as the effect library writes them.
+// The effects of the library that an image pair can show, and how the library writes down what was found.
 #pragma once
 
-#include "Kernels/Gap/Field/FieldFit.h"
+#include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/GapReport.h"
 
 #include <Eigen/Core>
@@ -11,6 +12,33 @@
 
 namespace msi
 {
+
+// One form of one effect.
+struct FieldChoice
+{
+  const EffectDefinition* effect;
+  std::string form;
+  std::vector<ImageTerm> terms;
+
+  bool has(EffectTrait::Bit trait) const noexcept { return effect->has(trait); }
+  bool has(ImageParameter parameter) const noexcept;
+};
+
+// Every effect that an image pair can show, without those named.
+std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without);
+
+// Stripes of rows or columns.
+bool isBanding(const FieldChoice& choice);
+// Stripes by a FieldProfile.
+bool isProfile(const FieldChoice& choice);
+// Stripes of rows, not of columns.
+bool isOfRows(const FieldChoice& choice);
+
+using FieldSet = std::vector<const FieldChoice*>;
+
+// Neither the same effect nor parameters in common.
+bool compatible(const FieldSet& set, const FieldChoice& choice);
+Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels);
 
 // error: standard errors of the choice's terms, from `next` on (FieldFitter::standardErrors), which moves on.
 // periodError: of the period of stripes.

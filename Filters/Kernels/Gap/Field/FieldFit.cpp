@@ -228,7 +228,7 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
     for (std::size_t b = 0; b < bounds.size(); ++b)
     {
       columns.col(static_cast<Eigen::Index>(b)) =
-        coefficients(bounds[b]->term.parameter, channel, shape);
+        columnsChanged(bounds[b]->term.parameter, Statistics.model, channel, shape);
     }
     return columns;
   };
@@ -290,56 +290,6 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
   return columns;
 }
 
-Eigen::VectorXd FieldFitter::coefficients(
-  ImageParameter parameter, Eigen::Index channel, const FieldShape& shape) const
-{
-  using P = ImageParameter;
-  const FieldModel& model = Statistics.model;
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::residual());
-  const auto by = [&column](P other) -> double& { return column[FieldColumn::of(other)]; };
-  const auto surround = [&column](const Eigen::ArrayXd& weights)
-  {
-    for (int pass = 0; pass < TailPasses; ++pass)
-    {
-      column[FieldColumn::pass(pass)] = weights[pass];
-    }
-  };
-  const double x = model.at(P::CenterX, 0);
-  const double y = model.at(P::CenterY, 0);
-  by(parameter) = parameter == P::Gain ? 1.0 / model.at(P::Gain, channel) : 1.0;
-  if (parameter == P::GradientBend && hasDirection(shape))
-  {
-    // (a x + b y)^2 out of x^2 + y^2, x^2 - y^2 and x y, a^2 + b^2 = 1
-    const double a = shape.gradientRight;
-    const double b = shape.gradientDown;
-    by(P::GradientBend) = 0.0;
-    by(P::Falloff) = -0.5;
-    by(P::GradientRight) = x;
-    by(P::GradientDown) = y;
-    by(P::Gain) = -0.5 * (x * x + y * y);
-    column[FieldColumn::saddle()] = 0.5 * (a * a - b * b);
-    column[FieldColumn::diagonal()] = 2.0 * a * b;
-  }
-  if (parameter == P::Falloff)
-  {
-    // About another center than the model's: the same polynomial.
-    const double right = shape.centerX - x;
-    const double down = shape.centerY - y;
-    by(P::GradientRight) = 2.0 * right;
-    by(P::GradientDown) = 2.0 * down;
-    by(P::Gain) = -(right * (shape.centerX + x) + down * (shape.centerY + y));
-  }
-  if (parameter == P::TailFraction)
-  {
-    surround(tailWeights(shape.radius));
-  }
-  if (parameter == P::TailRadius)
-  {
-    surround(model.at(P::TailFraction, channel) * tailSlope(shape.radius));
-  }
-  return column;
-}
-
 // What each number of the set changes in the columns of a channel; terms in order, channels within a per-channel term.
 std::vector<Eigen::MatrixXd> FieldFitter::design(const FieldSet& set) const
 {
@@ -363,7 +313,7 @@ std::vector<Eigen::MatrixXd> FieldFitter::design(const FieldSet& set) const
       for (const ImageTerm& term : choice->terms)
       {
         design[static_cast<std::size_t>(k)].col(next + (term.perChannel ? k : 0)) =
-          coefficients(term.parameter, k, shape);
+          columnsChanged(term.parameter, Statistics.model, k, shape);
         next += term.perChannel ? K : 1;
       }
     }

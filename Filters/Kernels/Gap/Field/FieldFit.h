@@ -1,7 +1,7 @@
 // Effects fitted to the normal equations of an image pair's blocks.
 #pragma once
 
-#include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
 #include <Eigen/Core>
@@ -11,49 +11,6 @@
 
 namespace msi
 {
-
-// One form of one effect.
-struct FieldChoice
-{
-  const EffectDefinition* effect;
-  std::string form;
-  std::vector<ImageTerm> terms;
-
-  bool has(EffectTrait::Bit trait) const noexcept { return effect->has(trait); }
-  bool has(ImageParameter parameter) const noexcept;
-};
-
-// Every effect that an image pair can show, without those named.
-std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without);
-
-// Stripes of rows or columns.
-bool isBanding(const FieldChoice& choice);
-// Stripes by a FieldProfile.
-bool isProfile(const FieldChoice& choice);
-// Stripes of rows, not of columns.
-bool isOfRows(const FieldChoice& choice);
-
-using FieldSet = std::vector<const FieldChoice*>;
-
-// Neither the same effect nor parameters in common.
-bool compatible(const FieldSet& set, const FieldChoice& choice);
-Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels);
-
-// Where a fit starts from what the normal equations do not have yet, and what they are taken to be there.
-struct FieldShape
-{
-  double radius = 0.0;  // of the tail; 0: the model's
-  double centerX = 0.0; // of vignetting
-  double centerY = 0.0;
-  // Direction of the gradient, of length 1; 0: the model's.
-  double gradientRight = 0.0;
-  double gradientDown = 0.0;
-};
-
-constexpr bool hasDirection(const FieldShape& shape) noexcept
-{
-  return shape.gradientRight != 0.0 || shape.gradientDown != 0.0;
-}
 
 enum class FieldDetail
 {
@@ -114,9 +71,6 @@ public:
   // Normal matrix of the numbers in the same order, without their priors.
   Eigen::MatrixXd information(const FieldSet& set) const;
 
-  // What one term changes in the columns of a channel.
-  Eigen::VectorXd coefficients(
-    ImageParameter parameter, Eigen::Index channel, const FieldShape& shape) const;
   // The model's own.
   FieldShape shape() const;
 

@@ -1,12 +1,12 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
-#include "Kernels/Gap/Field/FieldBanding.h"
 #include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldHypothesis.h"
 #include "Kernels/Gap/Field/FieldObservation.h"
+#include "Kernels/Gap/Field/FieldStripes.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"

@@ -122,8 +122,9 @@ std::vector<std::string> indistinctEffects(
     double information = 0.0;
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
-      const Eigen::VectorXd column = fitter.coefficients(choice.terms.front().parameter, k,
-        { neutralValue(ImageParameter::TailRadius), 0.0, 0.0, 0.0, 0.0 });
+      const Eigen::VectorXd column =
+        columnsChanged(choice.terms.front().parameter, fitter.statistics().model, k,
+          { neutralValue(ImageParameter::TailRadius), 0.0, 0.0, 0.0, 0.0 });
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
         information += column.dot(

@@ -71,44 +71,73 @@ double FieldModel::vignetting(double x, double y) const noexcept
     0.0);
 }
 
-double FieldModel::bandFactor(Eigen::Index channel, int x, int y) const noexcept
+FieldLines::FieldLines(
+  const FieldModel& model, bool ofRows, Eigen::Index channel, int fold, int first, int count)
+  : sine(Eigen::ArrayXd::Zero(count))
+  , cosine(sine)
+  , gain(sine)
+  , offset(sine)
 {
-  double factor = 1.0;
-  if (rows)
+  using P = ImageParameter;
+  const double period = ofRows ? model.rowPeriod : model.columnPeriod;
+  const FieldProfile* profile = (ofRows ? model.rows : model.columns).get();
+  if (period > 0.0)
   {
-    factor += at(ImageParameter::RowGain, channel) * rows->gain.back()(y, channel);
+    const Eigen::ArrayXd angle =
+      TwoPi / period * Eigen::ArrayXd::LinSpaced(count, first, first + count - 1);
+    sine = angle.sin();
+    cosine = angle.cos();
   }
-  if (columns)
+  if (profile != nullptr)
   {
-    factor += at(ImageParameter::ColumnGain, channel) * columns->gain.back()(x, channel);
+    gain = profile->gainFor(fold).col(channel).segment(first, count);
+    offset = profile->offsetFor(fold).col(channel).segment(first, count);
   }
-  if (rowPeriod > 0.0)
-  {
-    const double angle = TwoPi * y / rowPeriod;
-    factor += at(ImageParameter::RowSine, channel) * std::sin(angle) +
-      at(ImageParameter::RowCosine, channel) * std::cos(angle);
-  }
-  if (columnPeriod > 0.0)
-  {
-    const double angle = TwoPi * x / columnPeriod;
-    factor += at(ImageParameter::ColumnSine, channel) * std::sin(angle) +
-      at(ImageParameter::ColumnCosine, channel) * std::cos(angle);
-  }
-  return factor;
+  const auto at = [&](P ofRow, P ofColumn) { return model.at(ofRows ? ofRow : ofColumn, channel); };
+  factor = at(P::RowSine, P::ColumnSine) * sine + at(P::RowCosine, P::ColumnCosine) * cosine +
+    at(P::RowGain, P::ColumnGain) * gain;
+  added = at(P::RowOffset, P::ColumnOffset) * offset;
 }
 
-double FieldModel::bandOffset(Eigen::Index channel, int x, int y) const noexcept
+namespace
 {
-  double sum = 0.0;
-  if (rows)
+constexpr double LeastSignal = 1e-3; // below, a power has no useful slope
+}
+
+FieldDetector::FieldDetector(const FieldModel& model, Eigen::Index channel)
+  : Square(model.at(ImageParameter::Square, channel))
+  , Exponent(model.at(ImageParameter::Exponent, channel))
+  , Compression(model.at(ImageParameter::Compression, channel))
+  , Dark(model.at(ImageParameter::Dark, channel))
+  , Clip(model.at(ImageParameter::Clip, channel))
+  , Level(model.at(ImageParameter::ClipLevel, channel))
+{
+}
+
+DetectorAnswer FieldDetector::operator()(double signal) const noexcept
+{
+  double power = signal;
+  double slope = 1.0;
+  double byExponent = 0.0;
+  if (signal > 0.0)
   {
-    sum += at(ImageParameter::RowOffset, channel) * rows->offset.back()(y, channel);
+    const double logarithm = std::log(signal);
+    power = Exponent == 1.0 ? signal : std::exp(Exponent * logarithm);
+    slope = Exponent == 1.0 ? 1.0 : Exponent * power / std::fmax(signal, LeastSignal);
+    byExponent = power * logarithm;
   }
-  if (columns)
-  {
-    sum += at(ImageParameter::ColumnOffset, channel) * columns->offset.back()(x, channel);
-  }
-  return sum;
+  const double divisor = 1.0 + Compression * power;
+  const double bent = power / divisor;
+  const double bySquare = bent * bent;
+  const double outer = (1.0 + 2.0 * Square * bent) / (divisor * divisor);
+  const double linear = bent + Square * bySquare + Dark;
+  // (u + level - sqrt((u - level)^2 + softness^2)) / 2
+  const double beyond = linear - Level;
+  const double root = std::sqrt(beyond * beyond + ClipSoftness * ClipSoftness);
+  const double lost = 0.5 * (beyond + root); // of u
+  const double kept = 1.0 - 0.5 * Clip * (1.0 + beyond / root);
+  return { linear - Clip * lost, kept * outer * slope, kept * bySquare, kept * outer * byExponent,
+    kept, -lost, 0.5 * Clip * (1.0 + beyond / root) };
 }
 
 } // namespace msi

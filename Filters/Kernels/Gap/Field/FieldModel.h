@@ -66,9 +66,6 @@ struct FieldModel
   {
     return gradient(x, y) * vignetting(x, y);
   }
-  // 1 + what stripes of rows and columns do; and what they add.
-  double bandFactor(Eigen::Index channel, int x, int y) const noexcept;
-  double bandOffset(Eigen::Index channel, int x, int y) const noexcept;
 
   double rowPeriod = 0.0; // 0: none
   double columnPeriod = 0.0;
@@ -76,6 +73,17 @@ struct FieldModel
 
 private:
   std::vector<Eigen::ArrayXd> Values;
+};
+
+// What stripes do in `count` rows, or columns, of one channel from `first` on; without stripes nothing.
+struct FieldLines
+{
+  // fold: FieldProfile::gainFor.
+  FieldLines(
+    const FieldModel& model, bool ofRows, Eigen::Index channel, int fold, int first, int count);
+
+  Eigen::ArrayXd factor, added; // of the light; the response has (1 + factor) light + added
+  Eigen::ArrayXd sine, cosine, gain, offset; // what the parameters of these names multiply
 };
 
 double neutralValue(ImageParameter parameter) noexcept;
@@ -92,5 +100,31 @@ constexpr bool isPlace(ImageParameter parameter) noexcept
   return isShape(parameter) || parameter == ImageParameter::CenterX ||
     parameter == ImageParameter::CenterY;
 }
+
+// What the detector answers to a signal, and the derivatives of the answer.
+struct DetectorAnswer
+{
+  double value;
+  double bySignal;
+  double bySquare; // of the quadratic, and minus that by the compression
+  double byExponent;
+  double byOffset;
+  double byClip;
+  double byClipLevel;
+};
+
+class FieldDetector
+{
+public:
+  FieldDetector(const FieldModel& model, Eigen::Index channel);
+
+  DetectorAnswer operator()(double signal) const noexcept;
+
+private:
+  double Square, Exponent, Compression, Dark, Clip, Level;
+};
+
+// A rounded min(u, level): that of the effect saturation, whose softness is held.
+inline constexpr double ClipSoftness = 0.01;
 
 } // namespace msi

@@ -2,12 +2,11 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
-#include "Kernels/Gap/Field/FieldClip.h"
 #include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
-#include "Kernels/Gap/Field/FieldPeriod.h"
-#include "Kernels/Gap/Field/FieldProfile.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
+#include "Kernels/Gap/Field/FieldStripes.h"
 
 #include <algorithm>
 #include <cmath>

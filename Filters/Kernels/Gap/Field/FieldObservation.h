@@ -3,7 +3,7 @@
 
 #include "Kernels/Gap/Diagnosis/Observation.h"
 #include "Kernels/Gap/Field/FieldHypothesis.h"
-#include "Kernels/Gap/Field/FieldShift.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
 
 #include <Eigen/Core>
 

@@ -239,9 +239,20 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       {
         scratch.columns.array().colwise() *= root;
       }
+      std::vector<Eigen::Index> there;
+      for (Eigen::Index c = 0; c < FieldColumn::count(); ++c)
+      {
+        if ((scratch.columns.col(c).array() != 0.0).any())
+        {
+          there.push_back(c);
+        }
+      }
+      const Eigen::MatrixXd columns = scratch.columns(Eigen::all, there);
+      Eigen::MatrixXd products = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+      products.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+      products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
       sums.normal.setZero(FieldColumn::count(), FieldColumn::count());
-      sums.normal.selfadjointView<Eigen::Lower>().rankUpdate(scratch.columns.transpose());
-      sums.normal.triangularView<Eigen::StrictlyUpper>() = sums.normal.transpose();
+      sums.normal(there, there) = products;
     }
   };
   loop(static_cast<int>(data.blocks.size()), measure);

@@ -1,4 +1,4 @@
-// Displacements of whole pixels as a start for misregistration.
+// What the images show before a fit: where displacements and clipping start.
 #pragma once
 
 #include "Kernels/Gap/Field/FieldData.h"
@@ -18,5 +18,9 @@ struct FieldStart
 // The largest correlation of blocks whose means are taken off, with displacements of up to ten whole pixels in every
 // block. Zero where it is no better than no displacement, so a start for a fit by gradients.
 FieldStart registrationStart(const FieldData& data, const FieldLoop& loop);
+
+// The level beyond which the real image stays at one value while the model goes on: that of the least squares of
+// real - min(model, level), among quantiles of the model; the neutral level where the image shows none.
+double findClipLevel(const FieldData& data, const FieldModel& model, const FieldLoop& loop);
 
 } // namespace msi

@@ -1,0 +1,412 @@
+#include "Kernels/Gap/Field/FieldStripes.h"
+
+#include "Kernels/Camera/Angle.h"
+#include "Kernels/Gap/Field/FieldColumns.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace msi
+{
+
+namespace
+{
+// Numbers of the lines with their weights; lines x K.
+struct LineValues
+{
+  Eigen::ArrayXXd value, weight;
+};
+
+// The relative gain and the offset of the residual of each line, from one fold's blocks.
+struct LineSums
+{
+  LineValues gain, offset; // value: times weight
+};
+
+constexpr Eigen::Index DefectPart = 50; // one line of so many may be defect
+
+void join(LineValues& lines, const LineValues& part, Eigen::Index first)
+{
+  lines.value.middleRows(first, part.value.rows()) += part.value;
+  lines.weight.middleRows(first, part.value.rows()) += part.weight;
+}
+
+LineValues noLines(Eigen::Index lines, Eigen::Index channels)
+{
+  return { Eigen::ArrayXXd::Zero(lines, channels), Eigen::ArrayXXd::Zero(lines, channels) };
+}
+
+LineSums sumsOf(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
+  const FieldBlock& block, bool alongRows, const Eigen::ArrayXd& limit)
+{
+  LineSums sums{ noLines(data.blockSize, data.channels()),
+    noLines(data.blockSize, data.channels()) };
+  FieldScratch scratch;
+  for (Eigen::Index k = 0; k < data.channels(); ++k)
+  {
+    fieldColumns(data, model, glare, block, k, scratch);
+    const auto u = scratch.columns.col(FieldColumn::of(ImageParameter::Gain));
+    const auto r = scratch.columns.col(FieldColumn::residual());
+    for (Eigen::Index n = 0; n < u.size(); ++n)
+    {
+      const int pixel = scratch.pixel[static_cast<std::size_t>(n)];
+      const int line = alongRows ? pixel / data.blockSize : pixel % data.blockSize;
+      const double size = std::fabs(r[n]);
+      const double weight = limit.size() > 0 && size > limit[k] ? limit[k] / size : 1.0;
+      sums.gain.value(line, k) += weight * u[n] * r[n];
+      sums.gain.weight(line, k) += weight * u[n] * u[n];
+      sums.offset.value(line, k) += weight * r[n];
+      sums.offset.weight(line, k) += weight;
+    }
+  }
+  return sums;
+}
+
+// Of each fold. limit: residuals count up to this size, K; empty: in full.
+std::vector<LineSums> lineSums(const FieldData& data, const FieldModel& model, bool alongRows,
+  const Eigen::ArrayXd& limit, const FieldLoop& loop)
+{
+  const Eigen::Index lines = alongRows ? data.pair.extent.height : data.pair.extent.width;
+  const Eigen::ArrayXd glare = sceneMean(data, model);
+  std::vector<LineSums> parts(data.blocks.size());
+  loop(static_cast<int>(data.blocks.size()),
+    [&](int b)
+    {
+      const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
+      if (block.fold >= 0)
+      {
+        parts[static_cast<std::size_t>(b)] = sumsOf(data, model, glare, block, alongRows, limit);
+      }
+    });
+  std::vector<LineSums> folds(
+    FieldFolds, { noLines(lines, data.channels()), noLines(lines, data.channels()) });
+  for (std::size_t b = 0; b < parts.size(); ++b)
+  {
+    const FieldBlock& block = data.blocks[b];
+    if (block.fold >= 0)
+    {
+      const int first = alongRows ? block.window.y : block.window.x;
+      LineSums& fold = folds[static_cast<std::size_t>(block.fold)];
+      join(fold.gain, parts[b].gain, first);
+      join(fold.offset, parts[b].offset, first);
+    }
+  }
+  return folds;
+}
+
+// Takes a polynomial off each channel: 1 term is the mean, 3 a quadratic.
+void detrend(LineValues& lines, Eigen::Index terms)
+{
+  const Eigen::Index count = lines.value.rows();
+  const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(count, -1.0, 1.0);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Ones(count, terms);
+  for (Eigen::Index power = 1; power < terms; ++power)
+  {
+    basis.col(power) = basis.col(power - 1).array() * t;
+  }
+  for (Eigen::Index k = 0; k < lines.value.cols(); ++k)
+  {
+    const Eigen::MatrixXd weighted = lines.weight.col(k).matrix().asDiagonal() * basis;
+    const Eigen::MatrixXd normal = weighted.transpose() * basis;
+    const Eigen::VectorXd right = weighted.transpose() * lines.value.col(k).matrix();
+    lines.value.col(k) -= (basis * normal.ldlt().solve(right)).array();
+  }
+}
+
+void cutDefects(Eigen::ArrayXXd& values)
+{
+  const Eigen::Index cut = values.rows() / DefectPart + 1;
+  for (Eigen::Index k = 0; k < values.cols(); ++k)
+  {
+    std::vector<double> sizes;
+    for (Eigen::Index line = 0; line < values.rows(); ++line)
+    {
+      sizes.push_back(std::fabs(values(line, k)));
+    }
+    const auto next = sizes.end() - 1 - std::min(cut, values.rows() - 1);
+    std::nth_element(sizes.begin(), next, sizes.end());
+    values.col(k) = values.col(k).max(-*next).min(*next);
+  }
+}
+
+Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t without,
+  LineValues LineSums::*kind, bool keepTrend)
+{
+  LineValues lines = noLines((folds[0].*kind).value.rows(), (folds[0].*kind).value.cols());
+  for (std::size_t fold = 0; fold < folds.size(); ++fold)
+  {
+    if (fold != without)
+    {
+      join(lines, folds[fold].*kind, 0);
+    }
+  }
+  lines.value /= lines.weight.max(1e-12);
+  detrend(lines, keepTrend ? 1 : 3);
+  lines.value = (lines.weight > 0.0).select(lines.value, 0.0);
+  cutDefects(lines.value);
+  return lines.value;
+}
+}
+
+FieldProfile findProfile(const FieldData& data, const FieldModel& model, bool alongRows,
+  bool keepTrend, const Eigen::ArrayXd& limit, const FieldLoop& loop)
+{
+  const std::vector<LineSums> folds = lineSums(data, model, alongRows, limit, loop);
+  FieldProfile profile;
+  for (std::size_t without = 0; without <= folds.size(); ++without)
+  {
+    profile.gain.push_back(profileWithout(folds, without, &LineSums::gain, keepTrend));
+    profile.offset.push_back(profileWithout(folds, without, &LineSums::offset, keepTrend));
+  }
+  return profile;
+}
+
+namespace
+{
+constexpr double FalseAlarm = 1e-3;
+constexpr double PeriodOversampling = 6.0;
+constexpr int Refinements = 40;
+constexpr Eigen::Index FewestLines = 24;
+const double ExponentialMedian = std::log(2.0);
+
+// Weighted energy that a sine takes away, of each channel.
+Eigen::ArrayXd powerAt(const LineValues& profile, double frequency)
+{
+  const Eigen::Index K = profile.value.cols();
+  Eigen::ArrayXd cc = Eigen::ArrayXd::Zero(K);
+  Eigen::ArrayXd cs = cc;
+  Eigen::ArrayXd ss = cc;
+  Eigen::ArrayXd cz = cc;
+  Eigen::ArrayXd sz = cc;
+  const std::complex<double> turn = std::polar(1.0, TwoPi * frequency);
+  std::complex<double> now = 1.0;
+  for (Eigen::Index line = 0; line < profile.value.rows(); ++line, now *= turn)
+  {
+    const double c = now.real();
+    const double s = now.imag();
+    for (Eigen::Index k = 0; k < K; ++k)
+    {
+      const double w = profile.weight(line, k);
+      const double z = w * profile.value(line, k);
+      cc[k] += w * c * c;
+      cs[k] += w * c * s;
+      ss[k] += w * s * s;
+      cz[k] += z * c;
+      sz[k] += z * s;
+    }
+  }
+  const Eigen::ArrayXd determinant = (cc * ss - cs * cs).max(1e-300);
+  return (ss * cz * cz - 2.0 * cs * cz * sz + cc * sz * sz) / determinant;
+}
+
+// Probability that the sum of `channels` exponential deviates of mean one exceeds x.
+double gammaSurvival(double x, Eigen::Index channels)
+{
+  double logTerm = -x;
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < channels; ++i)
+  {
+    sum += std::exp(logTerm);
+    logTerm += std::log(x) - std::log(static_cast<double>(i + 1));
+  }
+  return std::fmin(sum, 1.0);
+}
+}
+
+FieldPeriod findPeriod(
+  const FieldData& data, const FieldModel& model, bool alongRows, const FieldLoop& loop)
+{
+  LineValues profile;
+  for (const LineSums& fold : lineSums(data, model, alongRows, Eigen::ArrayXd(), loop))
+  {
+    if (profile.value.size() == 0)
+    {
+      profile = fold.gain;
+      continue;
+    }
+    profile.value += fold.gain.value;
+    profile.weight += fold.gain.weight;
+  }
+  profile.value /= profile.weight.max(1e-12);
+  const Eigen::Index lines = profile.value.rows();
+  const Eigen::Index K = profile.value.cols();
+  if (lines < FewestLines)
+  {
+    return {};
+  }
+  detrend(profile, 3);
+  const double span = static_cast<double>(lines);
+  const auto count = static_cast<int>(PeriodOversampling * (0.5 * span - 2.0)) + 1;
+  const auto frequencyOf = [&](int i) { return (2.0 + i / PeriodOversampling) / span; };
+  Eigen::ArrayXXd power(count, K);
+  constexpr int Batch = 64;
+  loop((count + Batch - 1) / Batch,
+    [&](int batch)
+    {
+      for (int i = batch * Batch; i < std::min((batch + 1) * Batch, count); ++i)
+      {
+        power.row(i) = powerAt(profile, frequencyOf(i)).transpose();
+      }
+    });
+  Eigen::ArrayXd scale(K);
+  for (Eigen::Index k = 0; k < K; ++k)
+  {
+    std::vector<double> values(power.col(k).begin(), power.col(k).end());
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    scale[k] = std::fmax(*middle / ExponentialMedian, 1e-300);
+  }
+  const auto total = [&](double frequency) { return (powerAt(profile, frequency) / scale).sum(); };
+  int best = 0;
+  double most = -1.0;
+  for (int i = 0; i < count; ++i)
+  {
+    const double value = (power.row(i).transpose() / scale).sum();
+    if (value > most)
+    {
+      most = value;
+      best = i;
+    }
+  }
+  if (gammaSurvival(most, K) * span > FalseAlarm)
+  {
+    return {};
+  }
+  double low = frequencyOf(best) - 1.0 / (PeriodOversampling * span);
+  double high = std::fmin(frequencyOf(best) + 1.0 / (PeriodOversampling * span), 0.5);
+  for (int i = 0; i < Refinements; ++i)
+  {
+    const double a = low + (high - low) / 3.0;
+    const double b = high - (high - low) / 3.0;
+    (total(a) < total(b) ? low : high) = total(a) < total(b) ? a : b;
+  }
+  const double frequency = 0.5 * (low + high);
+  // Cramer-Rao for a sine of this power in white noise: var f = 6 / (power (2 pi span)^2) x 2.
+  const double error = std::sqrt(6.0 / std::fmax(total(frequency), 1e-9)) / (TwoPi * span);
+  return { 1.0 / frequency, error / (frequency * frequency) };
+}
+
+namespace
+{
+constexpr double LargestAmplitude = 0.45;
+constexpr Eigen::Index Oversampling = 6;
+
+// Sine and cosine of every harmonic.
+Eigen::MatrixXd basisOf(Eigen::Index lines, double period)
+{
+  Eigen::MatrixXd basis(lines, 2 * BandingHarmonics);
+  const Eigen::ArrayXd line = Eigen::ArrayXd::LinSpaced(lines, 0.0, static_cast<double>(lines - 1));
+  for (Eigen::Index n = 0; n < BandingHarmonics; ++n)
+  {
+    const Eigen::ArrayXd angle = TwoPi * static_cast<double>(n + 1) / period * line;
+    basis.col(2 * n) = angle.sin();
+    basis.col(2 * n + 1) = angle.cos();
+  }
+  return basis;
+}
+
+// Energy of all channels at i / (Oversampling lines) cycles a line.
+Eigen::ArrayXd spectrumOf(const Eigen::ArrayXXd& profile)
+{
+  const Eigen::Index lines = profile.rows();
+  Eigen::ArrayXd energy = Eigen::ArrayXd::Zero(Oversampling * lines / 2 + 1);
+  for (Eigen::Index i = 0; i < energy.size(); ++i)
+  {
+    const std::complex<double> turn =
+      std::polar(1.0, TwoPi * static_cast<double>(i) / static_cast<double>(Oversampling * lines));
+    std::complex<double> now = 1.0;
+    Eigen::ArrayXcd sum = Eigen::ArrayXcd::Zero(profile.cols());
+    for (Eigen::Index line = 0; line < lines; ++line, now *= turn)
+    {
+      sum += now * profile.row(line).transpose();
+    }
+    energy[i] = sum.abs2().sum();
+  }
+  return energy;
+}
+
+void setSine(BandingSines& sines, Eigen::Index channel, Eigen::Index n, double sine, double cosine)
+{
+  sines.amplitude(channel, n) = std::fmin(std::hypot(sine, cosine), LargestAmplitude);
+  const double start = std::atan2(cosine, sine) / TwoPi;
+  sines.start(channel, n) = start - std::floor(start);
+}
+
+BandingSines noSines(Eigen::Index channels, Eigen::Index harmonics)
+{
+  BandingSines sines;
+  sines.amplitude.setZero(channels, harmonics);
+  sines.start.setZero(channels, harmonics);
+  return sines;
+}
+}
+
+BandingSines nearestSines(const Eigen::ArrayXXd& profile)
+{
+  const Eigen::Index lines = profile.rows();
+  BandingSines sines = noSines(profile.cols(), BandingHarmonics);
+  const Eigen::ArrayXd energy = spectrumOf(profile);
+  // Two cycles at least; harmonics beyond two pixels a cycle are those of another period.
+  Eigen::Index best = 2 * Oversampling;
+  double most = -1.0;
+  for (Eigen::Index i = 2 * Oversampling; i < energy.size(); ++i)
+  {
+    double sum = 0.0;
+    for (Eigen::Index n = 1; n <= BandingHarmonics && n * i < energy.size(); ++n)
+    {
+      sum += energy[n * i];
+    }
+    if (sum > most)
+    {
+      most = sum;
+      best = i;
+    }
+  }
+  sines.period = static_cast<double>(Oversampling * lines) /
+    static_cast<double>(std::max<Eigen::Index>(best, 1));
+  sines.period = std::fmax(sines.period, 2.0);
+  Eigen::MatrixXd basis = basisOf(lines, sines.period);
+  Eigen::MatrixXd normal = basis.transpose() * basis;
+  normal.diagonal().array() += 1e-6 * static_cast<double>(lines);
+  double left = 0.0;
+  for (Eigen::Index k = 0; k < profile.cols(); ++k)
+  {
+    const Eigen::VectorXd values = profile.col(k).matrix();
+    const Eigen::VectorXd weight = normal.ldlt().solve(basis.transpose() * values);
+    left += (values - basis * weight).squaredNorm();
+    for (Eigen::Index n = 0; n < BandingHarmonics; ++n)
+    {
+      setSine(sines, k, n, weight[2 * n], weight[2 * n + 1]);
+    }
+  }
+  sines.part = 1.0 - left / std::fmax(profile.square().sum(), 1e-30);
+  return sines;
+}
+
+BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model)
+{
+  using P = ImageParameter;
+  const bool rows = isOfRows(choice);
+  const Eigen::Index K = model[P::Gain].size();
+  if (isProfile(choice))
+  {
+    const P strength = choice.terms.front().parameter;
+    const FieldProfile& profile = *(rows ? model.rows : model.columns);
+    const bool gain = strength == P::RowGain || strength == P::ColumnGain;
+    return nearestSines(
+      (gain ? profile.gain : profile.offset).back().rowwise() * model[strength].transpose());
+  }
+  BandingSines sines = noSines(K, 1);
+  sines.period = rows ? model.rowPeriod : model.columnPeriod;
+  for (Eigen::Index k = 0; k < K; ++k)
+  {
+    setSine(sines, k, 0, model.at(rows ? P::RowSine : P::ColumnSine, k),
+      model.at(rows ? P::RowCosine : P::ColumnCosine, k));
+  }
+  return sines;
+}
+
+} // namespace msi

@@ -1,0 +1,50 @@
+// Stripes: what the lines of an image pair, rows or columns, have of their own.
+#pragma once
+
+#include "Kernels/Gap/Field/FieldFit.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace msi
+{
+
+// Gain and offset of each line as the residual of the model shows them, without their mean and, but for keepTrend, without
+// the quadratic that may as well be light. The strongest fiftieth of the lines are cut to the next: a line that is defect
+// is no stripe.
+FieldProfile findProfile(const FieldData& data, const FieldModel& model, bool alongRows,
+  bool keepTrend, const Eigen::ArrayXd& limit, const FieldLoop& loop);
+
+struct FieldPeriod
+{
+  double period = 0.0; // pixels; 0: nothing beyond chance
+  double standardError = 0.0;
+};
+
+// The period of a gain that goes with the row (or column), the same in all channels, phases and sizes free.
+//
+// Method: least-squares periodogram (N. R. Lomb, 1976, doi:10.1007/BF00648343) of the relative gain of each row of the
+//   training blocks, quadratic trend taken off; the channels' powers add. The largest power counts where noise
+//   of the same median power would reach it anywhere in the spectrum with a probability below 1e-3.
+// Range: 2 pixels to half the span.
+FieldPeriod findPeriod(
+  const FieldData& data, const FieldModel& model, bool alongRows, const FieldLoop& loop);
+
+inline constexpr Eigen::Index BandingHarmonics = 3;
+
+// sum over n of amplitude_kn sin(2 pi (n line / period + start_kn)); K x harmonics
+struct BandingSines
+{
+  double period = 0.0;
+  Eigen::ArrayXXd amplitude, start;
+  double part = 1.0; // of the profile's energy
+};
+
+// The three sines of a common period that come nearest to a profile, lines x K. Amplitudes stop at those of the library.
+BandingSines nearestSines(const Eigen::ArrayXXd& profile);
+
+// Those of a choice of banding: its own, or the nearest to its profile.
+BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model);
+
+} // namespace msi

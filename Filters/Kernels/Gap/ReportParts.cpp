@@ -85,9 +85,9 @@ void requireKnown(const std::vector<std::string>& without)
 
 GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept
 {
-  return noiseAlone || shrink >= ExplainedShrink ? GapVerdict::Explained
-    : shrink >= PartlyShrink                     ? GapVerdict::PartlyExplained
-                                                 : GapVerdict::Unexplained;
+  return noiseAlone || shrink >= Decision::ExplainedShrink ? GapVerdict::Explained
+    : shrink >= Decision::PartlyShrink                     ? GapVerdict::PartlyExplained
+                                                           : GapVerdict::Unexplained;
 }
 
 void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastPerChannel)
@@ -100,7 +100,7 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastP
   const double all = sumOf(causes);
   const auto first = std::stable_partition(causes.begin(), causes.end(),
     [all, leastPerChannel](const GapCause& cause)
-    { return cause.share > (cause.perChannel ? leastPerChannel : LeastPart) * all; });
+    { return cause.share > (cause.perChannel ? leastPerChannel : Decision::LeastPart) * all; });
   report.uncredited.clear();
   std::transform(first, causes.end(), std::back_inserter(report.uncredited),
     [](const GapCause& cause) { return cause.effect; });

@@ -1,6 +1,7 @@
 // What the reports on tables and on images have in common.
 #pragma once
 
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/GapReport.h"
 
 #include <string>
@@ -10,22 +11,16 @@
 namespace msi
 {
 
-// Of the gap's size, that the causes found must take away.
-inline constexpr double ExplainedShrink = 0.85;
-inline constexpr double PartlyShrink = 0.25;
-
 // Errors: std::invalid_argument for the name of an effect that may not be blamed and that the library does not have.
 void requireKnown(const std::vector<std::string>& without);
 
 // Of a gap with causes. noiseAlone: nothing but noise is left.
 GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept;
 
-inline constexpr double LeastPart = 0.03; // of the causes together
-
-// Takes the causes into the report, and what none of them explains. Those that get less than LeastPart of what all get are no
+// Takes the causes into the report, and what none of them explains. Those that get less than Decision::LeastPart of what all get are no
 // causes, nor are numbers of single channels with less than leastPerChannel: their effects go to GapReport::uncredited.
 void creditCauses(
-  GapReport& report, std::vector<GapCause> causes, double leastPerChannel = LeastPart);
+  GapReport& report, std::vector<GapCause> causes, double leastPerChannel = Decision::LeastPart);
 
 // Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.
 void believe(GapReport& report, std::vector<std::pair<std::string, double>> probabilities);

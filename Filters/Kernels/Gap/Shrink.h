@@ -1,4 +1,4 @@
-// How far a gap shrinks.
+// How far a gap shrinks, and how much of that each of several has done.
 #pragma once
 
 #include "Kernels/Gap/GapReport.h"
@@ -26,5 +26,10 @@ GapFigures figuresOf(const GroupEnergies& energies, double elements, std::uint64
 
 // 95 % interval of shrinkOf over bootstrap draws of the groups; {0, 0} without groups.
 std::array<double, 2> shrinkInterval(const GroupEnergies& energies, std::uint64_t seed);
+
+// Shapley values: value[subset] is what the players in the bits of `subset` achieve; 2^players values, of which
+// value[0] is what none achieves. The values of all players sum to value[all] - value[0].
+// Source: L. S. Shapley, "A value for n-person games", 1953, doi:10.1515/9781400881970-018.
+std::vector<double> shapleyValues(const std::vector<double>& value, std::size_t players);
 
 } // namespace msi

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/GapAxes.h"
@@ -7,12 +8,9 @@
 #include "Kernels/Gap/Samples/GapEvidence.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
 #include "Kernels/Gap/Samples/GapNotes.h"
-#include "Kernels/Gap/Samples/HeldOut.h"
 #include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
-#include "Kernels/Gap/Samples/ResidualScatter.h"
 #include "Kernels/Gap/Samples/SampleObservation.h"
-#include "Kernels/Gap/Samples/TableDecisions.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
@@ -220,7 +218,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     }
     report.verdict = verdictOf(shrink, false);
   }
-  else if (causes && alone >= ExplainedShrink &&
+  else if (causes && alone >= Decision::ExplainedShrink &&
     inFewSamples(data, best.predicted - data.simulated))
   {
     report.unconfirmed = true;

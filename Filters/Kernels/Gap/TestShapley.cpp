@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Shapley.h"
+#include "Kernels/Gap/Shrink.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/Shapley.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldFit.h"
 
-#include "Kernels/Gap/Field/FieldDecisions.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 
 #include <Eigen/Cholesky>
 

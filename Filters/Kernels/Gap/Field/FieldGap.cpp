@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
-#include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldHypothesis.h"

@@ -94,13 +94,6 @@ constexpr bool isShape(ImageParameter parameter) noexcept
   return parameter == ImageParameter::TailRadius || parameter == ImageParameter::ClipLevel;
 }
 
-// What says where or how far another parameter acts: it does nothing of its own.
-constexpr bool isPlace(ImageParameter parameter) noexcept
-{
-  return isShape(parameter) || parameter == ImageParameter::CenterX ||
-    parameter == ImageParameter::CenterY;
-}
-
 // What the detector answers to a signal, and the derivatives of the answer.
 struct DetectorAnswer
 {

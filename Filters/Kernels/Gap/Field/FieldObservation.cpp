@@ -2,7 +2,6 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
-#include "Kernels/Gap/Field/FieldDecisions.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldStarts.h"

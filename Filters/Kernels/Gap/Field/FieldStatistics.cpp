@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
-#include "Kernels/Gap/Field/FieldDecisions.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "Kernels/Gap/Field/FieldCells.h"
 #include "Kernels/Gap/Field/FieldFit.h"
-#include "Kernels/Gap/Shapley.h"
+#include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Samples/AxisCells.h"
 #include "Kernels/Gap/Samples/GapAxes.h"
-#include "Kernels/Gap/Shapley.h"
+#include "Kernels/Gap/Shrink.h"
 
 #include <Eigen/Cholesky>
 

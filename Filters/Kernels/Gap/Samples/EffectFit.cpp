@@ -1,13 +1,14 @@
 #include "Kernels/Gap/Samples/EffectFit.h"
 
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Samples/ColumnProducts.h"
-#include "Kernels/Gap/Samples/NormalMatrix.h"
-#include "Kernels/Gap/Samples/TableDecisions.h"
+#include "Kernels/Gap/Samples/GapNoise.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace msi
 {
@@ -33,16 +34,14 @@ Eigen::ArrayXd huber(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& weigh
   {
     if (weight[i] > 0.0)
     {
-      size.push_back(std::fabs(whitened[i]));
+      size.push_back(whitened[i]);
     }
   }
   if (size.empty())
   {
     return Eigen::ArrayXd::Ones(whitened.size());
   }
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  const double cut = TableDecision::HuberCut * std::fmax(1.4826 * *middle, 1.0);
+  const double cut = TableDecision::HuberCut * std::fmax(robustDeviation(std::move(size)), 1.0);
   return (whitened.abs() > cut).select((cut / whitened.abs().cwiseMax(1e-300)).sqrt(), 1.0);
 }
 
@@ -50,6 +49,45 @@ double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
 {
   return (whitened * root).square().sum();
 }
+}
+
+Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
+  const Eigen::Ref<const Eigen::ArrayXXd>& weight, const std::vector<FreeParameter>& free,
+  Eigen::Index reach, const std::vector<Eigen::Index>& samples)
+{
+  const Eigen::Index channels = weight.rows();
+  const auto count = static_cast<Eigen::Index>(samples.size());
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+  Eigen::ArrayXd root(count);
+  std::vector<Eigen::Index> active;
+  Eigen::MatrixXd columns;
+  for (Eigen::Index k = 0; k < channels; ++k)
+  {
+    active.clear();
+    for (std::size_t p = 0; p < free.size(); ++p)
+    {
+      if (free[p].channel < 0 || std::abs(free[p].channel - k) <= reach)
+      {
+        active.push_back(static_cast<Eigen::Index>(p));
+      }
+    }
+    for (Eigen::Index i = 0; i < count; ++i)
+    {
+      root[i] = std::sqrt(weight(k, samples[static_cast<std::size_t>(i)]));
+    }
+    columns.resize(count, static_cast<Eigen::Index>(active.size()));
+    for (std::size_t a = 0; a < active.size(); ++a)
+    {
+      const double* from = jacobian.col(active[a]).data() + k;
+      double* to = columns.col(static_cast<Eigen::Index>(a)).data();
+      for (Eigen::Index i = 0; i < count; ++i)
+      {
+        to[i] = root[i] * from[samples[static_cast<std::size_t>(i)] * channels];
+      }
+    }
+    normal(active, active) += columnProducts(columns);
+  }
+  return normal;
 }
 
 Eigen::MatrixXd EffectFit::informationOfData() const
@@ -291,6 +329,57 @@ Eigen::MatrixXd EffectFitter::covariance(const EffectFit& fit) const
   const Eigen::MatrixXd inverse =
     fit.information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
   return samples / std::fmax(samples - 1.0, 1.0) * inverse * meat * inverse;
+}
+
+namespace
+{
+Eigen::MatrixXd leftBy(const GapData& data, const Eigen::MatrixXd& predicted)
+{
+  return (data.count.array() > 0.0).select(data.observed - predicted, 0.0);
+}
+}
+
+Eigen::MatrixXd leftOfHeldOut(
+  const GapData& data, const EffectFit& fit, const std::vector<char>& training)
+{
+  Eigen::MatrixXd left = leftBy(data, fit.predicted);
+  const double none = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < fit.set.size(); ++e)
+  {
+    const auto step = fit.set.placeOf(e);
+    if (!step)
+    {
+      continue;
+    }
+    const Eigen::VectorXd& time = data.scene.time();
+    const double place = fit.set.effects[e].parameters[step->index];
+    double before = -none;
+    double behind = none;
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      if (training[static_cast<std::size_t>(i)] != 0)
+      {
+        before = time[i] <= place ? std::fmax(before, time[i]) : before;
+        behind = time[i] > place ? std::fmin(behind, time[i]) : behind;
+      }
+    }
+    const double half = 0.5 * fit.set.effects[e].parameters[step->index + 1];
+    for (const double end : { before - half, behind + half })
+    {
+      EffectSet moved = fit.set;
+      moved.effects[e].parameters[step->index] = std::clamp(end, 0.0, 1.0);
+      const Eigen::MatrixXd other = leftBy(data, respond(data.camera, data.scene, moved));
+      for (Eigen::Index i = 0; i < data.samples(); ++i)
+      {
+        if (time[i] > before && time[i] < behind &&
+          other.col(i).squaredNorm() < left.col(i).squaredNorm())
+        {
+          left.col(i) = other.col(i);
+        }
+      }
+    }
+  }
+  return left;
 }
 
 } // namespace msi

@@ -39,11 +39,6 @@ struct EffectFit
   int iterations = 0;
 
   Eigen::MatrixXd informationOfData() const; // information without its prior
-
-  Eigen::Index parameters() const noexcept
-  {
-    return jacobian.cols() + static_cast<Eigen::Index>(set.steps());
-  }
 };
 
 // Gauss-Newton with Levenberg damping, bounds by projection, Huber weights at five times the median
@@ -86,5 +81,19 @@ private:
   double Elements = 0.0;
   double NoiseEnergy = 0.0;
 };
+
+// J^T W J over the samples named, p x p.
+// jacobian: KS x p, rows in the order of a K x S response; weight: K x S; free: one a column.
+// reach: how many channels away a parameter of one channel acts. Where it is zero the cost grows with the number of
+//   parameters a channel has, not with that of all.
+Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
+  const Eigen::Ref<const Eigen::ArrayXXd>& weight, const std::vector<FreeParameter>& free,
+  Eigen::Index reach, const std::vector<Eigen::Index>& samples);
+
+// Observed minus predicted, K x S; 0 where nothing was measured.
+// A step in time is only known to lie between two training samples; a sample between these may lie on either side of it,
+// and is taken where it agrees better.
+Eigen::MatrixXd leftOfHeldOut(
+  const GapData& data, const EffectFit& fit, const std::vector<char>& training);
 
 } // namespace msi

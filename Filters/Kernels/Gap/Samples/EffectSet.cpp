@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Samples/EffectSet.h"
 
 #include "Kernels/Camera/CameraSimulator.h"
-#include "Kernels/Gap/Samples/TableDecisions.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -130,13 +130,6 @@ void EffectSet::add(
       at += count;
     }
   }
-}
-
-void EffectSet::add(const EffectSet& from, std::size_t position)
-{
-  choices.push_back(from.choices[position]);
-  effects.push_back(from.effects[position]);
-  secondaryFree.push_back(from.secondaryFree[position]);
 }
 
 void EffectSet::remove(std::size_t position)

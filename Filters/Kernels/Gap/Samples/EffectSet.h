@@ -71,7 +71,6 @@ struct EffectSet
   // Added at its neutral values, or at `start`: one number a parameter of the form, or all numbers of the effect.
   void add(
     const EffectChoice& choice, const CameraModel& camera, const std::vector<double>& start = {});
-  void add(const EffectSet& from, std::size_t position); // with its values
   void remove(std::size_t position);
   std::optional<StepPlace> placeOf(std::size_t position) const; // empty: it makes no step
   std::vector<FreeParameter> freeParameters(const CameraModel& camera) const;

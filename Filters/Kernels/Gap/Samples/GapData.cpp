@@ -2,7 +2,7 @@
 
 #include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Camera/CounterRandom.h"
-#include "Kernels/Gap/Samples/TableDecisions.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Spectra/Interpolation.h"
 #include "Kernels/Spectra/Reject.h"
 

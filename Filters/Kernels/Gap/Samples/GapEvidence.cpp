@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Samples/GapEvidence.h"
 
-#include "Kernels/Gap/Samples/TableDecisions.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,56 +13,6 @@ namespace msi
 Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
 {
   return (data.count.array() > 0.0).select(values, 0.0);
-}
-
-namespace
-{
-// Of normal values of mean 0, by the median of their sizes.
-double middleVariance(std::vector<double>& values)
-{
-  std::transform(
-    values.begin(), values.end(), values.begin(), [](double v) { return std::fabs(v); });
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return std::pow(1.4826 * *middle, 2);
-}
-}
-
-void setUnknownNoise(GapData& data)
-{
-  data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());
-  const Eigen::MatrixXd residual =
-    shareOverAxes(data, measuredOnly(data, data.observed - data.simulated), false).heldOutResidual;
-  for (Eigen::Index k = 0; k < data.channels(); ++k)
-  {
-    std::vector<double> values;
-    std::vector<double>
-      differences; // second, between neighbouring channels: of noise, six times its variance
-    const Eigen::Index first =
-      std::clamp<Eigen::Index>(k - 1, 0, std::max<Eigen::Index>(data.channels() - 3, 0));
-    for (Eigen::Index i = 0; i < data.samples(); ++i)
-    {
-      if (data.count(k, i) > 0.0)
-      {
-        values.push_back(residual(k, i));
-      }
-      if (data.channels() > 2 && data.count.col(i).segment(first, 3).minCoeff() > 0.0)
-      {
-        const auto three = residual.col(i).segment(first, 3);
-        differences.push_back(three[0] - 2.0 * three[1] + three[2]);
-      }
-    }
-    if (!values.empty())
-    {
-      double variance = middleVariance(values);
-      if (!differences.empty())
-      {
-        variance = std::fmin(
-          variance, middleVariance(differences) / 6.0 + std::pow(TableDecision::SampleScatter, 2));
-      }
-      data.variance.row(k).setConstant(variance + 1e-12);
-    }
-  }
 }
 
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)

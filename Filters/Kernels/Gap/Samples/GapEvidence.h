@@ -16,10 +16,6 @@ namespace msi
 // The values where something was measured, 0 elsewhere.
 Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values);
 
-// Without noise model and repeats: per channel what no basis predicts is noise; but what the channels of a sample share only up to
-// TableDecision::SampleScatter.
-void setUnknownNoise(GapData& data);
-
 // The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
 // it allows, only as much of it stays in data.variance as what is left shows. Returns the mean variance taken away.
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted);

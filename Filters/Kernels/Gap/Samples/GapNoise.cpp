@@ -1,7 +1,10 @@
 #include "Kernels/Gap/Samples/GapNoise.h"
 
-#include "Kernels/Gap/Samples/TableDecisions.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Samples/GapAxes.h"
 #include "Kernels/Spectra/Interpolation.h"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +14,8 @@ namespace msi
 
 namespace
 {
-constexpr double FineStep = 1.0; // nm
+constexpr double FineStep = 1.0;           // nm
+constexpr double MedianOfNormal = 0.67449; // of the sizes of standard normal values
 
 double modelVariance(const ReadingNoise& noise, double response)
 {
@@ -190,6 +194,191 @@ Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& m
   const Eigen::ArrayXXd all =
     sum.array().square() + curve.array().square() + outside.array().square();
   return all.isFinite().select(all, 0.0).matrix();
+}
+
+double robustDeviation(std::vector<double> values)
+{
+  std::transform(
+    values.begin(), values.end(), values.begin(), [](double v) { return std::fabs(v); });
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle / MedianOfNormal;
+}
+
+namespace
+{
+// Of what neighbouring channels show, in the samples that have all three: smooth errors cancel, noise does not.
+struct SecondDifferences
+{
+  std::vector<double> values;
+  double allowed = 0.0; // sum of their variances by data.variance
+
+  SecondDifferences(const GapData& data, const Eigen::MatrixXd& residual, Eigen::Index middle)
+  {
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      if (data.count.col(i).segment(middle - 1, 3).minCoeff() > 0.0)
+      {
+        const auto three = residual.col(i).segment(middle - 1, 3);
+        const auto variance = data.variance.col(i).segment(middle - 1, 3);
+        values.push_back(three[0] - 2.0 * three[1] + three[2]);
+        allowed += variance[0] + 4.0 * variance[1] + variance[2];
+      }
+    }
+  }
+};
+}
+
+void setUnknownNoise(GapData& data)
+{
+  data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());
+  const auto measured = data.count.array() > 0.0;
+  const Eigen::MatrixXd residual =
+    shareOverAxes(data, measured.select(data.observed - data.simulated, 0.0), false)
+      .heldOutResidual;
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(data.channels());
+  for (Eigen::Index k = 0; k < data.channels(); ++k)
+  {
+    std::vector<double> values;
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      if (measured(k, i))
+      {
+        values.push_back(residual(k, i));
+      }
+    }
+    std::vector<double> differences;
+    if (data.channels() > 2)
+    {
+      const Eigen::Index middle = std::clamp<Eigen::Index>(k, 1, data.channels() - 2);
+      differences = SecondDifferences(data, residual, middle).values;
+    }
+    variance[k] = values.empty() ? 0.0 : std::pow(robustDeviation(values), 2);
+    if (!differences.empty())
+    {
+      // Of noise, six times its variance.
+      variance[k] = std::fmin(variance[k],
+        std::pow(robustDeviation(differences), 2) / 6.0 +
+          std::pow(TableDecision::SampleScatter, 2));
+    }
+  }
+  data.variance.colwise() = (variance.array() + 1e-12).matrix();
+}
+
+namespace
+{
+constexpr double LeastFactor = 1.25;
+constexpr double LargestFactor = 20.0;
+constexpr double FarMoreLikely = 10.0; // natural logarithm of the likelihood ratio
+constexpr double LeastScatter = 1e-5;
+constexpr std::size_t FewestDifferences = 8;
+constexpr double Together = 0.15; // correlation of neighbouring channels
+
+// Where a function with one hill between ln(low) and ln(high) is highest: golden section.
+template <typename Function>
+double highest(double low, double high, const Function& function)
+{
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double a = std::log(low);
+  double b = std::log(high);
+  for (int step = 0; step < 30; ++step)
+  {
+    const double left = b - golden * (b - a);
+    const double right = a + golden * (b - a);
+    const bool rises = function(std::exp(left)) < function(std::exp(right));
+    (rises ? a : b) = rises ? left : right;
+  }
+  return std::exp(0.5 * (a + b));
+}
+
+// Normal residuals whose covariance, sample by sample, is diagonal plus `common`.
+double logLikelihood(const GapData& data, const Eigen::MatrixXd& residual,
+  const Eigen::ArrayXXd& variance, const Eigen::MatrixXd& common)
+{
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < data.samples(); ++j)
+  {
+    if (data.usable[static_cast<std::size_t>(j)] == 0)
+    {
+      continue;
+    }
+    const auto measured = data.count.col(j).array() > 0.0;
+    Eigen::MatrixXd covariance = common;
+    covariance.diagonal().array() += variance.col(j);
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      if (!measured[k])
+      {
+        covariance.row(k).setZero();
+        covariance.col(k).setZero();
+        covariance(k, k) = 1.0;
+      }
+    }
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    const Eigen::VectorXd e = measured.select(residual.col(j), 0.0);
+    sum -=
+      root.matrixL().toDenseMatrix().diagonal().array().log().sum() + 0.5 * e.dot(root.solve(e));
+  }
+  return sum;
+}
+}
+
+double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, double unpredicted)
+{
+  const auto measured = data.count.array() > 0.0;
+  const Eigen::VectorXd gain = reflectanceErrorGain(data.camera);
+  const double noise = measured.select(data.variance.array(), 0.0).sum();
+  const double perUnit = measured.select(gain.replicate(1, data.samples()).array(), 0.0).sum();
+  double variance = std::fmax(unpredicted - noise, 0.0) / perUnit;
+  double excess = 0.0;
+  double through = 0.0;
+  for (Eigen::Index k = 1; k + 1 < data.channels(); ++k)
+  {
+    const SecondDifferences differences(data, residual, k);
+    if (differences.values.size() >= FewestDifferences)
+    {
+      excess += std::pow(robustDeviation(differences.values), 2) -
+        differences.allowed / static_cast<double>(differences.values.size());
+      const auto& m = data.camera.responsivity();
+      through += (m.row(k - 1) - 2.0 * m.row(k) + m.row(k + 1)).squaredNorm();
+    }
+  }
+  if (through > 0.0)
+  {
+    variance = std::fmin(variance, std::fmax(excess, 0.0) / through);
+  }
+  return std::fmin(std::sqrt(variance), LargestReflectanceNoise);
+}
+
+double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
+  const Eigen::MatrixXd& noise, const Eigen::MatrixXd& integration)
+{
+  const auto measured = data.count.array() > 0.0;
+  const Eigen::MatrixXd& m = data.camera.responsivity();
+  const Eigen::MatrixXd through = m * m.transpose();
+  const auto noisy = [&](double factor) -> Eigen::ArrayXXd
+  { return factor * factor * noise.array() + integration.array(); };
+  const auto asNoise = [&](double factor)
+  {
+    const Eigen::ArrayXXd variance = noisy(factor);
+    return -0.5 * measured.select(variance.log() + residual.array().square() / variance, 0.0).sum();
+  };
+  const auto asReflectance = [&](double scatter)
+  { return logLikelihood(data, residual, noisy(1.0), scatter * scatter * through); };
+  const double factor = highest(1.0, LargestFactor, asNoise);
+  if (factor < LeastFactor ||
+    asNoise(factor) <
+      asReflectance(highest(LeastScatter, LargestReflectanceNoise, asReflectance)) + FarMoreLikely)
+  {
+    return 1.0;
+  }
+  const Eigen::ArrayXXd whitened = measured.select(residual.array() / noisy(factor).sqrt(), 0.0);
+  const Eigen::Index pairs = data.channels() - 1;
+  const double products = (whitened.topRows(pairs) * whitened.bottomRows(pairs)).sum();
+  const double size = whitened.square().sum() / static_cast<double>(data.elements);
+  const double correlation =
+    products / (size * static_cast<double>(std::max<Eigen::Index>(pairs, 1) * data.samples()));
+  return std::fabs(correlation) < Together ? factor : 1.0;
 }
 
 } // namespace msi

@@ -12,6 +12,9 @@ namespace msi
 // Larger standard deviations of measured reflectances are an error of their own.
 constexpr double LargestReflectanceNoise = 0.003;
 
+// Standard deviation of normal values of mean 0, by the median of their sizes.
+double robustDeviation(std::vector<double> values);
+
 // What was found about the noise of one reading.
 struct NoiseFinding
 {
@@ -42,5 +45,24 @@ Eigen::VectorXd reflectanceErrorGain(const CameraModel& camera);
 // (both zero on grids of 2 nm or finer); and, where the camera sees wavelengths at which no reflectance was measured,
 // the difference between holding the end value and going on along its slope.
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured);
+
+// Without noise model and repeats: per channel what no basis predicts is noise; but what the channels of a sample share only up to
+// TableDecision::SampleScatter.
+void setUnknownNoise(GapData& data);
+
+// How many times the noise model's standard deviation the residual needs; 1 where it is not noise.
+//
+// residual: K x S, what the effects leave of samples that took no part; 0 where nothing was measured.
+// noise: K x S, variance of the readings by the model. integration: K x S, variance that is not the readings' noise.
+// Maximum likelihood of normal residuals. It is noise where that is far more likely than reflectances that scatter (whose
+// errors go through the channels), and where neighbouring channels do not err together.
+double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
+  const Eigen::MatrixXd& noise, const Eigen::MatrixXd& integration);
+
+// Standard deviation of the measured reflectance, independent from wavelength to wavelength, that the residual allows:
+// what stands out of data.variance, but not more than the second differences between neighbouring channels show in the
+// middle of the samples. Errors of the model are smooth over the channels, or large in few samples; scatter is neither.
+// At most LargestReflectanceNoise.
+double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, double unpredicted);
 
 } // namespace msi

@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Samples/GapNotes.h"
 
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/Samples/TableDecisions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
-#include "Kernels/Gap/Samples/EffectScreen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,24 +99,6 @@ EffectFit SampleObservation::linearised(const ObservedFit& fit) const
 EffectFit SampleObservation::whole(const ObservedFit& fit) const
 {
   return Fitter.fit(sampleFit(fit).effects, FinalFit);
-}
-
-std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) const
-{
-  std::vector<GapPreview> previews;
-  for (ScreenedEffect& screened : screenEffects(Fitter, linearised(from), Choices, 0.0))
-  {
-    const auto at = std::find_if(Choices.begin(), Choices.end(),
-      [&screened](const EffectChoice& choice)
-      {
-        return choice.sameCause(screened.choice) && choice.form == screened.choice.form &&
-          choice.whiteAfter == screened.choice.whiteAfter &&
-          choice.leveled == screened.choice.leveled;
-      });
-    previews.push_back({ static_cast<std::size_t>(at - Choices.begin()), std::move(screened.start),
-      screened.gain, static_cast<double>(screened.parameters) });
-  }
-  return previews;
 }
 
 FitPointer SampleObservation::extended(const ObservedFit& from, const GapPreview& with) const

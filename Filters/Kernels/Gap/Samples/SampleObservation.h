@@ -28,6 +28,8 @@ public:
   double elements() const override { return Fitter.trainingElements(); }
   double noiseEnergy() const override { return Fitter.noiseEnergy(); }
   FitPointer nominal() const override;
+  // By what one linear step would explain beyond the effects already there. Forms with several starting points keep the
+  // best; steps in time start where the cumulative sums of the residual break.
   std::vector<GapPreview> previews(const ObservedFit& from) const override;
   FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
   FitPointer reduced(const ObservedFit& from, std::size_t positions) const override;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <ostream>
 
 namespace
@@ -75,7 +76,7 @@ TEST(EffectFit, WithoutEffectsIsTheNominalCamera)
   const msi::EffectFit fit = fitter.fit({}, msi::FinalFit);
   EXPECT_EQ(fit.predicted, data.simulated);
   EXPECT_EQ(fit.energy, fitter.nominal().energy);
-  EXPECT_EQ(fit.parameters(), 0);
+  EXPECT_EQ(fit.jacobian.cols(), 0);
 }
 
 TEST(EffectFit, ResistsReadingsThatAreWrongAltogether)
@@ -172,6 +173,64 @@ TEST(EffectChoices, OnlyWhatTheCaptureCanShow)
   EXPECT_FALSE(has("session_drift"));
   EXPECT_FALSE(has("medium_gain"));
   EXPECT_TRUE(has("filter_shift"));
+}
+
+// The plain product of all rows, for effects that keep to their channel and for one that reaches the neighbours.
+TEST(NormalMatrix, IsThePlainProduct)
+{
+  const msi::GapData data = dataOf(captureWith({}));
+  for (const char* name : { "dark_offset", "channel_crosstalk" })
+  {
+    msi::EffectSet set;
+    for (const auto& [effect, form] : { std::pair<const char*, const char*>{ name, "" },
+           { "channel_gain", "per_channel" }, { "filter_shift", "per_channel" } })
+    {
+      msi::EffectChoice choice;
+      choice.effect = msi::findEffect(effect);
+      choice.form = msi::findForm(*choice.effect, form);
+      set.add(choice, data.camera);
+    }
+    const auto free = set.freeParameters(data.camera);
+    const Eigen::MatrixXd columns =
+      msi::jacobian(*msi::stagedResponse(data.camera, data.scene, set), set, free);
+    std::vector<Eigen::Index> samples(40);
+    std::iota(samples.begin(), samples.end(), 20);
+    Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(data.channels(), data.samples());
+    weight.middleCols(20, 40) = data.weight.middleCols(20, 40);
+    const Eigen::Map<const Eigen::VectorXd> flat(weight.data(), weight.size());
+    const Eigen::MatrixXd expected = columns.transpose() * flat.asDiagonal() * columns;
+    const Eigen::MatrixXd found =
+      msi::normalMatrix(columns, data.weight.array(), free, set.reach(), samples);
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff())
+      << name;
+  }
+}
+
+// A step of 5 % between samples 40 and 41. Without both of them it is only known to lie between 39 and 42.
+TEST(HeldOut, ASampleBesideAStepMayLieOnEitherSide)
+{
+  const double place = 40.5 / 95.0;
+  const msi::GapData data =
+    dataOf(captureWith({ { "session_drift", "step", "", { 0.05, place, 0.001 } } }));
+  std::vector<char> training(96, 1);
+  training[40] = training[41] = training[60] = 0;
+  const msi::EffectDefinition* drift = msi::findEffect("session_drift");
+  for (const double guess : { 39.4, 41.6 })
+  {
+    msi::EffectSet set;
+    set.add(
+      { drift, msi::findForm(*drift, "step"), "" }, data.camera, { 0.05, guess / 95.0, 0.001 });
+    msi::EffectFit fit;
+    fit.predicted = msi::respond(data.camera, data.scene, set);
+    fit.set = std::move(set);
+    const Eigen::MatrixXd plain = data.observed - fit.predicted;
+    const Eigen::MatrixXd left = msi::leftOfHeldOut(data, fit, training);
+    ASSERT_GT(std::fmax(plain.col(40).norm(), plain.col(41).norm()), 0.01);
+    EXPECT_LT(left.col(40).norm(), 0.002);
+    EXPECT_LT(left.col(41).norm(), 0.002);
+    EXPECT_EQ(left.col(60), plain.col(60));
+    EXPECT_EQ(left.col(39), plain.col(39));
+  }
 }
 
 } // namespace

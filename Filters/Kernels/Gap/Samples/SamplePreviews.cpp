@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Samples/EffectScreen.h"
+#include "Kernels/Gap/Samples/SampleObservation.h"
 
 #include "Kernels/Gap/Samples/ColumnProducts.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
@@ -116,27 +116,23 @@ std::vector<std::vector<double>> startsOf(
 }
 }
 
-std::vector<ScreenedEffect> screenEffects(const EffectFitter& fitter, const EffectFit& current,
-  const std::vector<EffectChoice>& choices, double pricePerParameter)
+std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) const
 {
-  const GapData& data = fitter.data();
-  const Remainder remainder(fitter, current);
+  const EffectFit current = linearised(from);
+  const GapData& data = Fitter.data();
+  const Remainder remainder(Fitter, current);
   const auto flatten = [](const Eigen::MatrixXd& m) -> Eigen::VectorXd
   { return Eigen::Map<const Eigen::VectorXd>(m.data(), m.size()); };
   const Eigen::VectorXd residual = remainder.cleared(flatten(data.observed - current.predicted));
   const double before = residual.squaredNorm();
-  const OrderBreaks breaks(fitter, current.predicted);
+  const OrderBreaks breaks(Fitter, current.predicted);
   const std::size_t position = current.set.size();
   const std::optional<StagedResponse> present =
     stagedResponse(data.camera, data.scene, current.set);
-  if (!present)
+  std::vector<GapPreview> previews;
+  for (std::size_t option = 0; present && option < Choices.size(); ++option)
   {
-    return {};
-  }
-
-  std::vector<ScreenedEffect> screened;
-  for (const EffectChoice& choice : choices)
-  {
+    const EffectChoice& choice = Choices[option];
     if (current.set.has(choice))
     {
       continue;
@@ -146,7 +142,7 @@ std::vector<ScreenedEffect> screenEffects(const EffectFitter& fitter, const Effe
     {
       starts.emplace_back();
     }
-    ScreenedEffect best{ choice, {}, 0.0, 0 };
+    GapPreview best{ option, {}, 0.0, 0.0 };
     for (const std::vector<double>& start : starts)
     {
       EffectSet set = current.set;
@@ -166,21 +162,19 @@ std::vector<ScreenedEffect> screenEffects(const EffectFitter& fitter, const Effe
         there ? residual : remainder.cleared(flatten(data.observed - base->response()));
       const Eigen::MatrixXd columns = jacobian(*base, set, free);
       const double gain = before - remainder.leftAfter(here, columns, free);
-      best.parameters =
-        columns.cols() + static_cast<Eigen::Index>(set.steps() - current.set.steps());
+      best.parameters = static_cast<double>(columns.cols()) +
+        static_cast<double>(set.steps() - current.set.steps());
       if (gain > best.gain)
       {
         best.gain = gain;
         best.start = start;
       }
     }
-    screened.push_back(std::move(best));
+    previews.push_back(std::move(best));
   }
-  const auto worth = [pricePerParameter](const ScreenedEffect& effect)
-  { return effect.gain - pricePerParameter * static_cast<double>(effect.parameters); };
-  std::stable_sort(screened.begin(), screened.end(),
-    [&worth](const ScreenedEffect& a, const ScreenedEffect& b) { return worth(a) > worth(b); });
-  return screened;
+  std::stable_sort(previews.begin(), previews.end(),
+    [](const GapPreview& a, const GapPreview& b) { return a.gain > b.gain; });
+  return previews;
 }
 
 } // namespace msi

@@ -1,12 +1,13 @@
 #include "Kernels/Gap/GapProfile.h"
 
+#include "Kernels/Gap/GapCells.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <map>
 #include <numeric>
-#include <sstream>
 
 namespace msi
 {
@@ -16,14 +17,6 @@ namespace
 constexpr int Parts = 5;
 constexpr int FieldParts = 3;
 constexpr double Nothing = std::numeric_limits<double>::quiet_NaN();
-
-std::string range(const char* what, double low, double high)
-{
-  std::ostringstream text;
-  text.precision(3);
-  text << what << ' ' << low << ".." << high;
-  return text.str();
-}
 
 void addNamed(
   std::vector<SampleGroup>& groups, const char* kind, const std::vector<std::string>& names)
@@ -75,7 +68,7 @@ void addParts(std::vector<SampleGroup>& groups, const char* kind, const Eigen::V
     const std::size_t end = (part + 1) * count / Parts;
     if (begin < end)
     {
-      groups.push_back({ kind, range(kind, values[order[begin]], values[order[end - 1]]),
+      groups.push_back({ kind, rangeText(kind, values[order[begin]], values[order[end - 1]]),
         { order.begin() + static_cast<std::ptrdiff_t>(begin),
           order.begin() + static_cast<std::ptrdiff_t>(end) } });
     }
@@ -112,8 +105,8 @@ void addField(std::vector<SampleGroup>& groups, const Eigen::VectorXd& x, const 
       const double width = (right - left) / FieldParts;
       const double height = (high - low) / FieldParts;
       cells.push_back({ "position",
-        range("x", left + column * width, left + (column + 1) * width) + ", " +
-          range("y", low + row * height, low + (row + 1) * height),
+        rangeText("x", left + column * width, left + (column + 1) * width) + ", " +
+          rangeText("y", low + row * height, low + (row + 1) * height),
         {} });
     }
   }

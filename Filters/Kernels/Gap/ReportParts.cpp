@@ -55,6 +55,16 @@ void believe(GapReport& report, std::vector<std::pair<std::string, double>> prob
   }
 }
 
+std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes)
+{
+  axes.erase(std::remove_if(axes.begin(), axes.end(),
+               [](const GapAxis& axis) { return !(axis.share > Decision::LeastAxis); }),
+    axes.end());
+  std::stable_sort(
+    axes.begin(), axes.end(), [](const GapAxis& a, const GapAxis& b) { return a.share > b.share; });
+  return axes;
+}
+
 std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxis>& axes)
 {
   static const std::map<std::string, std::string> plain = { { "channel", "wavelength" },
@@ -165,6 +175,18 @@ std::string whereIs(const std::vector<GapAxis>& axes)
   }
   const std::string& cell = axis.worst.front().cell;
   return cell.rfind(axis.axis, 0) == 0 ? cell : axis.axis + " " + cell;
+}
+
+GapRemainder remainderOf(double share, const std::vector<GapAxis>& axes)
+{
+  return { share, whereIs(axes), dependences(axes) };
+}
+
+void leaveAsItWas(GapFigures& figures)
+{
+  figures.rmsAfter = figures.rmsBefore;
+  figures.shrink = 0.0;
+  figures.shrinkInterval = { 0.0, 0.0 };
 }
 
 } // namespace msi

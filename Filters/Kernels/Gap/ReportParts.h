@@ -25,6 +25,9 @@ void creditCauses(
 // Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.
 void believe(GapReport& report, std::vector<std::pair<std::string, double>> probabilities);
 
+// The axes with a share, the largest first.
+std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes);
+
 // What a rest depends on, from its shares over the axes: GapRemainder::dependsOn.
 std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxis>& axes);
 
@@ -45,5 +48,11 @@ void recommendCapture(GapReport& report);
 
 // The first axis and its worst cell.
 std::string whereIs(const std::vector<GapAxis>& axes);
+
+// What is left unexplained, by the axes along which it lies.
+GapRemainder remainderOf(double share, const std::vector<GapAxis>& axes);
+
+// Figures of a gap that nothing corrects.
+void leaveAsItWas(GapFigures& figures);
 
 } // namespace msi

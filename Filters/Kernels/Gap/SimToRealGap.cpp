@@ -213,8 +213,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     credit(report, observation, found, shrink);
     if (report.unexplained.share > 0.0)
     {
-      report.unexplained.where = whereIs(rest.axes);
-      report.unexplained.dependsOn = dependences(rest.axes);
+      report.unexplained = remainderOf(report.unexplained.share, rest.axes);
     }
     report.verdict = verdictOf(shrink, false);
   }
@@ -223,8 +222,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   {
     report.unconfirmed = true;
     credit(report, observation, found, TableDecision::UnconfirmedShare * alone);
-    report.unexplained.where = whereIs(where.axes);
-    report.unexplained.dependsOn = dependences(where.axes);
+    report.unexplained = remainderOf(report.unexplained.share, where.axes);
     report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
   }
   else if ((predictable(data, before, where) &&
@@ -232,13 +230,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     beyondNoise(report.gap, doubted))
   {
     report.verdict = GapVerdict::Unexplained;
-    report.unexplained = { 1.0, whereIs(where.axes), dependences(where.axes) };
+    report.unexplained = remainderOf(1.0, where.axes);
   }
   if (report.correction.empty())
   {
-    report.gap.rmsAfter = report.gap.rmsBefore;
-    report.gap.shrink = 0.0;
-    report.gap.shrinkInterval = { 0.0, 0.0 };
+    leaveAsItWas(report.gap);
     after = before;
   }
   report.candidates = foundCandidates(observation, found, options.seed);

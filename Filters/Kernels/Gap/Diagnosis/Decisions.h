@@ -45,6 +45,12 @@ inline constexpr double UnknownSteepness = 0.8;
 inline constexpr double ExplainedShrink = 0.85;
 inline constexpr double PartlyShrink = 0.25;
 
+// Where channel and level alone predict this part of what all axes predict, the other axes are asked only for contrasts.
+inline constexpr double ContrastPart = 0.9;
+
+// Of the gap's energy: an axis with less is not named.
+inline constexpr double LeastAxis = 0.005;
+
 // Of what all causes together get: one that gets less is none.
 inline constexpr double LeastPart = 0.03;
 

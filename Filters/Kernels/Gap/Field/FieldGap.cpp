@@ -250,8 +250,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     explained = noiseAlone ? 1.0 : shrink;
     if (report.unexplained.share > 0.0)
     {
-      report.unexplained.where = whereIs(rest);
-      report.unexplained.dependsOn = dependences(rest);
+      report.unexplained = remainderOf(report.unexplained.share, rest);
     }
   }
   else
@@ -263,11 +262,9 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.verdict = gapThere ? GapVerdict::Unexplained : GapVerdict::NoGap;
     if (gapThere)
     {
-      report.unexplained = { 1.0, whereIs(report.where), dependences(report.where) };
+      report.unexplained = remainderOf(1.0, report.where);
     }
-    report.gap.rmsAfter = report.gap.rmsBefore;
-    report.gap.shrink = 0.0;
-    report.gap.shrinkInterval = { 0.0, 0.0 };
+    leaveAsItWas(report.gap);
   }
   report.candidates = foundCandidates(*finding.observation, finding.found, options.seed);
   believe(report,

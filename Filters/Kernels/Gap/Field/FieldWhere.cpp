@@ -1,7 +1,8 @@
 #include "Kernels/Gap/Field/FieldWhere.h"
 
-#include "Kernels/Gap/Field/FieldCells.h"
 #include "Kernels/Gap/Field/FieldFit.h"
+#include "Kernels/Gap/GapCells.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
@@ -14,9 +15,6 @@ namespace msi
 
 namespace
 {
-constexpr double LeastShare = 0.005;
-// Where channel and level alone predict this part of what all axes predict, position is asked only for contrasts.
-constexpr double ContrastPart = 0.9;
 constexpr std::size_t ChannelBit = 1;
 constexpr std::size_t LevelBit = 2;
 
@@ -235,8 +233,8 @@ std::vector<GapAxis> fieldAxes(
   }
   std::vector<std::pair<double, double>> level;
   std::vector<std::pair<double, double>> gradient;
-  FieldCells channel;
-  FieldCells position;
+  GapCells channel;
+  GapCells position;
   for (std::size_t b = 0; b < data.blocks.size(); ++b)
   {
     const ImageWindow& window = data.blocks[b].window;
@@ -287,7 +285,7 @@ std::vector<GapAxis> fieldAxes(
   };
   explain(ChannelBit | LevelBit);
   explain(subsets - 1);
-  if (explained[ChannelBit | LevelBit] > ContrastPart * explained[subsets - 1])
+  if (explained[ChannelBit | LevelBit] > Decision::ContrastPart * explained[subsets - 1])
   {
     centerPosition(training, test);
   }
@@ -318,7 +316,7 @@ std::vector<GapAxis> fieldAxes(
     const LabelMeans means = labelMeans(data, statistics, change, true);
     const LabelMeans others = labelMeans(data, statistics, change, false);
     double gained = 0.0;
-    FieldCells cells;
+    GapCells cells;
     for (const auto& [label, sums] : others)
     {
       const auto mean = means.find(label);
@@ -355,11 +353,7 @@ std::vector<GapAxis> fieldAxes(
     }
     found.push_back({ "region", gained / beyond, position.worst() });
   }
-  found.erase(std::remove_if(found.begin(), found.end(),
-                [](const GapAxis& axis) { return !(axis.share > LeastShare); }),
-    found.end());
-  std::stable_sort(found.begin(), found.end(),
-    [](const GapAxis& a, const GapAxis& b) { return a.share > b.share; });
+  found = worthNaming(std::move(found));
   for (GapAxis& axis : found)
   {
     axis.share = std::fmin(axis.share, 1.0);

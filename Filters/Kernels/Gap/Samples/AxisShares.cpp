@@ -1,4 +1,6 @@
-#include "Kernels/Gap/Samples/AxisCells.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/GapCells.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/GapAxes.h"
 #include "Kernels/Gap/Shrink.h"
 
@@ -6,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <sstream>
 
 namespace msi
 {
@@ -13,8 +17,6 @@ namespace msi
 namespace
 {
 constexpr double Ridge = 1e-4; // of the mean square of a column
-constexpr double WorthNaming = 0.005;
-constexpr double CommonEnough = 0.9;
 
 // Ridge regressions on any subset of columns, trained without one fold and tried on it.
 class FoldedRegression
@@ -124,6 +126,105 @@ private:
   double AllEnergy = 0.0;
 };
 
+std::string part(const char* what, double value, double low, double high, int parts)
+{
+  const double width = (high - low) / parts;
+  const double at = width > 0.0 ? std::floor((value - low) / width) : 0.0;
+  const double cell = std::fmin(std::fmax(at, 0.0), parts - 1.0);
+  return rangeText(what, low + cell * width, low + (cell + 1.0) * width);
+}
+
+using CellOf = std::function<std::string(Eigen::Index, Eigen::Index)>;
+
+CellOf sampleCell()
+{
+  return [](Eigen::Index, Eigen::Index i)
+  {
+    std::ostringstream name;
+    name << "sample " << i + 1;
+    return name.str();
+  };
+}
+
+CellOf cellOf(const GapData& data, const std::string& axis)
+{
+  const SampleScene& scene = data.scene;
+  if (axis == "channel" || axis == "spectral_shape")
+  {
+    return [&data](Eigen::Index k, Eigen::Index)
+    { return data.camera.channels()[static_cast<std::size_t>(k)]; };
+  }
+  if (axis == "medium" || axis == "scene")
+  {
+    const bool medium = axis == "medium";
+    const std::vector<int>& number = medium ? scene.medium() : scene.scene();
+    const std::vector<std::string>& names = medium ? scene.media() : scene.scenes();
+    return [&number, &names](Eigen::Index, Eigen::Index i)
+    { return names[static_cast<std::size_t>(number[static_cast<std::size_t>(i)])]; };
+  }
+  if (axis == "position")
+  {
+    const Eigen::VectorXd& x = scene.samples().x;
+    const Eigen::VectorXd& y = scene.samples().y;
+    return [&x, &y](Eigen::Index, Eigen::Index i)
+    {
+      return part("x", x[i], x.minCoeff(), x.maxCoeff(), 3) + ", " +
+        part("y", y[i], y.minCoeff(), y.maxCoeff(), 3);
+    };
+  }
+  if (axis == "order")
+  {
+    const Eigen::VectorXd& order = scene.samples().order;
+    return [&order](Eigen::Index, Eigen::Index i)
+    { return part("order", order[i], order.minCoeff(), order.maxCoeff(), 5); };
+  }
+  if (axis == "level")
+  {
+    double low = 0.0;
+    double high = 0.0;
+    for (Eigen::Index i = 0; i < data.simulated.size(); ++i)
+    {
+      if (data.count(i) > 0.0)
+      {
+        low = std::fmin(low, data.simulated(i));
+        high = std::fmax(high, data.simulated(i));
+      }
+    }
+    return [&data, low, high](Eigen::Index k, Eigen::Index i)
+    { return part("level", data.simulated(k, i), low, high, 5); };
+  }
+  return sampleCell();
+}
+
+// The cells of an axis with the largest shares of the gap's energy: channels, media, scenes, thirds of the field, fifths of
+// level and order, samples.
+std::vector<GapCell> worstCells(
+  const GapData& data, const Eigen::MatrixXd& gap, const std::string& axis)
+{
+  const CellOf cell = cellOf(data, axis);
+  const bool perElement = axis == "level" || axis == "channel" || axis == "spectral_shape";
+  GapCells cells;
+  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  {
+    double sum = 0.0;
+    for (Eigen::Index k = 0; data.usable[static_cast<std::size_t>(i)] != 0 && k < data.channels();
+         ++k)
+    {
+      const double square = data.count(k, i) > 0.0 ? gap(k, i) * gap(k, i) : 0.0;
+      sum += square;
+      if (perElement)
+      {
+        cells.add(cell(k, i), square);
+      }
+    }
+    if (!perElement && data.usable[static_cast<std::size_t>(i)] != 0)
+    {
+      cells.add(cell(0, i), sum);
+    }
+  }
+  return cells.worst();
+}
+
 // What the mean over one half of a sample's channels predicts of the other half.
 double sampleEnergy(const GapData& data, const Eigen::MatrixXd& residual)
 {
@@ -199,7 +300,7 @@ AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap, bool w
 {
   SubsetValues found = valuesOfSubsets(data, gap, false);
   // The bits of channel and level, the first two axes.
-  if (found.value[3] >= CommonEnough * found.value.back())
+  if (found.value[3] >= Decision::ContrastPart * found.value.back())
   {
     found = valuesOfSubsets(data, gap, true);
   }
@@ -221,11 +322,7 @@ AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap, bool w
   {
     axis.share /= std::fmax(total, 1.0);
   }
-  shares.axes.erase(std::remove_if(shares.axes.begin(), shares.axes.end(),
-                      [](const GapAxis& axis) { return axis.share < WorthNaming; }),
-    shares.axes.end());
-  std::stable_sort(shares.axes.begin(), shares.axes.end(),
-    [](const GapAxis& a, const GapAxis& b) { return a.share > b.share; });
+  shares.axes = worthNaming(std::move(shares.axes));
   for (GapAxis& axis : shares.axes)
   {
     if (withCells)

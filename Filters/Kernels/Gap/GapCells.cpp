@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Field/FieldCells.h"
+#include "Kernels/Gap/GapCells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace
 constexpr std::size_t CellsNamed = 5;
 }
 
-std::vector<GapCell> FieldCells::worst() const
+std::vector<GapCell> GapCells::worst() const
 {
   std::vector<GapCell> cells;
   for (const auto& [name, energy] : Energy)
@@ -44,9 +44,17 @@ std::string rounded(double value)
   return text.str();
 }
 
-FieldCells fifths(std::vector<std::pair<double, double>> pairs, const std::string& name)
+std::string rangeText(const std::string& what, double low, double high)
 {
-  FieldCells cells;
+  std::ostringstream text;
+  text.precision(3);
+  text << what << ' ' << low << ".." << high;
+  return text.str();
+}
+
+GapCells fifths(std::vector<std::pair<double, double>> pairs, const std::string& name)
+{
+  GapCells cells;
   std::stable_sort(
     pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   const std::size_t n = pairs.size();

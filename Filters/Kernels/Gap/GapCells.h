@@ -11,7 +11,7 @@
 namespace msi
 {
 
-class FieldCells
+class GapCells
 {
 public:
   void add(const std::string& cell, double energy)
@@ -30,8 +30,10 @@ private:
 // "x -1..-0.33", ..
 std::string thirdOfField(double value, const char* axis);
 std::string rounded(double value);
+// "level 0.1..0.25"
+std::string rangeText(const std::string& what, double low, double high);
 
 // Energies in five parts of equal size, from small to large values. pairs: value and energy.
-FieldCells fifths(std::vector<std::pair<double, double>> pairs, const std::string& name);
+GapCells fifths(std::vector<std::pair<double, double>> pairs, const std::string& name);
 
 } // namespace msi

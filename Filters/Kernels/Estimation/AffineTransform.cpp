@@ -18,6 +18,15 @@ Eigen::Index strideOf(Eigen::Index outputs)
   return (outputs + unit - 1) / unit * unit;
 }
 
+// Products with what is left out here would be denormal numbers, on which some processors take a hundred times longer.
+Eigen::MatrixXd withoutTiny(const Eigen::MatrixXd& coefficients)
+{
+  const Eigen::ArrayXd least =
+    AffineTransform::TinyCoefficient * coefficients.cwiseAbs().rowwise().maxCoeff().array();
+  return (coefficients.array().abs() < least.replicate(1, coefficients.cols()))
+    .select(0.0, coefficients);
+}
+
 template <typename T>
 std::vector<T> packed(const Eigen::MatrixXd& coefficients)
 {
@@ -60,7 +69,7 @@ AffineTransform::AffineTransform(Eigen::MatrixXd coefficients)
     }
   }
   PackedDouble = packed<double>(Coefficients);
-  PackedFloat = packed<float>(Coefficients);
+  PackedFloat = packed<float>(withoutTiny(Coefficients));
 }
 
 AffineTransform AffineTransform::identity(Eigen::Index size)

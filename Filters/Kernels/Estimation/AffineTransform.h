@@ -22,12 +22,15 @@ namespace msi
 //           once (no fused operation). So a pixel's bytes depend on nothing but the pixel: not on the
 //           block, its place in it, the thread or the instruction set. Against exact arithmetic the
 //           error is at most (inputs + 2) eps (|A| |x| + |a|), with eps = 2^-53 for double and, for
-//           float, eps = 2^-24 (the coefficients are rounded to float once).
+//           float, eps = 2^-24 (the coefficients are rounded to float once; those below TinyCoefficient of the
+//           largest of their row count as 0).
 //           A NaN or infinity stays in its own pixel.
 // Cost:     2 x inputs x outputs flop a pixel; SIMD chosen at run time (Highway).
 class AffineTransform
 {
 public:
+  static constexpr double TinyCoefficient = 0x1p-100;
+
   explicit AffineTransform(Eigen::MatrixXd coefficients);
   static AffineTransform identity(Eigen::Index size);
 

@@ -3,7 +3,9 @@
 #include <hwy/foreach_target.h>
 
 #include "Kernels/Estimation/ReducedTransfer.h"
+#include "Kernels/Spectra/FusedMultiply-inl.h"
 
+#include <hwy/aligned_allocator.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -16,22 +18,21 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A lane is a pixel; two vectors of pixels side by side, so that a coefficient is read once for both. Mul
-// and Add, never MulAdd: every instruction set rounds the same way.
+// A lane is a pixel; two vectors of pixels side by side, so that a coefficient is read once for both.
 using FloatTag = hn::CappedTag<float, 16>;
 using FloatVector = hn::Vec<FloatTag>;
 
-// 2^x for x <= 0.5 to 1.5e-7 of its value, held at 2^-126: minimax polynomial on [-1/2, 1/2].
+// 2^x for x <= 0.5 to 1.5e-7 of its value, held at 2^-64, where no product is denormal: minimax polynomial on [-1/2, 1/2].
 HWY_INLINE FloatVector powerOfTwo(FloatTag d, FloatVector x)
 {
   const auto magic = hn::Set(d, 12582912.0F); // 1.5 * 2^23: leaves the integer in the low bits
-  x = hn::Max(x, hn::Set(d, -126.0F));
+  x = hn::Max(x, hn::Set(d, -64.0F));
   const auto shifted = hn::Add(x, magic);
   const auto r = hn::Sub(x, hn::Sub(shifted, magic));
   auto sum = hn::Set(d, 0.0013276472F);
   for (const float next : { 0.0096755413F, 0.055507133F, 0.24022120F, 0.69314697F, 1.00000007F })
   {
-    sum = hn::Add(hn::Mul(sum, r), hn::Set(d, next));
+    sum = fusedMultiplyAdd(d, sum, r, hn::Set(d, next));
   }
   const hn::Rebind<std::int32_t, FloatTag> integers;
   return hn::BitCast(
@@ -62,17 +63,17 @@ HWY_INLINE void product(
       const auto x0 = hn::LoadU(d, x);
       const auto x1 = hn::LoadU(d, x + lanes);
       const auto a0 = hn::Set(d, a[0]);
-      s00 = hn::Add(s00, hn::Mul(a0, x0));
-      s01 = hn::Add(s01, hn::Mul(a0, x1));
+      s00 = fusedMultiplyAdd(d, a0, x0, s00);
+      s01 = fusedMultiplyAdd(d, a0, x1, s01);
       const auto a1 = hn::Set(d, a[1]);
-      s10 = hn::Add(s10, hn::Mul(a1, x0));
-      s11 = hn::Add(s11, hn::Mul(a1, x1));
+      s10 = fusedMultiplyAdd(d, a1, x0, s10);
+      s11 = fusedMultiplyAdd(d, a1, x1, s11);
       const auto a2 = hn::Set(d, a[2]);
-      s20 = hn::Add(s20, hn::Mul(a2, x0));
-      s21 = hn::Add(s21, hn::Mul(a2, x1));
+      s20 = fusedMultiplyAdd(d, a2, x0, s20);
+      s21 = fusedMultiplyAdd(d, a2, x1, s21);
       const auto a3 = hn::Set(d, a[3]);
-      s30 = hn::Add(s30, hn::Mul(a3, x0));
-      s31 = hn::Add(s31, hn::Mul(a3, x1));
+      s30 = fusedMultiplyAdd(d, a3, x0, s30);
+      s31 = fusedMultiplyAdd(d, a3, x1, s31);
     }
     hn::StoreU(end(s00, 0, out), d, out);
     hn::StoreU(end(s01, 1, out + lanes), d, out + lanes);
@@ -95,39 +96,41 @@ struct ReducedScratch
   float* mean;
 };
 
-// Channels of pixels as rows of pixels; the last pixel fills up.
-HWY_INLINE void loadPixels(
-  FloatTag d, const float* pixels, Eigen::Index count, Eigen::Index channels, float* rows)
+// Channels of pixels as rows of pixels; the last pixel fills up. 'fours' has room for as much: vectors are loaded long
+// after the pieces they consist of were stored, else each load would wait for the stores.
+HWY_INLINE void loadPixels(FloatTag d, const float* pixels, Eigen::Index count,
+  Eigen::Index channels, float* fours, float* rows)
 {
   const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
-  HWY_ALIGN float four[4 * 16] = {};
-  for (Eigen::Index half = 0; half < 2; ++half)
+  for (Eigen::Index pixel = 0; pixel < 2 * lanes; ++pixel)
   {
-    for (Eigen::Index first = 0; first < channels; first += 4)
+    const float* from = pixels + std::min(pixel, count - 1) * channels;
+    float* to = fours + 4 * pixel;
+    Eigen::Index first = 0;
+    for (; first + 4 <= channels; first += 4, to += 8 * lanes)
     {
-      const Eigen::Index some = std::min<Eigen::Index>(4, channels - first);
-      for (Eigen::Index lane = 0; lane < lanes; ++lane)
-      {
-        const float* from = pixels + std::min(half * lanes + lane, count - 1) * channels + first;
-        if (some == 4)
-        {
-          std::memcpy(four + 4 * lane, from, 4 * sizeof(float));
-        }
-        else
-        {
-          std::copy_n(from, some, four + 4 * lane);
-        }
-      }
+      std::memcpy(to, from + first, 4 * sizeof(float));
+    }
+    if (first < channels)
+    {
+      std::fill(std::copy(from + first, from + channels, to), to + 4, 0.0F);
+    }
+  }
+  // Rows are padded to a multiple of four.
+  for (Eigen::Index first = 0; first < channels; first += 4, rows += 8 * lanes)
+  {
+    for (Eigen::Index half = 0; half < 2; ++half, fours += 4 * lanes)
+    {
       FloatVector v0;
       FloatVector v1;
       FloatVector v2;
       FloatVector v3;
-      hn::LoadInterleaved4(d, four, v0, v1, v2, v3);
-      float* row = rows + (2 * first + half) * lanes; // padded to a multiple of four
-      hn::StoreU(v0, d, row);
-      hn::StoreU(v1, d, row + 2 * lanes);
-      hn::StoreU(v2, d, row + 4 * lanes);
-      hn::StoreU(v3, d, row + 6 * lanes);
+      hn::LoadInterleaved4(d, fours, v0, v1, v2, v3);
+      float* row = rows + half * lanes;
+      hn::Store(v0, d, row);
+      hn::Store(v1, d, row + 2 * lanes);
+      hn::Store(v2, d, row + 4 * lanes);
+      hn::Store(v3, d, row + 6 * lanes);
     }
   }
 }
@@ -238,10 +241,10 @@ void runReducedBlock(
   }
   const Eigen::Index channels = fourfold(mixture.channels);
   const Eigen::Index width = 2 * lanes;
-  std::vector<float> memory(static_cast<std::size_t>(
+  const auto memory = hwy::AllocateAligned<float>(static_cast<std::size_t>(
     width * (2 * channels + directions + points + components + fourfold(mixture.bands))));
   ReducedScratch s{};
-  s.response = memory.data();
+  s.response = memory.get();
   s.features = s.response + width * channels;
   s.projected = s.features + width * channels;
   s.gaussians = s.projected + width * directions;
@@ -250,7 +253,8 @@ void runReducedBlock(
   for (Eigen::Index first = 0; first < pixels; first += width)
   {
     const Eigen::Index count = std::min(width, pixels - first);
-    loadPixels(d, response + first * mixture.channels, count, mixture.channels, s.response);
+    loadPixels(
+      d, response + first * mixture.channels, count, mixture.channels, s.features, s.response);
     bool isFirst = true;
     for (const ReducedTransferExpert& expert : mixture.experts)
     {

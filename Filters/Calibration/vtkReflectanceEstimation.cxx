@@ -93,6 +93,8 @@ void estimateImage(vtkAlgorithm* self, const msi::EstimationModel& model, vtkDat
   const auto* in = input->GetPointer(0);
   auto* out = reflectance->GetPointer(0);
   auto* deviation = uncertainty ? uncertainty->GetPointer(0) : nullptr;
+  // An estimator may prepare itself with its first call: once here, not in every thread.
+  model.estimator->apply(in, out, nullptr, 0);
   msi::forBlocks(self, pixels,
     [&](vtkIdType begin, vtkIdType end)
     {

@@ -72,30 +72,39 @@ KeptPoints keepPoints(
   candidates << gaussians,
     FloatRounding * std::sqrt(static_cast<double>(rows)) *
     Eigen::MatrixXd::Identity(columns, columns);
-  Eigen::MatrixXd residual = Eigen::MatrixXd::Zero(rows + columns, values.cols());
-  residual.topRows(rows) = values;
-  const Eigen::MatrixXd allCandidates = candidates;
-  const Eigen::MatrixXd start = residual;
+  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(rows + columns, values.cols());
+  start.topRows(rows) = values;
 
+  // What the columns not yet kept have outside of the kept ones: their products with the residual, and their squares.
+  Eigen::MatrixXd residual = start;
+  Eigen::MatrixXd products = candidates.transpose() * start;
+  Eigen::ArrayXd squares = candidates.colwise().squaredNorm().transpose();
+  Eigen::MatrixXd units(rows + columns, columns);
   KeptPoints kept;
-  Eigen::VectorXd available = Eigen::VectorXd::Ones(columns);
   while (static_cast<Eigen::Index>(kept.points.size()) < columns &&
     rootMeanSquareRow(residual.topRows(rows)) > tolerance)
   {
-    const Eigen::VectorXd explained =
-      ((candidates.transpose() * residual).rowwise().squaredNorm().array() /
-        candidates.colwise().squaredNorm().transpose().array()) *
-      available.array();
+    const auto count = static_cast<Eigen::Index>(kept.points.size());
+    Eigen::ArrayXd explained = products.rowwise().squaredNorm().array() / squares;
+    explained(kept.points) = -1.0;
     Eigen::Index next = 0;
     explained.maxCoeff(&next);
     kept.points.push_back(next);
-    available[next] = 0.0;
-    const Eigen::VectorXd unit = candidates.col(next).normalized();
-    residual -= unit * (unit.transpose() * residual).eval();
-    candidates -= unit * (unit.transpose() * candidates).eval();
-    candidates.col(next) = unit; // never zero
+    Eigen::VectorXd unit = candidates.col(next);
+    const auto known = units.leftCols(count);
+    for (int twice = 0; twice < 2; ++twice) // the second time takes away what rounding left
+    {
+      unit -= known * (known.transpose() * unit).eval();
+    }
+    unit.normalize(); // never zero
+    units.col(count) = unit;
+    const Eigen::RowVectorXd explains = unit.transpose() * residual;
+    const Eigen::VectorXd along = candidates.transpose() * unit;
+    residual -= unit * explains;
+    products -= along * explains;
+    squares -= along.array().square();
   }
-  const Eigen::MatrixXd chosen = allCandidates(Eigen::all, kept.points);
+  const Eigen::MatrixXd chosen = candidates(Eigen::all, kept.points);
   kept.coefficients = (chosen.transpose() * chosen).llt().solve(chosen.transpose() * start);
   return kept;
 }

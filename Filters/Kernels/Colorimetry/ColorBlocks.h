@@ -16,6 +16,10 @@ template <typename Scalar>
 void labFromXYZ(
   const double* whitePoint, const Scalar* xyz, Scalar* lab, std::size_t count) noexcept;
 
+// Computed in float throughout: each of the three ratios to white, and so each cube root, is off by at most 2e-7 of itself.
+void labFromXYZInFloat(
+  const double* whitePoint, const float* xyz, float* lab, std::size_t count) noexcept;
+
 // linearMatrix by columns.
 template <typename Scalar>
 SRGBClipping sRGBFromXYZ(

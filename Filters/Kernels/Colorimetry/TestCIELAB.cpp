@@ -1,9 +1,13 @@
 #include "Kernels/Colorimetry/CIELAB.h"
+#include "Kernels/Colorimetry/ColorBlocks.h"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -74,6 +78,47 @@ TEST(CIELAB, BlocksFollowTheDefinition)
   lab.fromXYZ(rounded, gotFloat);
   lab.fromXYZ(rounded.cast<double>(), got);
   EXPECT_EQ(gotFloat, got.cast<float>());
+}
+
+TEST(CIELAB, FloatStepsAreWithinTheBoundAndTheSameBytes)
+{
+  Eigen::Matrix3Xf xyz = randomColors(200'003).cast<float>();
+  xyz.leftCols<1000>() *= 1e-3F; // about the end of the linear part
+  xyz.col(1000).setZero();
+  const auto inFloat = [](const Eigen::Matrix3Xf& colors)
+  {
+    Eigen::Matrix3Xf lab(3, colors.cols());
+    msi::labFromXYZInFloat(
+      WhiteD65.data(), colors.data(), lab.data(), static_cast<std::size_t>(colors.cols()));
+    return lab;
+  };
+  const Eigen::Matrix3Xf got = inFloat(xyz);
+  Eigen::Matrix3Xd expected(3, xyz.cols());
+  CIELAB(WhiteD65).fromXYZ(xyz.cast<double>(), expected);
+  // 2e-7 of each root, as ColorBlocks.h states, and a rounding of the result.
+  const Eigen::Matrix3Xd error = (got.cast<double>() - expected).cwiseAbs();
+  const Eigen::Array3Xd roots =
+    (xyz.cast<double>().array().colwise() / WhiteD65.array()).max(0.01).pow(1.0 / 3.0);
+  const Eigen::ArrayXXd rounding = 1.2e-7 * expected.array().abs() + 2e-6;
+  const auto within = [&](Eigen::Index row, double factor, const Eigen::RowVectorXd& sum)
+  { return (error.row(row).array() <= 2e-7 * factor * sum.array() + rounding.row(row)).all(); };
+  EXPECT_TRUE(within(0, 116.0, roots.row(1)));
+  EXPECT_TRUE(within(1, 500.0, roots.row(0) + roots.row(1)));
+  EXPECT_TRUE(within(2, 200.0, roots.row(1) + roots.row(2)));
+
+  for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1)
+  {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    hwy::GetChosenTarget().DeInit();
+    EXPECT_EQ(inFloat(xyz), got) << hwy::TargetName(rest & -rest);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+  xyz(1, 7) = std::numeric_limits<float>::quiet_NaN();
+  Eigen::Matrix3Xf withNaN = inFloat(xyz);
+  EXPECT_TRUE(withNaN.col(7).array().isNaN().all()); // Y is part of all three
+  withNaN.col(7) = got.col(7);
+  EXPECT_EQ(withNaN, got);
 }
 
 TEST(CIELAB, ComesBack)

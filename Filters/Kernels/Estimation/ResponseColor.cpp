@@ -1,5 +1,6 @@
 #include "Kernels/Estimation/ResponseColor.h"
 
+#include "Kernels/Colorimetry/ColorBlocks.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
@@ -35,9 +36,9 @@ void ResponseColor::lab(const float* responses, float* lab, Eigen::Index pixels)
   for (Eigen::Index at = 0; at < pixels; at += Block)
   {
     const Eigen::Index count = std::min(Block, pixels - at);
-    Eigen::Map<Eigen::Matrix3Xf> colors(lab + 3 * at, 3, count);
-    ToXYZ.apply(responses + ToXYZ.values() * at, colors.data(), count);
-    ToLab.fromXYZ(colors, colors);
+    float* colors = lab + 3 * at;
+    ToXYZ.apply(responses + ToXYZ.values() * at, colors, count);
+    labFromXYZInFloat(ToLab.whitePoint().data(), colors, colors, static_cast<std::size_t>(count));
   }
 }
 

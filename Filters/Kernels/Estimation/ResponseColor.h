@@ -15,7 +15,7 @@ namespace msi
 //
 // Shapes:   responses are channels x pixels, Lab 3 x pixels, contiguous, pixel after pixel.
 // Accuracy: for responses within -0.5..1.5 and an estimator whose coefficients have an absolute sum of at most 20 a band,
-//           L*, a* and b* are within 2e-3 of those by reflectance in double.
+//           L*, a* and b* are within 3e-3 of those by reflectance in double.
 // Bytes:    as TristimulusBlocks. A NaN stays in its own pixel.
 // Errors:   the constructor throws std::invalid_argument where the estimator's bands are not those of the weights.
 class ResponseColor

@@ -101,6 +101,7 @@ std::vector<msi::CameraEffect> everyEffect()
   effects.push_back(perChannel("defocus", "per_channel", 0.3, 0.05));
   msi::CameraEffect registration = perChannel("misregistration", "", -0.8, 0.1);
   registration.parameters.resize(3 * Channels, 0.001);
+  registration.parameters.resize(4 * Channels, 0.0); // the peer turns no channel
   effects.push_back(registration);
   effects.push_back({ "excess_noise", "", "", { 1.2 } });
   return effects;

@@ -5,11 +5,11 @@ usage: bench_table.py FOLDER [FILE]      FOLDER: Google Benchmark's JSON files; 
 
 Columns: name; value in unit (ms, or Mitems/s where the benchmark counts pixels or pairs); peer and peer_value, the same work
 by another program or the plain way (a copy of the bytes is the peer "memcpy"), in processor time, so that a busy machine
-counts less; ratio, how many times as fast as the peer;
-limit, the least ratio aimed at (limits.csv). A benchmark has a row for each of its peers.
+counts less, but the group "two threads" in real time; ratio, how many times as fast as the peer; limit, the least ratio
+aimed at (limits.csv). A benchmark has a row for each of its peers.
 
 Benchmarks are named GROUP/NAME. The names in PEERS are peers of all others of their group; the same name in a file whose
-context names a peer is that peer's time.
+context names a peer, or in an entry that names one, is that peer's time.
 """
 import csv
 import json
@@ -33,8 +33,8 @@ def read(folder):
             if entry.get("run_type") == "aggregate" or entry.get("error_occurred"):
                 continue
             time = entry["cpu_time"] * MILLISECONDS[entry["time_unit"]]
-            if peer:
-                peers.setdefault(entry["name"], []).append((peer, time))
+            if entry.get("peer", peer):
+                peers.setdefault(entry["name"], []).append((entry.get("peer", peer), time))
             else:
                 ours[entry["name"]] = time, entry.get("items_per_second")
     return ours, peers

@@ -1,8 +1,8 @@
 # ./multispectral bench: sourced by the launcher, which gives $root, $build, prepare, build_preset, fail and wrong, and the command's
 # arguments as "$@".
 #
-# Every program Benchmark* of the preset 'bench' and every *Peer.py beside this file runs once, one after another;
-# bench_table.py lays their times side by side.
+# Every program Benchmark* of the preset 'bench', every *Peer.py beside this file, and FilterThreads.py where the plugin is
+# built, runs once, one after another; bench_table.py lays their times side by side.
 
 output=
 while [ $# -gt 0 ]; do
@@ -48,11 +48,17 @@ run_benchmark() {
 ran=0
 for program in "$build"/bench/Testing/Benchmarks/Benchmark*; do
   [ -f "$program" ] && [ -x "$program" ] || continue
-  run_benchmark "$(basename "$program")" "$program" --benchmark_format=json && ran=$((ran + 1))
+  run_benchmark "$(basename "$program")" "$program" --benchmark_format=json --benchmark_min_time=0.2 && ran=$((ran + 1))
 done
 [ "$ran" -gt 0 ] || fail "no benchmark ran; the logs are in $results"
 # Debian's Python, which python3-spectral and python3-numpy belong to.
 for peer in "$root"/Testing/Benchmarks/*Peer.py; do
   run_benchmark "$(basename "$peer" .py)" env PYTHONDONTWRITEBYTECODE=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 /usr/bin/python3 "$peer" || :
 done
+if [ -f "$package/multispectral/_classes.so" ]; then
+  run_benchmark FilterThreads env PYTHONDONTWRITEBYTECODE=1 MULTISPECTRAL_PYTHON="$package" \
+    /usr/bin/python3 "$root/Testing/Benchmarks/FilterThreads.py" || :
+else
+  echo "multispectral: note: the filters with two threads are not measured; ./multispectral setup builds them" >&2
+fi
 /usr/bin/python3 "$root/Testing/Benchmarks/bench_table.py" "$results" ${output:+"$output"} || fail "the table could not be made"

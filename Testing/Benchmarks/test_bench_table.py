@@ -25,7 +25,8 @@ def main():
             benchmark("CIEDE2000/float blocks", 2e6, "ns", items_per_second=50e6),
             benchmark("CIEDE2000/Little CMS", 40e6, "ns", items_per_second=2.5e6),
             benchmark("image/memcpy", 100), benchmark("image/BSQ", 200),
-            benchmark("image/BSQ", 999, run_type="aggregate"), benchmark("sRGB/float blocks", 3, "us")]}))
+            benchmark("image/BSQ", 999, run_type="aggregate"), benchmark("sRGB/float blocks", 3, "us"),
+            benchmark("two threads/Filter", 60), benchmark("two threads/Filter", 108, peer="one thread")]}))
         (folder / "peer.json").write_text(json.dumps({"context": {"peer": "Spectral Python 1"}, "benchmarks": [
             benchmark("image/BSQ", 0.5, "s")]}))
         expected = [
@@ -36,6 +37,8 @@ def main():
             {"name": "image/BSQ", "value": 200.0, "unit": "ms", "peer": "Spectral Python 1", "peer_value": 500.0,
              "ratio": 2.5, "limit": None},
             {"name": "sRGB/float blocks", "value": 0.003, "unit": "ms", "peer": "", "peer_value": None, "ratio": None,
+             "limit": None},
+            {"name": "two threads/Filter", "value": 60.0, "unit": "ms", "peer": "one thread", "peer_value": 108.0, "ratio": 1.8,
              "limit": None}]
         results = folder / "results"
         results.mkdir()
@@ -49,7 +52,7 @@ def main():
                 for row in got] != expected:
             faults.append(f"the JSON is {got}")
         with open(results / "table.csv", newline="") as file:
-            if [row["ratio"] for row in csv.DictReader(file)] != ["20.0", "0.5", "2.5", ""]:
+            if [row["ratio"] for row in csv.DictReader(file)] != ["20.0", "0.5", "2.5", "", "1.8"]:
                 faults.append("the CSV has other ratios")
     print("\n".join(faults) or "the table of benchmarks is right")
     sys.exit(1 if faults else 0)

@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include <cstdint>
+#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace msi
@@ -23,6 +23,15 @@ template <class Tag, class Floats>
 HWY_INLINE Floats fusedMultiplyAdd(Tag, Floats a, Floats x, Floats b)
 {
   return hwy::HWY_NAMESPACE::MulAdd(a, x, b);
+}
+
+#elif HWY_TARGET == HWY_SCALAR
+
+template <class Tag, class Floats>
+HWY_INLINE Floats fusedMultiplyAdd(Tag d, Floats a, Floats x, Floats b)
+{
+  namespace hn = hwy::HWY_NAMESPACE;
+  return hn::Set(d, std::fma(hn::GetLane(a), hn::GetLane(x), hn::GetLane(b)));
 }
 
 #else

@@ -5,7 +5,7 @@
 # Files that Highway compiles once for each instruction set stay alone. Names in anonymous namespaces must therefore
 # differ within a folder.
 option(MULTISPECTRAL_UNITY "Compile sources in groups: less work from nothing, more after a change" OFF)
-set(MULTISPECTRAL_UNITY_SIZE 12 CACHE STRING "Largest number of sources compiled together")
+set(MULTISPECTRAL_UNITY_SIZE 18 CACHE STRING "Largest number of sources compiled together")
 mark_as_advanced(MULTISPECTRAL_UNITY_SIZE)
 
 function(multispectral_unity target)

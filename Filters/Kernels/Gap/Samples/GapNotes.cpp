@@ -46,7 +46,7 @@ void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   {
     notes.push_back("One reading a sample: the noise model could not be checked.");
   }
-  if (reflectanceNoise > 0.0)
+  if (reflectanceNoise > 1e-5) // instruments give four or five digits
   {
     notes.push_back(
       text("The measured reflectances are taken to scatter by ", reflectanceNoise, "."));

@@ -183,7 +183,8 @@ std::string textOf(
     {
       text << std::exchange(separator, ", ") << counts[count].samples;
     }
-    text << " tuning samples";
+    const auto alone = method.counts.size() == 1 ? counts[method.counts.front()].samples : 0;
+    text << (alone == 1 ? " tuning sample" : " tuning samples");
   }
   text << ": " << method.reason;
   return text.str();

@@ -7,6 +7,7 @@
 #include "vtkTable.h"
 
 #include "Kernels/Estimation/MethodComparison.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <stdexcept>
 #include <vector>
@@ -52,8 +53,9 @@ int vtkSampleSplit::RequestData(
       const Eigen::Index count = this->Mode == RANDOM ? this->Count : (samples + 1) / 2;
       if (samples < 2 || count >= samples)
       {
-        throw std::invalid_argument("the table has " + std::to_string(samples) + " samples and " +
-          std::to_string(count) + " are to be chosen; expected at least one sample on each side");
+        throw std::invalid_argument("the table has " + msi::counted(samples, "sample") + " and " +
+          std::to_string(count) + (count == 1 ? " is" : " are") +
+          " to be chosen; expected at least one sample on each side");
       }
       std::vector<Eigen::Index> chosen;
       if (this->Mode == RANDOM)

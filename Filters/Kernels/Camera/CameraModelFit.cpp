@@ -2,6 +2,7 @@
 
 #include "Kernels/Camera/ChannelFit.h"
 #include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <Eigen/SVD>
@@ -374,7 +375,8 @@ std::string statusOf(
   }
   if (leftOut > 0)
   {
-    status << "; " << leftOut << " samples with values that are not finite were left out";
+    status << "; " << counted(leftOut, "sample") << " with values that are not finite "
+           << (leftOut == 1 ? "was" : "were") << " left out";
   }
   if (fit.curve && fit.curve->found())
   {

@@ -1,4 +1,5 @@
 #include "Kernels/Estimation/CrossValidation.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,8 @@ std::string choiceText(const CandidateChoice& choice, const SampleSet& tuning)
   text.precision(2);
   if (choice.chosen)
   {
-    text << "chosen on " << tuning.size() << " tuning samples, left-out rms " << choice.leftOutRms;
+    text << "chosen on " << counted(tuning.size(), "tuning sample") << ", left-out rms "
+         << choice.leftOutRms;
   }
   else
   {

@@ -3,6 +3,7 @@
 #include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/MeanColorDifference.h"
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
+#include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <cmath>
@@ -72,10 +73,10 @@ StructureChoice chooseStructure(
   }
   if (tuningSamples < needed())
   {
-    reject("there are ", tuningSamples, " tuning samples for ", needed(),
-      " unknowns a channel of the ",
+    reject("there ", tuningSamples == 1 ? "is " : "are ", counted(tuningSamples, "tuning sample"),
+      " for ", needed(), " unknowns a channel of the ",
       (choice.structure == BandStructure::Diagonal ? "diagonal" : "tridiagonal"),
-      " metamerism transform; expected at least ", needed(), " samples");
+      " metamerism transform; expected at least ", counted(needed(), "sample"));
   }
   return choice;
 }
@@ -93,8 +94,8 @@ std::string statusOf(const StructureChoice& choice, const MetamerismFit& fit,
   }
   if (choice.reduced)
   {
-    status << "; diagonal because a tridiagonal one needs 4 tuning samples and there are "
-           << fit.summary.samples;
+    status << "; diagonal because a tridiagonal one needs 4 tuning samples and there "
+           << (fit.summary.samples == 1 ? "is " : "are ") << fit.summary.samples;
   }
   if (!banded.deficientRows.empty())
   {

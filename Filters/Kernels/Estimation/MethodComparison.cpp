@@ -2,6 +2,7 @@
 
 #include "Kernels/Estimation/EstimationMethod.h"
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
+#include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <sstream>
@@ -51,8 +52,9 @@ MethodComparison::MethodComparison(
   }
   if (Options.tuningSamples < 1 || Options.tuningSamples >= Target.size())
   {
-    reject(Options.tuningSamples, " tuning samples are asked for and the target has ",
-      Target.size(), " samples; expected a number from 1 to ", Target.size() - 1,
+    reject(counted(Options.tuningSamples, "tuning sample"),
+      Options.tuningSamples == 1 ? " is" : " are", " asked for and the target has ",
+      counted(Target.size(), "sample"), "; expected a number from 1 to ", Target.size() - 1,
       ", so that samples are left to test on");
   }
 }

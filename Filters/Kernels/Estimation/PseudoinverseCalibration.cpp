@@ -1,6 +1,7 @@
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
 
 #include "Kernels/Estimation/LeastSquares.h"
+#include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <cmath>
@@ -26,11 +27,12 @@ CalibrationFit summarized(const LeastSquaresSolution& solution, const Eigen::Mat
   std::ostringstream status;
   if (fit.summary.complete)
   {
-    status << "fitted to " << responses.cols() << " samples";
+    status << "fitted to " << counted(responses.cols(), "sample");
   }
   else
   {
-    status << "undetermined: the " << responses.cols() << " samples have rank " << solution.rank
+    status << "undetermined: the " << counted(responses.cols(), "sample")
+           << (responses.cols() == 1 ? " has" : " have") << " rank " << solution.rank
            << " but a band has " << coefficients
            << " unknowns; the transform of least norm was taken, use more or more varied samples";
   }

@@ -2,6 +2,7 @@
 
 #include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <sstream>
@@ -22,8 +23,8 @@ RModelFit fitRModel(const Eigen::MatrixXd& estimated, const Eigen::MatrixXd& mea
   const Eigen::Index unknowns = unknownsPerRow(estimated.rows(), 1);
   if (estimated.rows() < 1 || estimated.cols() < unknowns)
   {
-    reject("the R-model has ", estimated.cols(), " tuning samples for ", unknowns,
-      " unknowns a band; expected at least ", unknowns, " samples");
+    reject("the R-model has ", counted(estimated.cols(), "tuning sample"), " for ",
+      counted(unknowns, "unknown"), " a band; expected at least ", counted(unknowns, "sample"));
   }
   const BandedFit banded = fitBanded(estimated, measured, 1);
   RModelFit fit{ AffineTransform(banded.coefficients), {} };
@@ -35,7 +36,7 @@ RModelFit fitRModel(const Eigen::MatrixXd& estimated, const Eigen::MatrixXd& mea
   fit.summary.iterations = 1;
   fit.summary.complete = banded.deficientRows.empty();
   std::ostringstream status;
-  status << "fitted to " << estimated.cols() << " tuning samples";
+  status << "fitted to " << counted(estimated.cols(), "tuning sample");
   if (!fit.summary.complete)
   {
     status << "; undetermined and kept nearest to no change in " << banded.deficientRows.size()

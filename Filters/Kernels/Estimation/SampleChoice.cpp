@@ -2,6 +2,7 @@
 
 #include "Kernels/Estimation/TransferFeatures.h"
 #include "Kernels/Estimation/TransferKernel.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <Eigen/Cholesky>
 
@@ -66,8 +67,9 @@ SampleChoice chooseSamples(const Eigen::MatrixXd& chartResponses,
   }
   if (count < 1 || count > candidateResponses.cols())
   {
-    message << count << " samples are to be chosen from " << candidateResponses.cols()
-            << "; expected a number from 1 to " << candidateResponses.cols();
+    message << counted(count, "sample") << (count == 1 ? " is" : " are") << " to be chosen from "
+            << candidateResponses.cols() << "; expected a number from 1 to "
+            << candidateResponses.cols();
     throw std::invalid_argument(message.str());
   }
   const TransferKernel kernel = startingKernel();

@@ -63,7 +63,7 @@ TEST(PseudoinverseCalibration, TakesTheLeastNormWhereUndeterminedAndSaysSo)
   EXPECT_FALSE(fit.summary.complete);
   EXPECT_EQ(fit.summary.rank, 1);
   EXPECT_EQ(fit.summary.status,
-    "undetermined: the 1 samples have rank 1 but a band has 2 unknowns; the transform of least "
+    "undetermined: the 1 sample has rank 1 but a band has 2 unknowns; the transform of least "
     "norm "
     "was taken, use more or more varied samples");
 

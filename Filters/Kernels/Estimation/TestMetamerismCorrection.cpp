@@ -193,7 +193,7 @@ TEST(MetamerismCorrection, RefusesBadInputAndSaysWhy)
     "there are 3 tuning samples for 4 unknowns a channel of the tridiagonal metamerism transform; "
     "expected at least 4 samples");
   EXPECT_EQ(fit(tuning.subset({ 0 })),
-    "there are 1 tuning samples for 2 unknowns a channel of the diagonal metamerism transform; "
+    "there is 1 tuning sample for 2 unknowns a channel of the diagonal metamerism transform; "
     "expected at least 2 samples");
   auto bad = tuning;
   bad.reflectance(1, 2) = std::numeric_limits<double>::quiet_NaN();

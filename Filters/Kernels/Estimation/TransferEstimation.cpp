@@ -153,8 +153,9 @@ FitSummary summarize(const TransferExpertFit& linear, const TransferExpertFit& s
   std::ostringstream status;
   status.precision(2);
   status << "learned from " << calibration.size() << " chart and " << tuning.size()
-         << " tuning samples; shares " << std::fixed << shares[0] << " linear, " << shares[1]
-         << " square root, " << shares[2] << " affine";
+         << (tuning.size() == 1 ? " tuning sample; shares " : " tuning samples; shares ")
+         << std::fixed << shares[0] << " linear, " << shares[1] << " square root, " << shares[2]
+         << " affine";
   summary.complete = tuning.size() >= 5;
   if (!summary.complete)
   {

@@ -98,7 +98,7 @@ TEST(SampleSplit, NamesTheNumbersThatDoNotFit)
   split->SetMode(vtkSampleSplit::EVERY_OTHER);
   split->SetInputData(countingTable(1));
   EXPECT_EQ(errorOf(split),
-    "the table has 1 samples and 1 are to be chosen; expected at least one sample on each side");
+    "the table has 1 sample and 1 is to be chosen; expected at least one sample on each side");
   split->SetInputData(newTable({}));
   EXPECT_EQ(errorOf(split),
     "the table has 0 samples and 0 are to be chosen; expected at least one sample on each side");

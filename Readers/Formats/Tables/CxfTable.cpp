@@ -4,6 +4,7 @@
 #include "Formats/Tables/ReflectanceScale.h"
 #include "Formats/Text/NumberText.h"
 #include "Formats/Text/TextPlace.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -249,13 +250,13 @@ private:
     }
     if (WithoutSpectrum > 0)
     {
-      samples.notes.push_back(
-        std::to_string(WithoutSpectrum) + " objects without a spectrum were left out");
+      samples.notes.push_back(counted(WithoutSpectrum, "object") + " without a spectrum " +
+        (WithoutSpectrum == 1 ? "was" : "were") + " left out");
     }
     if (Several > 0)
     {
-      samples.notes.push_back(
-        std::to_string(Several) + " objects have several spectra: the first was read");
+      samples.notes.push_back(counted(Several, "object") + (Several == 1 ? " has" : " have") +
+        " several spectra: the first was read");
     }
     bringToFactor(samples, Unit,
       [this](Eigen::Index sample) { return Places[static_cast<std::size_t>(sample)]; });

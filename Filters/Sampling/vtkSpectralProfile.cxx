@@ -63,6 +63,9 @@ void vtkSpectralProfile::PrintSelf(ostream& os, vtkIndent indent)
   os << "\n"
      << indent << "Place: " << this->Place << "\n"
      << indent << "Handle: " << text(this->Handle[0], this->Handle[1]) << "\n"
+     << indent << "LineStart: " << text(this->LineStart[0], this->LineStart[1]) << "\n"
+     << indent << "LineEnd: " << text(this->LineEnd[0], this->LineEnd[1]) << "\n"
+     << indent << "LineCount: " << this->LineCount << "\n"
      << indent << "Region: " << this->Region[0] << ", " << this->Region[1] << ", "
      << this->Region[2] << ", " << this->Region[3] << "\n";
 }
@@ -81,9 +84,22 @@ void vtkSpectralProfile::ClearPoints()
 
 std::vector<std::array<double, 2>> vtkSpectralProfile::PlacesOfPoints() const
 {
-  return this->Place == HANDLE
-    ? std::vector<std::array<double, 2>>{ { this->Handle[0], this->Handle[1] } }
-    : this->Points;
+  if (this->Place == HANDLE)
+  {
+    return { { this->Handle[0], this->Handle[1] } };
+  }
+  if (this->Place != LINE)
+  {
+    return this->Points;
+  }
+  std::vector<std::array<double, 2>> places;
+  for (int i = 0; i < this->LineCount; ++i)
+  {
+    const double part = static_cast<double>(i) / (this->LineCount - 1);
+    places.push_back({ this->LineStart[0] + part * (this->LineEnd[0] - this->LineStart[0]),
+      this->LineStart[1] + part * (this->LineEnd[1] - this->LineStart[1]) });
+  }
+  return places;
 }
 
 int vtkSpectralProfile::FillInputPortInformation(int port, vtkInformation* info)

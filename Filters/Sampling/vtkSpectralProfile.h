@@ -49,17 +49,26 @@ public:
 
   ///@{
   /**
-   * Which places count: POINTS_OR_REGION (0, default), or HANDLE (1): the place Handle alone, which a window lets be dragged.
+   * Which places count: POINTS_OR_REGION (0, default); HANDLE (1): the place Handle alone; or LINE (2): LineCount places, at
+   * equal distances from LineStart to LineEnd, both included. A window lets Handle and the line be dragged. Of z nothing
+   * depends.
    */
   enum PlaceMode
   {
     POINTS_OR_REGION = 0,
-    HANDLE = 1
+    HANDLE = 1,
+    LINE = 2
   };
-  vtkSetClampMacro(Place, int, POINTS_OR_REGION, HANDLE);
+  vtkSetClampMacro(Place, int, POINTS_OR_REGION, LINE);
   vtkGetMacro(Place, int);
   vtkSetVector3Macro(Handle, double);
   vtkGetVector3Macro(Handle, double);
+  vtkSetVector3Macro(LineStart, double);
+  vtkGetVector3Macro(LineStart, double);
+  vtkSetVector3Macro(LineEnd, double);
+  vtkGetVector3Macro(LineEnd, double);
+  vtkSetClampMacro(LineCount, int, 2, 1000);
+  vtkGetMacro(LineCount, int);
   ///@}
 
   ///@{
@@ -97,6 +106,9 @@ private:
   std::vector<std::array<double, 2>> Points;
   int Place = POINTS_OR_REGION;
   double Handle[3] = { 0.0, 0.0, 0.0 };
+  double LineStart[3] = { 0.0, 0.0, 0.0 };
+  double LineEnd[3] = { 0.0, 0.0, 0.0 };
+  int LineCount = 5;
   double Region[4] = { 0.0, 0.0, 0.0, 0.0 };
   std::unique_ptr<Sampling> Current;
 };

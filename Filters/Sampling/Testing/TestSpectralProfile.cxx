@@ -116,6 +116,23 @@ TEST(SpectralProfile, GivesTheSpectrumOfTheHandle)
     errorOf(profile), "the point (0, 5) is not in the image, which reaches from (0, 0) to (2, 1)");
 }
 
+TEST(SpectralProfile, GivesSpectraAlongTheLine)
+{
+  vtkNew<vtkSpectralProfile> profile;
+  profile->SetInputData(0, image());
+  profile->SetPlace(vtkSpectralProfile::LINE);
+  profile->SetLineStart(0.0, 0.0, 7.0);
+  profile->SetLineEnd(2.0, 1.0, -7.0);
+  profile->SetLineCount(3);
+  ASSERT_EQ(errorOf(profile), "");
+  auto* table = profile->GetOutput();
+  EXPECT_EQ(columnNames(table),
+    (std::vector<std::string>{ "wavelength", "point 1", "point 2", "point 3" }));
+  EXPECT_EQ(cell(table, 1, "point 1"), 10.0);
+  EXPECT_EQ(cell(table, 1, "point 2"), 50.0); // (1, 0.5): the row above
+  EXPECT_EQ(cell(table, 1, "point 3"), 60.0);
+}
+
 TEST(SpectralProfile, PrintsItself)
 {
   vtkNew<vtkSpectralProfile> profile;

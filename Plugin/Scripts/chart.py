@@ -116,12 +116,13 @@ def main():
     pipeline.save_png(found, "Label", os.path.join(folder, "labels.png"))
     pipeline.save_png(found, "Overlay", os.path.join(folder, "overlay.png"))
     lines = say_what_was_found(options, found, samples)
+    caption = "Outlines: green; red: clipped; orange: spots or uneven light. The first patch has a yellow middle."
+    if not options.white:
+        caption += " No white frame was given: the colors are those of the lamp and the filters, too."
     report.write(folder, "A chart in an image", [
-        report.text("What was found", *lines),
-        report.pictures("The patches", folder, {"overlay.png": "Outlines: green; red: clipped; orange: spots or uneven "
-                                                               "light. The first patch has a yellow middle."}),
+        report.pictures("The patches", folder, {"overlay.png": caption}),
         report.table("Patches", *pipeline.table(pipeline.port(found, 1)),
-                     columns=patch_columns(pipeline.table(pipeline.port(found, 1))[0]))])
+                     columns=patch_columns(pipeline.table(pipeline.port(found, 1))[0]))], lead=" ".join(lines))
     command.say(f"chart.csv, labels.png, overlay.png and report.html: {folder}")
 
 

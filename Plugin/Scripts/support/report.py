@@ -11,8 +11,9 @@ from . import command, outputs, painter
 
 _MOST_ROWS_SHOWN = 12  # longer tables are folded
 _LONG = 40  # letters: such a cell is broken into lines
-_WIDE = 2.5  # times the height: needs the whole width of the page
-_WORDS = {"p95": "95th percentile", "left_out": "left out", "residual_rms": "residual rms", "OutOfRange": "excess over range",
+_WIDE = 1.7  # times the height: needs the whole width of the page
+_WORDS = {"p95": "95th percentile", "left_out": "left out", "residual_rms": "residual rms", "condition": "condition number",
+          "complete": "all unknowns determined", "OutOfRange": "excess over range",
           "UncertaintyRms": "standard uncertainty"}  # of the tables' columns and the maps
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 62rem; margin: 2rem auto;
@@ -50,13 +51,23 @@ def in_words(name):
     return _WORDS.get(name, re.sub(r"\bdE(?=[0-9 ])", "\u0394E", name))
 
 
+def _value_in_words(name, value):
+    if name == "metric":
+        return in_words(value)
+    if name == "complete":
+        return "yes" if value else "no"
+    if name == "condition" and value == 0:
+        return ""  # the method has none
+    return value
+
+
 def table(title, names, rows, columns=None, note=None):
     """columns: the columns to show, in order; all by default."""
     if not rows:
         return ""
     chosen = [names.index(name) for name in (columns or names)]
     head = "".join(f"<th{_class(rows[0][i])}>{html.escape(in_words(names[i]))}</th>" for i in chosen)
-    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(in_words(row[i]) if names[i] == 'metric' else row[i])}</td>" for i in chosen)
+    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(_value_in_words(names[i], row[i]))}</td>" for i in chosen)
                    + "</tr>" for row in rows)
     remark = f"<p>{html.escape(note)}</p>" if note else ""
     content = f"<div class='scroll'><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"

@@ -11,6 +11,8 @@ namespace msi
 
 namespace
 {
+constexpr float LargestByte = 255.0F;
+
 // The level that is shown as white.
 double whiteOf(const SpectralImageFile& file, const Eigen::Matrix3Xf& weights)
 {
@@ -52,9 +54,17 @@ double whiteOf(const SpectralImageFile& file, const Eigen::Matrix3Xf& weights)
 }
 }
 
-SpectralPreview::SpectralPreview(const SpectralImageFile& file)
+SpectralPreview::SpectralPreview(const SpectralImageFile& file, bool scaledIntegers)
   : Picture(file.info().bands(), file.info().wavelengths, file.info().displayBands)
 {
+  const auto& info = file.info();
+  if (info.format != "ENVI" && info.sampleType == "uint8" && info.wavelengths.empty() &&
+    info.displayBands.size() == 3)
+  {
+    ScreenScale = scaledIntegers ? LargestByte : 1.0F;
+    Description = "the picture is the file's";
+    return;
+  }
   std::ostringstream text;
   if (Picture.isColorimetric())
   {
@@ -75,7 +85,21 @@ SpectralPreview::SpectralPreview(const SpectralImageFile& file)
 void SpectralPreview::apply(
   const float* pixels, Eigen::Index count, unsigned char* rgb) const noexcept
 {
-  Picture.apply(pixels, count, rgb);
+  if (!isScreenPicture())
+  {
+    Picture.apply(pixels, count, rgb);
+    return;
+  }
+  const auto bands = Picture.weights().cols();
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    for (std::size_t color = 0; color < 3; ++color)
+    {
+      const float value = pixels[i * bands + Picture.shownBands()[color]] * ScreenScale;
+      rgb[3 * i + static_cast<Eigen::Index>(color)] =
+        static_cast<unsigned char>(std::clamp(value + 0.5F, 0.0F, LargestByte));
+    }
+  }
 }
 
 } // namespace msi

@@ -18,6 +18,7 @@
 
 #include "Formats/FileKind.h"
 #include "Formats/ImageSelection.h"
+#include "Formats/Images/StackFiles.h"
 #include "Formats/SpectralImageFile.h"
 #include "Formats/Storage/AvailableMemory.h"
 
@@ -101,6 +102,8 @@ void vtkSpectralImageReader::PrintSelf(ostream& os, vtkIndent indent)
      << this->WavelengthRange[1] << "\n"
      << indent << "OnlyGoodBands: " << this->OnlyGoodBands << "\n"
      << indent << "Preview: " << this->Preview << "\n"
+     << indent << "WholeStack: " << this->WholeStack << "\n"
+     << indent << "StackPattern: " << this->StackPattern << "\n"
      << indent << "Region: " << this->Region[0] << ", " << this->Region[1] << ", "
      << this->Region[2] << ", " << this->Region[3] << "\n"
      << indent << "Stride: " << this->Stride[0] << ", " << this->Stride[1] << "\n"
@@ -141,6 +144,32 @@ void vtkSpectralImageReader::ClearWavelengths()
   this->Modified();
 }
 
+std::vector<std::string> vtkSpectralImageReader::FilesToRead()
+{
+  this->StackPattern.clear();
+  this->Warning.clear();
+  if (this->FileNames.size() != 1)
+  {
+    return this->FileNames;
+  }
+  auto stack = msi::stackOf(this->FileNames.front());
+  if (stack.files.empty())
+  {
+    return this->FileNames;
+  }
+  const std::string count = std::to_string(stack.files.size());
+  if (this->WholeStack)
+  {
+    this->StackPattern = stack.pattern;
+    this->Notes = count + " channels were read: " + stack.pattern;
+    return std::move(stack.files);
+  }
+  this->Notes = "one channel of the " + count + " of " + stack.pattern;
+  this->Warning = "this is one channel of " + count + " (" + stack.pattern +
+    "), shown as gray levels; set Whole Stack to read them as one image";
+  return this->FileNames;
+}
+
 void vtkSpectralImageReader::Open()
 {
   if (this->File && this->OpenTime == this->GetMTime())
@@ -160,7 +189,7 @@ void vtkSpectralImageReader::Open()
   options.integers =
     this->ScaleIntegers ? msi::IntegerScaling::UnitRange : msi::IntegerScaling::Raw;
   options.variable = this->Variable;
-  auto file = msi::openSpectralImage(this->FileNames, options);
+  auto file = msi::openSpectralImage(this->FilesToRead(), options);
   const int height = file->info().height;
   msi::ImageSelection selection;
   selection.bands = this->Bands;
@@ -266,20 +295,38 @@ int vtkSpectralImageReader::RequestData(
     });
 }
 
+void vtkSpectralImageReader::WarnOfPicture()
+{
+  const auto& info = this->File->info();
+  if (this->Picture->isScreenPicture())
+  {
+    vtkWarningMacro(<< "an ordinary color picture: its values are encoded for a screen and are no "
+                    << "camera responses; it is shown, but nothing can be measured in it: "
+                    << this->FileNames.front());
+  }
+  else if (info.wavelengths.empty() && info.bands() > 1)
+  {
+    vtkWarningMacro(<< info.bands() << " channels without wavelengths; enter them in nm in the "
+                    << "property Wavelengths; until then the picture is in false color, and colors "
+                    << "cannot be computed: " << this->FileNames.front());
+  }
+  if (!this->Warning.empty())
+  {
+    vtkWarningMacro(<< this->Warning << ": " << this->FileNames.front());
+  }
+}
+
 void vtkSpectralImageReader::AddPreview(vtkImageData* image, vtkFloatArray* spectra)
 {
   if (!this->Picture)
   {
-    this->Picture = std::make_unique<msi::SpectralPreview>(*this->File);
-    if (this->File->info().wavelengths.empty() && this->File->info().bands() > 1)
-    {
-      vtkWarningMacro(<< this->File->info().bands() << " channels without wavelengths; enter them "
-                      << "in nm in the property Wavelengths; until then the picture is in false "
-                      << "color, and colors cannot be computed: " << this->FileNames.front());
-    }
+    this->Picture = std::make_unique<msi::SpectralPreview>(*this->File, this->ScaleIntegers);
+    this->WarnOfPicture();
   }
   vtkNew<vtkUnsignedCharArray> picture;
-  picture->SetName(this->Picture->isColorimetric() ? msi::PictureArray : msi::FalseColorArray);
+  picture->SetName(this->Picture->isColorimetric() || this->Picture->isScreenPicture()
+      ? msi::PictureArray
+      : msi::FalseColorArray);
   picture->SetNumberOfComponents(3);
   picture->SetNumberOfTuples(spectra->GetNumberOfTuples());
   const float* in = spectra->GetPointer(0);

@@ -140,6 +140,21 @@ public:
   vtkBooleanMacro(Preview, bool);
   ///@}
 
+  ///@{
+  /**
+   * Read a single file together with those beside it whose names differ in the wavelength alone (channel_450nm.tif), as
+   * one image. Default off: the file alone, with a warning where it is one channel of such a stack.
+   */
+  vtkSetMacro(WholeStack, bool);
+  vtkGetMacro(WholeStack, bool);
+  vtkBooleanMacro(WholeStack, bool);
+  ///@}
+
+  /**
+   * The names of the stack's files, channel_*nm.tif, where WholeStack has found some; else empty.
+   */
+  vtkGetCharFromStdStringMacro(StackPattern);
+
   /**
    * What was recognized when the files were opened, one remark a line.
    */
@@ -164,6 +179,9 @@ private:
   void operator=(const vtkSpectralImageReader&) = delete;
 
   void Open();
+  // The files to read, by FileNames and WholeStack.
+  std::vector<std::string> FilesToRead();
+  void WarnOfPicture();
   void AddPreview(vtkImageData* image, vtkFloatArray* spectra);
 
   std::vector<std::string> FileNames;
@@ -175,6 +193,9 @@ private:
   double WavelengthRange[2] = { 0.0, 0.0 };
   bool OnlyGoodBands = false;
   bool Preview = true;
+  bool WholeStack = false;
+  std::string StackPattern;
+  std::string Warning; // of what a view shows
   int Region[4] = { 0, -1, 0, -1 };
   int Stride[2] = { 1, 1 };
   double Origin[2] = { 0.0, 0.0 };

@@ -15,6 +15,7 @@ constexpr double BelowTheUsers = -1.0;
 constexpr const char* ReadersByName =
   R"json({"settings": {"RepresentedArrayListSettings": {"ReaderDetails": [
 "*nm.tif *nm.tiff *nm.png *nm.exr", "Spectral image (one file per channel)", "SpectralImageReader",
+"*.jpg *.jpeg *.JPG *.JPEG", "Picture", "SpectralImageReader",
 "labels.png labels.tif labels.tiff", "Label image", "LabelImageReader",
 "*chart*.csv patches.csv *swatches*.csv tuning.csv calibration.csv", "Sample table", "SampleTableReader",
 "camera.csv camera.json", "Camera", "CameraReader",

@@ -1,6 +1,7 @@
 #include "Formats/SceneFolder.h"
 
 #include "Formats/FormatError.h"
+#include "Formats/Images/StackFiles.h"
 #include "Support/formats/TestFiles.h"
 
 #include <OpenImageIO/imageio.h>
@@ -83,6 +84,26 @@ TEST_F(SceneFolders, OneFileIsAnImageToo)
   const auto scene = findScene(path("scene"));
   EXPECT_EQ(scene.image.size(), 1u);
   EXPECT_TRUE(scene.white.empty() && scene.dark.empty() && scene.labels.empty());
+}
+
+TEST_F(SceneFolders, AChannelKnowsItsStack)
+{
+  for (const char* name : { "A_450 nm.png", "A_1000 nm.png", "A_500,5 nm.png", "white_450 nm.png",
+         "A_450 nm.tif", "frame_450.png", "frame_460.png", "labels.png" })
+  {
+    write(std::string("scene/") + name, "");
+  }
+  const auto stack = msi::stackOf(path("scene/A_500,5 nm.png"));
+  EXPECT_EQ(stack.pattern, "A_* nm.png");
+  EXPECT_EQ(stack.files,
+    (std::vector<std::string>{
+      path("scene/A_450 nm.png"), path("scene/A_500,5 nm.png"), path("scene/A_1000 nm.png") }));
+  // The only one of its name, a number that may count frames, none at all, a folder that is not there.
+  for (const char* name :
+    { "white_450 nm.png", "A_450 nm.tif", "frame_450.png", "labels.png", "no/A_450nm.png" })
+  {
+    EXPECT_TRUE(msi::stackOf(path(std::string("scene/") + name)).files.empty()) << name;
+  }
 }
 
 TEST_F(SceneFolders, WhatIsNoSceneIsNamed)

@@ -2,14 +2,18 @@
 
 import os
 import pathlib
+import struct
 import sys
 import tempfile
+import zlib
 
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.join(os.environ["MULTISPECTRAL_ROOT"], "Plugin", "Scripts"))
+sys.path.insert(0, os.path.join(os.environ["MULTISPECTRAL_ROOT"], "Plugin", "Desktop"))
+from multispectral_desktop import messages, profile_chart  # noqa: E402
 from support import pipeline  # noqa: E402
 
 root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
@@ -43,6 +47,33 @@ def check_colors(display, array, mapped):
     name = list(display.ColorArrayName)
     check(f"colored by {name} with MapScalars {display.MapScalars}, expected {array} with {mapped}",
           name == ["POINTS", array] and display.MapScalars == mapped)
+
+
+def one_channel_and_photograph():
+    """A channel alone says that there are others; a picture for the screen stays as it is."""
+    channel = str(images / "channel_400nm.tif")
+    whole = pipeline.create("SpectralImageReader", FileNames=[channel], WholeStack=1)
+    pipeline.update(whole)
+    whole.UpdatePropertyInformation()
+    pattern = whole.GetProperty("StackPattern").GetData()
+    check(f"the whole stack is {pattern}", pattern == "channel_*nm.tif" and
+          (picture(whole) == picture(stack())).all())
+    with messages.heard() as said:
+        pipeline.create("SpectralImageReader", FileNames=[channel]).UpdatePipeline()
+    check(f"one channel alone warns by {said.warnings}", [text.partition(": /")[0] for text in said.warnings] == [
+        "this is one channel of 16 (channel_*nm.tif), shown as gray levels; set Whole Stack to read them as one image"])
+    colors = np.array([[[10, 20, 30], [200, 100, 50]], [[0, 255, 128], [1, 2, 3]]], np.uint8)
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "photo.png"
+        rows = b"".join(b"\0" + row.tobytes() for row in colors)
+        chunks = ((b"IHDR", struct.pack(">2I5B", 2, 2, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b""))
+        path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks))
+        photo = pipeline.create("SpectralImageReader", FileNames=[str(path)])
+        with messages.heard() as said:
+            photo.UpdatePipeline()
+    check(f"a photograph warns by {said.warnings}", len(said.warnings) == 1 and "ordinary color picture" in said.warnings[0])
+    check("a photograph is shown in other colors", (picture(photo) == colors[::-1].reshape(-1, 3)).all())
 
 
 def main():
@@ -127,8 +158,6 @@ def main():
     wide.Input.Preview = 1
 
     # What the window does with the chart of a profile.
-    sys.path.insert(0, str(root / "Plugin" / "Desktop"))
-    from multispectral_desktop import profile_chart
     profile = pipeline.create("SpectralProfile", Input=estimate)
     chart_view = simple.CreateView("XYChartView")
     curves = simple.Show(profile, chart_view)
@@ -137,6 +166,12 @@ def main():
         chart_view.LeftAxisTitle
     check(f"the chart of a profile shows {shown}",
           shown == (0, "wavelength", ["region"], "Wavelength (nm)", "Reflectance factor"))
+
+    cube = pipeline.create("SpectralCubeVolume", Input=estimate)
+    pipeline.update(cube)
+    display, view = show(cube)
+    check(f"a cube is shown as {display.Representation}", display.Representation == "Surface")
+    one_channel_and_photograph()
 
     print("\n".join(faults) or "every first view is right")
     sys.stdout.flush()

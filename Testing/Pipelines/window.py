@@ -360,7 +360,7 @@ def open_files(window):
     for path, reader in ((window.folder / "measured.csv", "SampleTableReader"), (window.folder / "curves.csv", "CameraReader"),
                          (SCENE / "channel_400nm.tif", "SpectralImageReader"), (SCENE / "labels.png", "LabelImageReader"),
                          (SAMPLES / "demo-chart.csv", "SampleTableReader")):
-        name = path.name
+        name = "channel_*nm.tif" if "channel" in path.name else path.name  # with the other channels
         window.key("ctrl+o")
         window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
         window.type(path)
@@ -371,11 +371,17 @@ def open_files(window):
         if found != reader:
             window.picture("failed")
             raise Failed(f"File > Open took {found} for {name}")
+    # The label image lies over the channels' picture, which is hidden; curves are a chart; tables begin with what a row is.
+    window.click(window.state()["named"]["Apply"])
+    state = window.wait("the files", lambda s: s["charts"] == 1 and "Apply" not in s["named"] and s["first columns"] and any(
+        view["arrays"] == [["POINTS", "Label", 1]] for view in s["views"].values()))
+    if any(len(view["arrays"]) > 1 for view in state["views"].values()) or set(state["first columns"]) != {"sample"}:
+        raise Failed(f"the views of the files show {state['views']}, tables beginning with {state['first columns']}")
 
 
 def panels(window):
     """What the panels offer, and what they hide because it does not apply."""
-    scene, chart = "channel_400nm.tif", "demo-chart.csv"
+    scene, chart = "channel_*nm.tif", "demo-chart.csv"
 
     def shown(panel, wanted, hidden=()):
         if not set(wanted) <= set(panel) or set(hidden) & set(panel):
@@ -405,6 +411,18 @@ def panels(window):
     box = window.panel("SpectralToColor", {"Input": chart})["Illuminant"]
     if box["text"] != "D65" or not {"D50", "F12", "LED-V2"} <= set(box["offered"]):
         raise Failed(f"the illuminants are {box}")
+
+
+def reset(window):
+    """Edit > Reset Session takes the spectra of what is deleted along."""
+    if not window.state()["pins"]:
+        raise Failed("there are no spectra that could stay")
+    window.click(window.state()["named"]["Edit"])
+    time.sleep(0.5)
+    window.key("r")
+    window.wait("the question", lambda s: "Delete All?" in s["dialogs"])
+    window.key("Return")
+    window.wait("no spectra", lambda s: not s["sources"] and not s["pins"] and not s["live"])
 
 
 def page_names_what_is_there(window):
@@ -490,7 +508,7 @@ def main():
         fault = in_window(folder, (one_message, main_job, spectra), sys.argv[3:])
     else:
         fault = in_window(folder, (one_message, main_job, spectra, region_and_files, help_page, menus, open_files, panels, own_lamp, chart,
-                                   page_names_what_is_there))
+                                   page_names_what_is_there, reset))
     print(fault or "the window does as a user expects")
     sys.exit(1 if fault else 0)
 

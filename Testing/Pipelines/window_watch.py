@@ -124,11 +124,14 @@ def _state():
     button = main.findChild(QtWidgets.QAbstractButton, "Help")
     if button is not None:
         named["Help"] = _middle(button)
+    button = main.findChild(QtWidgets.QAbstractButton, "Accept")
+    if button is not None and button.isEnabled():
+        named["Apply"] = _middle(button)
     # Menus: those of the bar, and the entries of the one that is open.
     entries = []
     for action in main.menuBar().actions():
         title = action.text().replace("&", "")
-        if title in ("Sources", "Filters") and action.menu() is not None:
+        if title in ("Edit", "Sources", "Filters") and action.menu() is not None:
             place = main.menuBar().mapToGlobal(main.menuBar().actionGeometry(action).center())
             named[title] = [place.x(), place.y()]
             ours = next((a for a in action.menu().actions() if a.menu() is not None and a.text() == "Multispectral"), None)
@@ -158,6 +161,10 @@ def _state():
         "width": main.width(),
         "menu": entries,
         "labels": _labels(main, windows),
+        "first columns": [str(header.model().headerData(header.logicalIndex(0), QtCore.Qt.Horizontal)) for header in (
+            table.horizontalHeader() for table in main.findChildren(QtWidgets.QTableView)
+            if table.metaObject().className() == "pqSpreadSheetViewWidget" and table.isVisible()) if header.count() > 0],
+        "charts": sum(view.SMProxy.GetXMLName() == "XYChartView" for view in simple.GetViews()),
         "tables": sum(view.SMProxy.GetXMLName() == "SpreadSheetView" for view in simple.GetViews()),
         "band": panel.band_text.text(),
         "panel": _panel(main),

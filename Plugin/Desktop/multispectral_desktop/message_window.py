@@ -8,6 +8,7 @@ import time
 from PyQt5 import QtCore, QtGui, QtWidgets
 
 _REMARKS = ("returned failure for request", "Attempted to ShallowCopy from null")
+_OF_A_VIEW = "vtkPVGeometryFilter"  # asks again at each picture, so long as what failed is shown
 _SAME = 3.0  # seconds within which the same text tells of the same fault
 
 
@@ -26,7 +27,8 @@ class Tidy(QtCore.QObject):
         while row < self._model.rowCount():
             text = self._text(row)
             last = self._seen.get(text)
-            remark = any(part in text for part in _REMARKS) and any(now - then < _SAME for then in self._seen.values())
+            remark = any(part in text for part in _REMARKS) and (
+                _OF_A_VIEW in text and bool(self._seen) or any(now - then < _SAME for then in self._seen.values()))
             if not remark:
                 self._seen[text] = now
             if remark or (last is not None and now - last < _SAME):

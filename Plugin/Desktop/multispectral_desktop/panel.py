@@ -6,7 +6,7 @@ import os
 from PyQt5 import QtCore, QtGui, QtWidgets
 from paraview import simple
 
-from . import pixel, profile_chart
+from . import first_views, pixel, profile_chart
 from .chart import Curve, SpectrumChart
 from .marks import Marks, rectangle
 
@@ -77,6 +77,21 @@ class SpectrumPanel(QtWidgets.QDockWidget):
                     self._observe(view, interactor, event, act)
         self._adapt_band()
         profile_chart.adapt_views()
+        first_views.adapt(self.window())
+        self._forget_deleted()
+
+    def _forget_deleted(self):
+        """The spectra of a source that is there no more, as after Edit > Reset Session."""
+        known = {source.SMProxy.GetGlobalID() for source in simple.GetSources().values()}
+        kept = [pin for pin in self.pins if pin.source in known]
+        live = self.live if self.live is None or self.live.source in known else None
+        if len(kept) < len(self.pins) or live is not self.live:
+            self.pins, self.live = kept, live
+            self._draw()
+            self._marked = {key: view for key, view in self._marked.items()
+                            if key in {other.SMProxy.GetGlobalID() for other in simple.GetRenderViews()}}
+            for view in list(self._marked.values())[:1]:
+                self._mark(view)
 
     @staticmethod
     def _observe(view, interactor, event, act):

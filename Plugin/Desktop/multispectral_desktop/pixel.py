@@ -9,8 +9,8 @@ SPECTRA = ("Reflectance", "Responses")
 
 # values: the spectrum; deviation: its standard uncertainty, or None; measured: the reference at the pixel, or None;
 # errors: {"dE00 D65": 1.2, ..}; region: None for one pixel, else two opposite corners, of whose pixels values are the mean and
-# deviation is the standard deviation; count: the pixels of the region
-Pixel = collections.namedtuple("Pixel", "name column row point kind wavelengths values deviation measured errors region count",
+# deviation is the standard deviation; count: the pixels of the region; source: its number among ParaView's
+Pixel = collections.namedtuple("Pixel", "name column row point kind wavelengths values deviation measured errors source region count",
                                defaults=(None, 1))
 
 
@@ -132,7 +132,8 @@ def _local(source, data, point):
                 if name.startswith("dE") and math.isfinite(arrays.GetArray(i).GetTuple1(number)):
                     errors[name] = arrays.GetArray(i).GetTuple1(number)
     top = data.GetExtent()[3] - row  # as images count rows: from the top
-    return Pixel(name_of(source), column, top, point, array.GetName(), wavelengths, values, deviation, measured, errors)
+    return Pixel(name_of(source), column, top, point, array.GetName(), wavelengths, values, deviation, measured, errors,
+                 source.SMProxy.GetGlobalID())
 
 
 def region(view, start, end):
@@ -170,7 +171,7 @@ def _mean(source, port, ends):
     place = [(low[i] + high[i]) / 2 for i in range(2)]
     column, up = (math.floor((place[i] - origin[i]) / spacing[i] + 0.5) for i in range(2))
     return Pixel(name_of(source), column, extent[3] - up, place, profile.kind, profile.across, profile.values,
-                 profile.deviation, measured, {}, (low, high), profile.count)
+                 profile.deviation, measured, {}, source.SMProxy.GetGlobalID(), (low, high), profile.count)
 
 
 def grid(source, port):
@@ -246,7 +247,7 @@ def _remote(source, port, point):
                 if error is not None and math.isfinite(error.values[0]):
                     errors[name] = error.values[0]
     return Pixel(name_of(source), column, extent[3] - row, list(point), profile.kind, profile.across, profile.values,
-                 deviation and deviation.values, measured, errors)
+                 deviation and deviation.values, measured, errors, source.SMProxy.GetGlobalID())
 
 
 def name_of(source):

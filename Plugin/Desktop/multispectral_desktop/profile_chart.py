@@ -1,7 +1,10 @@
-"""What a line chart of Spectral Profile shows first: wavelength across, titles, one curve per place."""
+"""What a line chart of the plugin's tables shows first: wavelength across, titles, one curve per place or channel."""
 
 from paraview import simple
 
+# The title of the vertical axis; that of a profile depends on its image.
+_TITLES = {"SpectralProfile": None, "CameraReader": "Sensitivity", "CameraModelFit": "Sensitivity (fitted)", "CurveReader": "Value"}
+_HIDDEN = ("deviation", "-s", "+s")
 _done = set()  # global ids of the charts' displays
 
 
@@ -12,7 +15,7 @@ def adapt_views():
         for display in view.Representations:
             source = getattr(display, "Input", None)
             key = display.SMProxy.GetGlobalID()
-            if source is not None and key not in _done and source.SMProxy.GetXMLName() == "SpectralProfile" and \
+            if source is not None and key not in _done and source.SMProxy.GetXMLName() in _TITLES and \
                     source.GetDataInformation(source.Port).GetNumberOfRows() > 0:
                 _done.add(key)
                 _adapt(view, display, source)
@@ -22,12 +25,16 @@ def _adapt(view, display, source):
     rows = source.GetDataInformation(source.Port).DataInformation.GetRowDataInformation()
     columns = [rows.GetArrayInformation(i).GetName() for i in range(rows.GetNumberOfArrays())]
     across = "wavelength" if "wavelength" in columns else "channel"
-    image = source.Input
-    kind = "Reflectance" if image is not None and image.PointData.GetArray("Reflectance") else "Responses"
+    if across not in columns:
+        return
     display.UseIndexForXAxis = 0
     display.XArrayName = across
-    hidden = ("deviation", "-s", "+s")
-    display.SeriesVisibility = [name for name in columns if name != across and not name.endswith(hidden)]
+    display.SeriesVisibility = [name for name in columns if name != across and not name.endswith(_HIDDEN)]
     view.BottomAxisTitle = "Wavelength (nm)" if across == "wavelength" else "Channel"
-    view.LeftAxisTitle = "Reflectance factor" if kind == "Reflectance" else "Response (1 = white)"
+    view.LeftAxisTitle = _TITLES[source.SMProxy.GetXMLName()] or _title_of_profile(source)
     simple.Render(view)
+
+
+def _title_of_profile(source):
+    image = source.Input
+    return "Reflectance factor" if image is not None and image.PointData.GetArray("Reflectance") else "Response (1 = white)"

@@ -24,12 +24,17 @@ def adapt():
         simple.SetActiveView(suitable[0])
 
 
-def _view_of(source):
-    """The kind of view for a source of this plugin, also before it was applied; None for others."""
+def is_ours(source):
     hints = source.SMProxy.GetHints()
     menu = hints.FindNestedElementByName("ShowInMenu") if hints is not None else None
-    if menu is None or menu.GetAttribute("category") != CATEGORY:
+    return menu is not None and menu.GetAttribute("category") == CATEGORY
+
+
+def _view_of(source):
+    """The kind of view for a source of this plugin, also before it was applied; None for others."""
+    if not is_ours(source):
         return None
+    hints = source.SMProxy.GetHints()
     if hints.FindNestedElementByName("Representation") is not None and _takes_image(source):
         return "RenderView"
     view = hints.FindNestedElementByName("View")

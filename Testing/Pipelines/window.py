@@ -371,9 +371,10 @@ def open_files(window):
         if found != reader:
             window.picture("failed")
             raise Failed(f"File > Open took {found} for {name}")
+        window.click(window.wait(f"{name} to apply", lambda s: "Apply" in s["named"])["named"]["Apply"])
+        window.wait(f"{name} applied", lambda s: "Apply" not in s["named"])
     # The label image lies over the channels' picture, which is hidden; curves are a chart; tables begin with what a row is.
-    window.click(window.state()["named"]["Apply"])
-    state = window.wait("the files", lambda s: s["charts"] == 1 and "Apply" not in s["named"] and s["first columns"] and any(
+    state = window.wait("the files", lambda s: s["charts"] == 1 and s["first columns"] and any(
         view["arrays"] == [["POINTS", "Label", 1]] for view in s["views"].values()))
     if any(len(view["arrays"]) > 1 for view in state["views"].values()) or set(state["first columns"]) != {"sample"}:
         raise Failed(f"the views of the files show {state['views']}, tables beginning with {state['first columns']}")

@@ -1,27 +1,39 @@
 """The active view suits the selected source: ParaView shows a result in the active view where that can show it at all, and so an image as
-a table of its pixels after a table was looked at. Another table would get a view of its own each time."""
+a table of its pixels after a table was looked at. Another table would get a view of its own each time. A new image does not go into a view
+of the main job, whose caption tells of another one."""
 
-from PyQt5 import QtCore
+from PyQt5 import QtCore, QtWidgets
 from paraview import servermanager, simple
 
 from .menus import CATEGORY
 
 
-def install():
+def install(window):
     """Returns what must be kept."""
+    def act():
+        apply = window.findChild(QtWidgets.QAbstractButton, "Accept")
+        adapt(is_new=apply is not None and apply.isEnabled())
     model = servermanager.ProxyManager().GetSelectionModel("ActiveSources")
-    model.AddObserver("CurrentChangedEvent", lambda *_: QtCore.QTimer.singleShot(0, adapt))
+    model.AddObserver("CurrentChangedEvent", lambda *_: QtCore.QTimer.singleShot(0, act))
     return model
 
 
-def adapt():
+def adapt(is_new):
+    """is_new: the source was not shown yet."""
     source, active = simple.GetActiveSource(), simple.GetActiveView()
     wanted = _view_of(source) if source is not None and active is not None else None
-    if wanted is None or active.SMProxy.GetXMLName() == wanted:
+    fits = wanted is None or active.SMProxy.GetXMLName() == wanted
+    if fits and not (is_new and wanted is not None and _has_caption(active)):
         return
     suitable = [view for view in simple.GetViews() if view.SMProxy.GetXMLName() == wanted]
-    if suitable:
-        simple.SetActiveView(suitable[0])
+    free = [view for view in suitable if not _has_caption(view)]
+    if free or (suitable and not fits):
+        simple.SetActiveView((free or suitable)[0])
+
+
+def _has_caption(view):
+    inputs = [getattr(display, "Input", None) for display in view.Representations]
+    return any(source is not None and source.SMProxy.GetXMLName() == "TextSource" for source in inputs)
 
 
 def is_ours(source):

@@ -32,7 +32,7 @@ def install(window):
         action.triggered.connect(lambda _checked, act=act: _guarded(window, act))
     window.addToolBar(toolbar)
     return (panel, toolbar, help.install(window), message_window.install(window), reader_choice.ReaderChoice(window),
-            menus.Order(window), view_choice.install(), stack_choice.install(window))
+            menus.Order(window), view_choice.install(window), stack_choice.install(window))
 
 
 def _guarded(window, act):
@@ -60,7 +60,7 @@ def open_scene(window):
     folder = _ask_folder(window)
     if folder:
         _, scene = main_job.open_scene(folder)
-        view_choice.adapt()
+        view_choice.adapt(is_new=True)
         view = simple.GetActiveViewOrCreate("RenderView")
         simple.Show(scene, view)
         view.InteractionMode = "2D"

@@ -339,9 +339,11 @@ def menus(window):
         window.click(window.state()["named"][menu])
         state = window.wait(f"the menu {menu}", lambda s: "Multispectral menu" in s["named"])
         x, y = state["named"]["Multispectral menu"]
-        for shift in (-40, -20, 0):  # a menu opens under a pointer that moves over it, not under one that is there at once
+        for shift in 3 * (-40, -20, 0):  # a menu opens under a pointer that moves over it, not under one that is there at once
             window.xdotool("mousemove", x + shift, y)
             time.sleep(0.4)
+            if any(separator for _, separator, _ in window.state()["menu"]):
+                break
         entries = window.wait("its entries", lambda s: any(separator for _, separator, _ in s["menu"]))["menu"]
         window.picture(f"menu {menu}")
         window.key("Escape", "Escape", "Escape")

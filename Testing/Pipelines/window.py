@@ -420,9 +420,7 @@ def reset(window):
     """Edit > Reset Session takes the spectra of what is deleted along."""
     if not window.state()["pins"]:
         raise Failed("there are no spectra that could stay")
-    window.click(window.state()["named"]["Edit"])
-    time.sleep(0.5)
-    window.key("r")
+    window.key("ctrl+r")
     window.wait("the question", lambda s: "Delete All?" in s["dialogs"])
     window.key("Return")
     window.wait("no spectra", lambda s: not s["sources"] and not s["pins"] and not s["live"])

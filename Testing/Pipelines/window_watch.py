@@ -131,7 +131,7 @@ def _state():
     entries = []
     for action in main.menuBar().actions():
         title = action.text().replace("&", "")
-        if title in ("Edit", "Sources", "Filters") and action.menu() is not None:
+        if title in ("Sources", "Filters") and action.menu() is not None:
             place = main.menuBar().mapToGlobal(main.menuBar().actionGeometry(action).center())
             named[title] = [place.x(), place.y()]
             ours = next((a for a in action.menu().actions() if a.menu() is not None and a.text() == "Multispectral"), None)

@@ -344,6 +344,8 @@ def menus(window):
             time.sleep(0.4)
             if any(separator for _, separator, _ in window.state()["menu"]):
                 break
+        if not any(separator for _, separator, _ in window.state()["menu"]):
+            window.click([x, y])
         entries = window.wait("its entries", lambda s: any(separator for _, separator, _ in s["menu"]))["menu"]
         window.picture(f"menu {menu}")
         window.key("Escape", "Escape", "Escape")

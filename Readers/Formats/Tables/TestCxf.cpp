@@ -51,8 +51,8 @@ TEST_F(Cxf, ReadsSpectraOfObjects)
   EXPECT_EQ(table.reflectance.col(1), Eigen::Vector3d(0.4, 0.5, 0.6));
   EXPECT_EQ(table.reflectance.col(2), Eigen::Vector3d(1, 1, 1));
   EXPECT_EQ(table.notes,
-    (Names{ "1 objects without a spectrum were left out",
-      "1 objects have several spectra: the first was read" }));
+    (Names{ "1 object without a spectrum was left out",
+      "1 object has several spectra: the first was read" }));
 }
 
 TEST_F(Cxf, EncodingsOtherThanUtf8)

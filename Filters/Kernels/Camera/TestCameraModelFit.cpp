@@ -231,7 +231,7 @@ TEST(CameraModelFit, LeavesOutSamplesThatAreNotFinite)
   reflectance(3, 39) = std::numeric_limits<double>::quiet_NaN();
   const CameraModelFit fit = msi::fitCameraModel(visibleGrid(), reflectance, response, options);
   EXPECT_EQ(fit.camera.responsivity(), without.camera.responsivity());
-  EXPECT_NE(fit.summary.status.find("1 samples with values that are not finite were left out"),
+  EXPECT_NE(fit.summary.status.find("1 sample with values that are not finite was left out"),
     std::string::npos);
 }
 

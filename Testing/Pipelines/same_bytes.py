@@ -1,4 +1,4 @@
-"""The commands give the same tables and images however they are run.
+"""The commands give the same tables, images and reports however they are run.
 
 usage: same_bytes.py LAUNCHER FOLDER [all | WAY...]
 
@@ -16,7 +16,7 @@ import sys
 
 ROOT = pathlib.Path(os.environ.get("MULTISPECTRAL_ROOT") or pathlib.Path(__file__).resolve().parents[2])
 FORCE = pathlib.Path(__file__).resolve().parent / "force_target.cpp"
-COMPARED = (".csv", ".exr", ".img", ".hdr", ".json")
+COMPARED = (".csv", ".exr", ".img", ".hdr", ".json", ".html")
 # Name: environment, options, relative difference of numbers that is allowed. The first is what the others are compared with.
 WAYS = {
     "threads": ({}, [], 0.0),

@@ -43,7 +43,7 @@ def _require_utf8(path, remedy):
 def _files_of(path):
     stem, extension = os.path.splitext(path)
     partners = next((group for group in _PARTNERS if extension.lower() in group), ())
-    return [path] + [stem + other for other in partners]
+    return [path] + [stem + other for other in sorted(partners) if stem + other != path]
 
 
 def claim(folder, patterns):
@@ -175,7 +175,7 @@ def _remove_old_results():
 
 def list_of_written():
     """What this run has written, for its report: the next run into the same folder removes it."""
-    files = [file for path in _written for file in _files_of(path) if file == path or os.path.isfile(file)]
+    files = dict.fromkeys(file for path in _written for file in _files_of(path) if file == path or os.path.isfile(file))
     names = [os.path.relpath(file, _declared[0]) for file in files] if _declared else []
     return f"<meta name='multispectral-files' content='{html.escape(json.dumps(names), quote=True)}'>"
 

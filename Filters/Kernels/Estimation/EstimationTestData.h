@@ -1,12 +1,17 @@
-// What the tests of this room share: the expected values of reference_estimation.py, error texts, and
+// What the tests of this room share: the expected values of reference_estimation.py, instruction sets, error texts, and
 // the real samples outside the repository.
 #pragma once
 
 #include "Kernels/Estimation/NamedMatrixText.h"
 #include "Kernels/Estimation/SampleSet.h"
 
+#include <hwy/targets.h>
+
 #include <Eigen/Core>
 
+#include <gtest/gtest.h>
+
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -22,6 +27,23 @@ namespace msi::test
 {
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+// Calls check() with the best instruction set of this processor off, then the two best, and so on.
+template <typename Check>
+void withLesserInstructionSets(const Check& check)
+{
+  std::uint32_t disabled = 0;
+  for (std::uint32_t best = hwy::SupportedTargets(); (best & (best - 1)) != 0;
+       best = hwy::SupportedTargets())
+  {
+    disabled |= best & (~best + 1U);
+    hwy::DisableTargets(disabled);
+    SCOPED_TRACE("without targets " + std::to_string(disabled));
+    check();
+  }
+  hwy::DisableTargets(0);
+  EXPECT_NE(disabled, 0U) << "only one instruction set was tried";
+}
 
 // One problem with its solutions, all computed by NumPy.
 class ExpectedEstimation

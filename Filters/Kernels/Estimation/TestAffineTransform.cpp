@@ -2,7 +2,6 @@
 #include "Kernels/Estimation/EstimationTestData.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,17 +115,12 @@ TEST(AffineTransform, SameBytesOnEveryInstructionSet)
   const auto wide = randomBlock<double>(16 * 50, 8);
   const auto expected = run(transform, in);
   const auto expectedWide = run(transform, wide);
-  std::uint32_t disabled = 0;
-  for (std::uint32_t best = hwy::SupportedTargets(); (best & (best - 1)) != 0;
-       best = hwy::SupportedTargets())
-  {
-    disabled |= best & (~best + 1U);
-    hwy::DisableTargets(disabled);
-    EXPECT_EQ(run(transform, in), expected) << "without targets " << disabled;
-    EXPECT_EQ(run(transform, wide), expectedWide) << "without targets " << disabled;
-  }
-  hwy::DisableTargets(0);
-  EXPECT_NE(disabled, 0U) << "only one instruction set was tried";
+  msi::test::withLesserInstructionSets(
+    [&]
+    {
+      EXPECT_EQ(run(transform, in), expected);
+      EXPECT_EQ(run(transform, wide), expectedWide);
+    });
 }
 
 TEST(AffineTransform, NaNStaysInItsPixel)

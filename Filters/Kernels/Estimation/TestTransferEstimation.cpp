@@ -2,7 +2,6 @@
 #include "Kernels/Estimation/TransferEstimation.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <cstring>
@@ -240,15 +239,8 @@ void expectSameBytes()
         whole.middleCols(first, count));
     }
   }
-  std::uint32_t disabled = 0;
-  for (std::uint32_t best = hwy::SupportedTargets(); (best & (best - 1)) != 0;
-       best = hwy::SupportedTargets())
-  {
-    disabled |= best & (~best + 1U);
-    hwy::DisableTargets(disabled);
-    EXPECT_EQ(meanAndDeviation<Scalar>(estimator, in), whole) << "without targets " << disabled;
-  }
-  hwy::DisableTargets(0);
+  msi::test::withLesserInstructionSets(
+    [&] { EXPECT_EQ(meanAndDeviation<Scalar>(estimator, in), whole); });
 }
 
 TEST(TransferEstimator, SameBytesForAnySplitAndInstructionSet)

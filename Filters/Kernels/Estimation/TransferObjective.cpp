@@ -1,5 +1,6 @@
 #include "Kernels/Estimation/TransferObjective.h"
 
+#include "Kernels/Estimation/InverseFactor.h"
 #include "Kernels/Estimation/ThinSvd.h"
 
 #include <Eigen/Cholesky>
@@ -40,33 +41,6 @@ Eigen::MatrixXd channelPriorFactor(Eigen::Index channels)
   }
   return prior.llt().matrixL();
 }
-
-// Rows that are worked on together where half of a matrix is zero.
-constexpr Eigen::Index PanelRows = 48;
-
-// Inverts the lower triangle in place: both halves, then what couples them is multiplied by both
-// inverses. 'work' is as large; above the diagonal nothing is read, and what is there is lost.
-void invertLower(Eigen::Ref<Eigen::MatrixXd> factor, Eigen::Ref<Eigen::MatrixXd> work)
-{
-  const Eigen::Index size = factor.rows();
-  const Eigen::Index upper = size / 2;
-  const Eigen::Index lower = size - upper;
-  if (size <= PanelRows)
-  {
-    work.setIdentity();
-    factor.triangularView<Eigen::Lower>().solveInPlace(work);
-    factor = work;
-    return;
-  }
-  invertLower(factor.topLeftCorner(upper, upper), work.topLeftCorner(upper, upper));
-  invertLower(factor.bottomRightCorner(lower, lower), work.topLeftCorner(lower, lower));
-  auto coupled = work.topLeftCorner(lower, upper);
-  coupled.noalias() = factor.bottomLeftCorner(lower, upper) *
-    factor.topLeftCorner(upper, upper).triangularView<Eigen::Lower>();
-  coupled *= -1.0;
-  factor.bottomLeftCorner(lower, upper).noalias() =
-    factor.bottomRightCorner(lower, lower).triangularView<Eigen::Lower>() * coupled;
-}
 }
 
 TransferObjective::TransferObjective(const TransferFeatures& start,
@@ -94,11 +68,11 @@ TransferObjective::TransferObjective(const TransferFeatures& start,
   }
   if (kept == 0) // every sample has the same reflectance: there is nothing to learn but that
   {
-    Y = Eigen::MatrixXd::Zero(Chart + Tuning, 1);
+    Y = Eigen::MatrixXd::Zero(1, Chart + Tuning);
     return;
   }
-  Y = svd.left.leftCols(kept) *
-    (svd.singular.head(kept) * std::sqrt(static_cast<double>(Chart + Tuning) / total)).asDiagonal();
+  const double scale = std::sqrt(static_cast<double>(Chart + Tuning) / total);
+  Y = (scale * svd.singular.head(kept)).asDiagonal() * svd.left.leftCols(kept).transpose();
 }
 
 Eigen::VectorXd TransferObjective::start() const
@@ -134,7 +108,8 @@ void TransferObjective::computeCovariance(const TransferKernel& kernel)
   const double length = kernel[Kernel::Length];
   Norms = X.colwise().squaredNorm().transpose() * perChannel;
   Products.setZero(samples, samples);
-  Products.selfadjointView<Eigen::Lower>().rankUpdate(X.transpose(), perChannel);
+  const Eigen::MatrixXd rows = X.transpose();
+  addOuterProduct(Products, perChannel * rows, rows);
   Smooth.resize(samples, samples);
   Matrix.resize(samples, samples);
   for (Eigen::Index j = 0; j < samples; ++j)
@@ -155,49 +130,40 @@ void TransferObjective::computeCovariance(const TransferKernel& kernel)
 double TransferObjective::likelihood()
 {
   const Eigen::Index samples = Chart + Tuning;
-  Eigen::Ref<Eigen::MatrixXd> inPlace(Matrix);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(inPlace);
-  if (cholesky.info() != Eigen::Success)
+  Eigen::VectorXd diagonal(samples);
+  Work.resize(samples, samples);
+  if (!invertFactor(Matrix, diagonal, Work))
   {
     return std::numeric_limits<double>::infinity();
   }
-  const Eigen::VectorXd logDiagonal = Matrix.diagonal().array().log();
-  Work.resize(samples, samples);
-  invertLower(inPlace, Work);
-  const auto inverseFactor = Matrix.triangularView<Eigen::Lower>();
+  const Eigen::VectorXd logDiagonal = diagonal.array().log();
 
   // The chart's own factor is the leading block.
-  const Eigen::MatrixXd white = inverseFactor * Y;
-  const double chartFit = white.topRows(Chart).squaredNorm();
-  const double tuningFit = white.bottomRows(Tuning).squaredNorm();
+  Eigen::MatrixXd white = Eigen::MatrixXd::Zero(Y.rows(), samples);
+  addTimesTransposedLower(white, Y, Matrix);
+  const double chartFit = white.leftCols(Chart).squaredNorm();
+  const double tuningFit = white.rightCols(Tuning).squaredNorm();
   const double count = static_cast<double>(Tuning) + ChartShare * static_cast<double>(Chart);
   // Outputs that are all 0, where every sample has the same reflectance, fit any kernel.
   const double fit = std::max(tuningFit + ChartShare * chartFit, LeastFit * count);
   const double logDeterminant =
     logDiagonal.tail(Tuning).sum() + ChartShare * logDiagonal.head(Chart).sum();
   const double scale = 0.5 * EffectiveOutputs * count / fit;
-  const Eigen::MatrixXd whole = Matrix.transpose().triangularView<Eigen::Upper>() * white;
-  const Eigen::MatrixXd chartOnly =
-    Matrix.topLeftCorner(Chart, Chart).transpose().triangularView<Eigen::Upper>() *
-    white.topRows(Chart);
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(Y.rows(), samples);
+  addTimesLower(whole, white, Matrix);
+  Eigen::MatrixXd ofChart = Eigen::MatrixXd::Zero(Y.rows(), Chart);
+  addTimesLower(ofChart, white.leftCols(Chart), Matrix.topLeftCorner(Chart, Chart));
 
   // Rows of the inverse factor weighted by their share turn K^-1 and the chart's K_A^-1 into one
-  // product: sum over rows i of share_i l_i l_i', each of which ends at its diagonal.
-  Matrix.topRows(Chart) *= std::sqrt(ChartShare);
+  // product: sum over rows i of share_i l_i l_i'.
+  const double weight = std::sqrt(0.5 * EffectiveOutputs);
+  Matrix.topRows(Chart) *= weight * std::sqrt(ChartShare);
+  Matrix.bottomRows(Tuning) *= weight;
   Sensitivity.setZero(samples, samples);
-  for (Eigen::Index first = 0; first < samples; first += PanelRows)
-  {
-    const Eigen::Index rows = std::min(PanelRows, samples - first);
-    const Eigen::Index columns = first + rows;
-    Matrix.block(first, first, rows, rows).triangularView<Eigen::StrictlyUpper>().setZero();
-    Sensitivity.topLeftCorner(columns, columns)
-      .selfadjointView<Eigen::Lower>()
-      .rankUpdate(Matrix.block(first, 0, rows, columns).transpose(), 0.5 * EffectiveOutputs);
-  }
-  Sensitivity.selfadjointView<Eigen::Lower>().rankUpdate(whole, -scale);
-  Sensitivity.topLeftCorner(Chart, Chart)
-    .selfadjointView<Eigen::Lower>()
-    .rankUpdate(chartOnly, scale * (1.0 - ChartShare));
+  addSquare(Sensitivity, Matrix, Work);
+  addOuterProduct(Sensitivity, -scale * whole.transpose(), whole.transpose());
+  addOuterProduct(Sensitivity.topLeftCorner(Chart, Chart),
+    scale * (1.0 - ChartShare) * ofChart.transpose(), ofChart.transpose());
   return EffectiveOutputs * (0.5 * count * std::log(fit) + logDeterminant);
 }
 

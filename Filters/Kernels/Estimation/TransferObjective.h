@@ -68,7 +68,7 @@ private:
   Eigen::VectorXd Center; // of the kernel's prior
   Eigen::MatrixXd Factor; // of the channels' prior covariance
   Eigen::MatrixXd X;
-  Eigen::MatrixXd Y;
+  Eigen::MatrixXd Y; // a column for each sample
   // Kept from call to call: fresh matrices of this size cost as much in page faults as the arithmetic.
   Eigen::ArrayXd Norms;     // x.x/K
   Eigen::MatrixXd Products; // x.x'/K

@@ -16,6 +16,7 @@
 
 #include "Kernels/Estimation/CrossedErrors.h"
 #include "Kernels/Estimation/MethodComparison.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -181,10 +182,10 @@ std::string textOf(
     const char* separator = " with ";
     for (const auto count : method.counts)
     {
-      text << std::exchange(separator, ", ") << counts[count].samples;
+      text << std::exchange(separator, ", ");
+      text << (count == method.counts.back() ? msi::counted(counts[count].samples, "tuning sample")
+                                             : std::to_string(counts[count].samples));
     }
-    const auto alone = method.counts.size() == 1 ? counts[method.counts.front()].samples : 0;
-    text << (alone == 1 ? " tuning sample" : " tuning samples");
   }
   text << ": " << method.reason;
   return text.str();

@@ -2,6 +2,8 @@
 
 #include "SampleColumns.h"
 
+#include "Kernels/Spectra/Counted.h"
+
 #include "vtkDataArray.h"
 #include "vtkTable.h"
 
@@ -112,8 +114,9 @@ StandardObserver observerOf(vtkTable* table, const std::string& name)
     [&](const Curve& curve) { return curve.wavelengths == curves.front().wavelengths; });
   if (curves.size() != 3 || !same)
   {
-    throw std::invalid_argument(nameOfTable + " has " + std::to_string(curves.size()) +
-      (curves.size() == 1 ? " curve" : " curves") + (same ? "" : " over different wavelengths") +
+    throw std::invalid_argument(nameOfTable + " has " +
+      msi::counted(static_cast<std::ptrdiff_t>(curves.size()), "curve") +
+      (same ? "" : " over different wavelengths") +
       "; expected three over the same wavelengths: x-bar, y-bar and z-bar, in this order");
   }
   Eigen::Matrix3Xd functions(3, curves.front().values.size());

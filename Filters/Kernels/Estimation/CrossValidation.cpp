@@ -68,9 +68,9 @@ std::string choiceText(const CandidateChoice& choice, const SampleSet& tuning)
   }
   else
   {
-    text << "taken as given: " << tuning.size()
-         << (tuning.size() == 1 ? " tuning sample is" : " tuning samples are")
-         << " too few to choose; expected at least " << FewestToChoose;
+    text << "taken as given: " << counted(tuning.size(), "tuning sample")
+         << (tuning.size() == 1 ? " is" : " are") << " too few to choose; expected at least "
+         << FewestToChoose;
   }
   return text.str();
 }

@@ -87,7 +87,7 @@ std::string statusOf(const StructureChoice& choice, const MetamerismFit& fit,
   std::ostringstream status;
   const auto rounds = fit.history.size();
   status << (fit.structure == BandStructure::Diagonal ? "diagonal" : "tridiagonal")
-         << " transform after " << rounds << (rounds == 1 ? " round" : " rounds");
+         << " transform after " << counted(static_cast<std::ptrdiff_t>(rounds), "round");
   if (stoppedByColor)
   {
     status << ", stopped by the change of the mean color difference";

@@ -7,6 +7,7 @@
 #include "Kernels/Estimation/SampleDraw.h"
 #include "Kernels/Estimation/StudentQuantile.h"
 #include "Kernels/Estimation/TransferExpert.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,10 +153,9 @@ FitSummary summarize(const TransferExpertFit& linear, const TransferExpertFit& s
   summary.iterations = linear.iterations + squareRoot.iterations;
   std::ostringstream status;
   status.precision(2);
-  status << "learned from " << calibration.size() << " chart and " << tuning.size()
-         << (tuning.size() == 1 ? " tuning sample; shares " : " tuning samples; shares ")
-         << std::fixed << shares[0] << " linear, " << shares[1] << " square root, " << shares[2]
-         << " affine";
+  status << "learned from " << calibration.size() << " chart and "
+         << counted(tuning.size(), "tuning sample") << "; shares " << std::fixed << shares[0]
+         << " linear, " << shares[1] << " square root, " << shares[2] << " affine";
   summary.complete = tuning.size() >= 5;
   if (!summary.complete)
   {

@@ -2,6 +2,7 @@
 
 #include "Formats/Text/NumberText.h"
 
+#include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/PossibleValues.h"
 
 #include <optional>
@@ -96,9 +97,9 @@ void noteNegativeReflectance(SampleTable& table)
     Eigen::Index band = 0;
     Eigen::Index sample = 0;
     const double least = table.reflectance.minCoeff(&band, &sample);
-    table.notes.push_back("reflectance is below 0 in " + std::to_string(negative) +
-      (negative == 1 ? " sample" : " samples") + ", down to " + numberText(least) + " in " +
-      nameOf(table, sample) + " at " + numberText((*table.wavelengths)[band]) + " nm");
+    table.notes.push_back("reflectance is below 0 in " + counted(negative, "sample") +
+      ", down to " + numberText(least) + " in " + nameOf(table, sample) + " at " +
+      numberText((*table.wavelengths)[band]) + " nm");
   }
 }
 }

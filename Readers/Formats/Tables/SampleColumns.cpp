@@ -5,6 +5,8 @@
 #include "Formats/Text/NumberText.h"
 #include "Formats/Text/SpectralNames.h"
 
+#include "Kernels/Spectra/Counted.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -183,7 +185,7 @@ void requireRectangular(const TextTable& table)
       const TextCell& place = row.size() > width ? row[width] : row.back();
       const bool cutOff = &row == &table.rows.back() && row.size() < width && table.endsInsideLine;
       throw FormatError(table.place(place),
-        "this row has " + std::to_string(row.size()) + (row.size() == 1 ? " cell" : " cells"),
+        "this row has " + counted(static_cast<std::ptrdiff_t>(row.size()), "cell"),
         std::to_string(width) + ", as line " + std::to_string(table.rows[0][0].line) + " has",
         cutOff ? "the file seems to be cut off" : "complete the row or remove it");
     }

@@ -3,6 +3,7 @@
 #include "Kernels/Estimation/CrossValidation.h"
 #include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/Responsivity.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -68,8 +69,8 @@ EstimationFit fitPrincipalComponents(
   }
   std::ostringstream status;
   status.precision(3);
-  status << best.components << (best.components == 1 ? " component" : " components")
-         << ", tuning weight " << best.tuningWeight << ", " << choiceText(choice, tuning);
+  status << counted(best.components, "component") << ", tuning weight " << best.tuningWeight << ", "
+         << choiceText(choice, tuning);
   FitSummary summary = summaryOfChoice(choice, calibration, tuning, status.str());
   summary.rank = best.components;
   summary.unknowns = best.components * (calibration.channels() + 1);

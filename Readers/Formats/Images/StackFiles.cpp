@@ -3,9 +3,7 @@
 #include "Formats/Text/SpectralNames.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -16,40 +14,15 @@ namespace
 {
 namespace fs = std::filesystem;
 
-bool isOneOf(char c, std::string_view characters)
-{
-  return characters.find(c) != std::string_view::npos;
-}
-
 // The name with its wavelength replaced by a star; empty where it holds none, or several.
-std::string patternOf(const std::string& name)
+std::string patternOf(std::string name)
 {
   const auto wavelengths = fileNameWavelengths(name);
   if (wavelengths.size() != 1 || !wavelengths[0].hasUnit)
   {
     return {};
   }
-  std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (auto unit = lower.find("nm"); unit != std::string::npos; unit = lower.find("nm", unit + 1))
-  {
-    auto end = unit;
-    while (end > 0 && isOneOf(lower[end - 1], "_- "))
-    {
-      --end;
-    }
-    auto begin = end;
-    while (begin > 0 && isOneOf(lower[begin - 1], "0123456789.,"))
-    {
-      --begin;
-    }
-    if (begin < end)
-    {
-      return name.substr(0, begin) + "*" + name.substr(end);
-    }
-  }
-  return {};
+  return name.replace(wavelengths[0].begin, wavelengths[0].end - wavelengths[0].begin, "*");
 }
 }
 

@@ -76,6 +76,8 @@ struct NumberInText
   double value;
   bool unit;        // "nm" follows, perhaps after a blank, _ or -
   bool letterAfter; // another letter follows at once
+  std::size_t begin;
+  std::size_t end;
 };
 
 std::vector<NumberInText> numbersIn(std::string_view text, bool decimalComma = false)
@@ -105,7 +107,8 @@ std::vector<NumberInText> numbersIn(std::string_view text, bool decimalComma = f
     if (const auto value =
           parseNumber(std::string_view(lower).substr(begin, end - begin), decimalComma))
     {
-      numbers.push_back({ *value, hasUnit, end < lower.size() && isLetter(lower[end]) });
+      numbers.push_back(
+        { *value, hasUnit, end < lower.size() && isLetter(lower[end]), begin, end });
     }
     begin = end;
   }
@@ -143,12 +146,12 @@ std::vector<FileNameWavelength> fileNameWavelengths(const std::string& path)
   {
     if (found.unit && found.value >= ShortestWavelength && found.value <= LongestWavelength)
     {
-      marked.push_back({ found.value, true });
+      marked.push_back({ found.value, true, found.begin, found.end });
     }
     if (!found.letterAfter && found.value >= SmallestResponseWavelength &&
       found.value <= LongestFileNameWavelength)
     {
-      alone.push_back({ found.value, false });
+      alone.push_back({ found.value, false, found.begin, found.end });
     }
   }
   return marked.empty() ? alone : marked;

@@ -1,6 +1,7 @@
 // What the names of columns, channels and files say about wavelengths.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,7 +23,9 @@ bool areResponseWavelengths(const std::vector<double>& numbers) noexcept;
 struct FileNameWavelength
 {
   double nanometres;
-  bool hasUnit; // "nm" follows the number; without it the number may be a frame number
+  bool hasUnit;      // "nm" follows the number; without it the number may be a frame number
+  std::size_t begin; // of the number in the file's name (without folder)
+  std::size_t end;   // behind its last digit
 };
 
 // nm in the name of an image file: the numbers followed by "nm" (channel_450nm.tif, 450,5nm.png); where there are none,

@@ -12,7 +12,7 @@ _LEADING = ("method", "rank", "sample", "label", "medium", "effect", "form", "ax
             "dx", "dy", "agreement")
 
 _seen = set()  # global ids of displays
-_widths = {}  # of a table's header: what it showed when it was put in order
+_ordered = {}  # the columns that each table showed when they were put in order
 
 
 def adapt(window):
@@ -75,9 +75,9 @@ def order_columns(table):
     """Once for each set of columns: the user may move them afterwards."""
     header, model = table.horizontalHeader(), table.model()
     names = tuple(str(model.headerData(i, QtCore.Qt.Horizontal)) for i in range(header.count())) if model is not None else ()
-    if not names or _widths.get(table) == names:
+    if not names or _ordered.get(table) == names:
         return
-    _widths[table] = names
+    _ordered[table] = names
     place = 0
     for name in _LEADING:
         if name in names:

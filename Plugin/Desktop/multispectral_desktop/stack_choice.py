@@ -1,25 +1,15 @@
 """A channel that is opened by File > Open is opened with the other channels of its image: one alone is a gray picture of no use."""
 
-from PyQt5 import QtCore, QtWidgets
-from paraview import servermanager, simple
+from paraview import simple
 
-_seen = set()  # global ids
-
-
-def install(window):
-    """Returns what must be kept."""
-    model = servermanager.ProxyManager().GetSelectionModel("ActiveSources")
-    model.AddObserver("CurrentChangedEvent", lambda *_: QtCore.QTimer.singleShot(0, lambda: adapt(window)))
-    return model
+_seen = set()  # global ids of readers: who then chooses one channel keeps it
 
 
-def adapt(window):
-    source, apply = simple.GetActiveSource(), window.findChild(QtWidgets.QAbstractButton, "Accept")
+def adapt(source):
     if source is None or source.SMProxy.GetXMLName() != "SpectralImageReader" or source.SMProxy.GetGlobalID() in _seen:
         return
     _seen.add(source.SMProxy.GetGlobalID())
-    # One that a script or a state file has made is not waiting for Apply.
-    if apply is None or not apply.isEnabled() or len(source.FileNames) != 1:
+    if len(source.FileNames) != 1:
         return
     source.WholeStack = 1
     source.UpdatePipelineInformation()

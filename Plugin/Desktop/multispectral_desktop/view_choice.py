@@ -2,20 +2,9 @@
 a table of its pixels after a table was looked at. Another table would get a view of its own each time. A new image does not go into a view
 of the main job, whose caption tells of another one."""
 
-from PyQt5 import QtCore, QtWidgets
-from paraview import servermanager, simple
+from paraview import simple
 
 from .menus import CATEGORY
-
-
-def install(window):
-    """Returns what must be kept."""
-    def act():
-        apply = window.findChild(QtWidgets.QAbstractButton, "Accept")
-        adapt(is_new=apply is not None and apply.isEnabled())
-    model = servermanager.ProxyManager().GetSelectionModel("ActiveSources")
-    model.AddObserver("CurrentChangedEvent", lambda *_: QtCore.QTimer.singleShot(0, act))
-    return model
 
 
 def adapt(is_new):

@@ -2,7 +2,7 @@
 #ifndef FitSummaryTable_h
 #define FitSummaryTable_h
 
-#include "Kernels/Estimation/FitSummary.h"
+#include "Kernels/Numerics/FitSummary.h"
 
 #include <string>
 

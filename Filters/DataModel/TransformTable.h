@@ -8,8 +8,8 @@
 
 #include "SpectralAxis.h"
 
-#include "Kernels/Estimation/AffineTransform.h"
 #include "Kernels/Estimation/ReflectanceEstimator.h"
+#include "Kernels/Numerics/AffineTransform.h"
 
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 #include "Kernels/Difference/CIEDE2000.h"
 #include "Kernels/Estimation/EstimationTestData.h"
 #include "Kernels/Estimation/ResponseColor.h"
-#include "Kernels/Estimation/TransferEstimation.h"
+#include "Kernels/Estimation/Transfer/TransferEstimation.h"
 
 #include <benchmark/benchmark.h>
 

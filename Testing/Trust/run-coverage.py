@@ -31,7 +31,7 @@ def gcovr(*options):
 def main():
     choice = [argument for argument in sys.argv[1:] if argument.startswith("--rooms=")]
     rooms = choice[-1].partition("=")[2].split(",") if choice else []
-    face = ["-DMULTISPECTRAL_FACE=kernels", "-DMULTISPECTRAL_KERNEL_ROOMS=" + ";".join(rooms)] if rooms else \
+    face = ["-DMULTISPECTRAL_FACE=kernels", "-DMULTISPECTRAL_ONLY_ROOMS=" + ";".join(rooms)] if rooms else \
         ["-DMULTISPECTRAL_FACE=formats", "-DMULTISPECTRAL_FUZZ=OFF"]
     targets = ["--target", *(f"Test{room}" for room in rooms)] if rooms else []
     tests = ["-L", f"^({'|'.join(rooms)})$"] if rooms else []

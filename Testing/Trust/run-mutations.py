@@ -15,7 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "mutations"
 SOURCE = BUILD / "source"
-ROOMS = "Spectra;Colorimetry;Difference;Sampling;Estimation;Camera;Scenes"
+ROOMS = "Spectra;Numerics;Colorimetry;Difference;Sampling;Estimation;Camera;Scenes"
 
 
 def mutations():
@@ -58,7 +58,7 @@ def main():
     copy_sources()
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     subprocess.run(["cmake", "--preset", "kernels", "-S", SOURCE, "-B", BUILD / "tree", "-DCMAKE_BUILD_TYPE=Release",
-                    f"-DMULTISPECTRAL_KERNEL_ROOMS={ROOMS}", *launcher], check=True,
+                    f"-DMULTISPECTRAL_ONLY_ROOMS={ROOMS}", *launcher], check=True,
                    cwd=SOURCE, stdout=subprocess.DEVNULL)
     rooms = sorted({known[number - 1][3] for number in chosen})
     trouble = build(*(f"Test{room}" for room in rooms))

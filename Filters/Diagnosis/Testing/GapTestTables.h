@@ -8,7 +8,7 @@
 
 #include "Kernels/Camera/CameraDesign.h"
 #include "Kernels/Camera/CameraResponse.h"
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <cmath>
 

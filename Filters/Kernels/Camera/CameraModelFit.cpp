@@ -1,7 +1,7 @@
 #include "Kernels/Camera/CameraModelFit.h"
 
 #include "Kernels/Camera/ChannelFit.h"
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Kernels/Camera/CameraModel.h"
-#include "Kernels/Estimation/FitSummary.h"
+#include "Kernels/Numerics/FitSummary.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #include "Kernels/Camera/CameraNoise.h"
 
 #include "Kernels/Camera/CameraNoiseKernel.h"
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>

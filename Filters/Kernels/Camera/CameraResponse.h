@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Kernels/Camera/CameraModel.h"
-#include "Kernels/Estimation/AffineTransform.h"
+#include "Kernels/Numerics/AffineTransform.h"
 
 namespace msi
 {

@@ -3,11 +3,11 @@
 
 #include "Kernels/Camera/CameraDesign.h"
 #include "Kernels/Camera/CameraSimulator.h"
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
+#include "Kernels/Numerics/NumericsTestData.h"
 
 #include <Eigen/Core>
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,20 +70,6 @@ inline Eigen::MatrixXd responseWith(
 {
   return CameraSimulator(sevenChannels(), std::move(effects), { whiteAfterEffects })
     .respond(rasterScene());
-}
-
-template <typename Action>
-std::string messageOf(Action action)
-{
-  try
-  {
-    action();
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
-  return {};
 }
 
 } // namespace msi::test

@@ -1,6 +1,6 @@
 #include "Kernels/Camera/ChannelFit.h"
 
-#include "Kernels/Camera/NonNegativeLeastSquares.h"
+#include "Kernels/Numerics/NonNegativeLeastSquares.h"
 
 #include <Eigen/Cholesky>
 

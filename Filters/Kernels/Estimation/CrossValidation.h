@@ -1,8 +1,8 @@
 // Choosing hyperparameters by the error on tuning samples that are left out.
 #pragma once
 
-#include "Kernels/Estimation/FitSummary.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Numerics/FitSummary.h"
 
 #include <Eigen/Core>
 

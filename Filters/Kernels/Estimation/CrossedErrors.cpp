@@ -1,6 +1,6 @@
 #include "Kernels/Estimation/CrossedErrors.h"
 
-#include "Kernels/Estimation/StudentQuantile.h"
+#include "Kernels/Numerics/StudentQuantile.h"
 
 #include <algorithm>
 #include <cmath>

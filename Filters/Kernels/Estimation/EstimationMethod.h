@@ -1,10 +1,10 @@
 // The methods of estimation: one record each, in one registry.
 #pragma once
 
-#include "Kernels/Estimation/FitSummary.h"
 #include "Kernels/Estimation/MetamerismCorrection.h"
 #include "Kernels/Estimation/ReflectanceEstimator.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Numerics/FitSummary.h"
 
 #include <memory>
 #include <optional>

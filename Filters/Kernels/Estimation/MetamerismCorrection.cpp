@@ -1,8 +1,8 @@
 #include "Kernels/Estimation/MetamerismCorrection.h"
 
-#include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/MeanColorDifference.h"
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
+#include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 

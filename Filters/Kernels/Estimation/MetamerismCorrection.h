@@ -1,9 +1,9 @@
 // Cross-media metamerism correction: the method "banded".
 #pragma once
 
-#include "Kernels/Estimation/AffineTransform.h"
-#include "Kernels/Estimation/FitSummary.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Numerics/AffineTransform.h"
+#include "Kernels/Numerics/FitSummary.h"
 #include "Kernels/Spectra/WavelengthGrid.h"
 
 #include <Eigen/Core>

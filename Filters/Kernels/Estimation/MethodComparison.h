@@ -1,9 +1,9 @@
 // Compares estimation methods on a target medium: random tuning samples, the rest held out.
 #pragma once
 
-#include "Kernels/Estimation/FitSummary.h"
 #include "Kernels/Estimation/SampleDraw.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Numerics/FitSummary.h"
 #include "Kernels/Spectra/WavelengthGrid.h"
 
 #include <Eigen/Core>

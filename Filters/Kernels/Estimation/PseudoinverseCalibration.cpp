@@ -1,6 +1,6 @@
 #include "Kernels/Estimation/PseudoinverseCalibration.h"
 
-#include "Kernels/Estimation/LeastSquares.h"
+#include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 

@@ -1,9 +1,9 @@
 // Reflectance transform from samples by least squares: the methods direct, pinv and pooled.
 #pragma once
 
-#include "Kernels/Estimation/AffineTransform.h"
-#include "Kernels/Estimation/FitSummary.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Numerics/AffineTransform.h"
+#include "Kernels/Numerics/FitSummary.h"
 
 namespace msi
 {

@@ -1,7 +1,7 @@
 #include "Kernels/Estimation/RModelCorrection.h"
 
-#include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Spectra/Counted.h"
 #include "Kernels/Spectra/Reject.h"
 

@@ -1,8 +1,8 @@
 // The R-model: a tridiagonal correction of estimated reflectance, fitted on tuning samples.
 #pragma once
 
-#include "Kernels/Estimation/AffineTransform.h"
-#include "Kernels/Estimation/FitSummary.h"
+#include "Kernels/Numerics/AffineTransform.h"
+#include "Kernels/Numerics/FitSummary.h"
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 #include "Kernels/Estimation/ExpansionEstimator.h"
 #include "Kernels/Estimation/KernelEstimator.h"
 #include "Kernels/Estimation/LocalEstimator.h"
-#include "Kernels/Estimation/TransferEstimator.h"
+#include "Kernels/Estimation/Transfer/TransferEstimator.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>

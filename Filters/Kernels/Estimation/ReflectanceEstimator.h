@@ -1,7 +1,7 @@
 // What a fitted method of estimation gives: from camera response to reflectance, pixel by pixel.
 #pragma once
 
-#include "Kernels/Estimation/AffineTransform.h"
+#include "Kernels/Numerics/AffineTransform.h"
 
 #include <Eigen/Core>
 

@@ -4,7 +4,7 @@
 #include "Kernels/Colorimetry/CIELAB.h"
 #include "Kernels/Colorimetry/TristimulusBlocks.h"
 #include "Kernels/Colorimetry/TristimulusTransform.h"
-#include "Kernels/Estimation/AffineTransform.h"
+#include "Kernels/Numerics/AffineTransform.h"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 // The camera as the samples show it, for the Wiener estimators.
 #pragma once
 
-#include "Kernels/Estimation/AffineTransform.h"
 #include "Kernels/Estimation/SampleSet.h"
+#include "Kernels/Numerics/AffineTransform.h"
 
 #include <Eigen/Core>
 

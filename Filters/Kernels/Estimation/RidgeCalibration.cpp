@@ -1,6 +1,6 @@
 #include "Kernels/Estimation/RidgeCalibration.h"
 
-#include "Kernels/Estimation/ThinSvd.h"
+#include "Kernels/Numerics/ThinSvd.h"
 
 #include <cmath>
 #include <limits>

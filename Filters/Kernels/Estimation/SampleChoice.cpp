@@ -1,7 +1,7 @@
 #include "Kernels/Estimation/SampleChoice.h"
 
-#include "Kernels/Estimation/TransferFeatures.h"
-#include "Kernels/Estimation/TransferKernel.h"
+#include "Kernels/Estimation/Transfer/TransferFeatures.h"
+#include "Kernels/Estimation/Transfer/TransferKernel.h"
 #include "Kernels/Spectra/Counted.h"
 
 #include <Eigen/Cholesky>

@@ -1,5 +1,5 @@
 #include "Kernels/Estimation/CrossedErrors.h"
-#include "Kernels/Estimation/StudentQuantile.h"
+#include "Kernels/Numerics/StudentQuantile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "Kernels/Estimation/EstimationMethod.h"
 #include "Kernels/Estimation/EstimationTestData.h"
 #include "Kernels/Estimation/KernelSystem.h"
-#include "Kernels/Estimation/Lasso.h"
+#include "Kernels/Numerics/Lasso.h"
 
 #include <gtest/gtest.h>
 

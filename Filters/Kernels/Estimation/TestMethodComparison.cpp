@@ -1,6 +1,6 @@
-#include "Kernels/Estimation/AffineTransform.h"
 #include "Kernels/Estimation/EstimationTestData.h"
 #include "Kernels/Estimation/MethodComparison.h"
+#include "Kernels/Numerics/AffineTransform.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "Kernels/Estimation/EstimationTestData.h"
 #include "Kernels/Estimation/SampleChoice.h"
 #include "Kernels/Estimation/SampleDraw.h"
-#include "Kernels/Estimation/TransferEstimation.h"
-#include "Kernels/Estimation/TransferKernel.h"
+#include "Kernels/Estimation/Transfer/TransferEstimation.h"
+#include "Kernels/Estimation/Transfer/TransferKernel.h"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

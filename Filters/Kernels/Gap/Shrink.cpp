@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Shrink.h"
 
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
-#include "Kernels/Camera/CounterRandom.h"
 #include "Kernels/Gap/Samples/GapTestData.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "Kernels/Scenes/Measuring.h"
 
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Scenes/KubelkaMunk.h"
 
 namespace msi::scenes

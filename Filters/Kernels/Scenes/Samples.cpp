@@ -1,6 +1,6 @@
 #include "Kernels/Scenes/Samples.h"
 
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Scenes/Colorants.h"
 #include "Kernels/Scenes/KubelkaMunk.h"
 

@@ -1,6 +1,6 @@
 #include "Kernels/Scenes/SyntheticScene.h"
 
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Scenes/KubelkaMunk.h"
 #include "Kernels/Scenes/Measuring.h"
 #include "Kernels/Scenes/Samples.h"

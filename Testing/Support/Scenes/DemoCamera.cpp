@@ -1,7 +1,7 @@
 #include "DemoCamera.h"
 
 #include "Kernels/Camera/CameraDesign.h"
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Scenes/Measuring.h"
 
 #include <string>

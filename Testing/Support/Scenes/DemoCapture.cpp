@@ -5,7 +5,7 @@
 #include "Kernels/Scenes/Samples.h"
 
 #include "Kernels/Camera/CameraResponse.h"
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Stripes of rows or columns.
-#include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Effects/Effect.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <cmath>
 #include <string>

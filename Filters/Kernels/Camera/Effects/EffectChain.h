@@ -7,7 +7,7 @@
 #include "Kernels/Camera/CameraNoise.h"
 #include "Kernels/Camera/Effects/BoundEffect.h"
 #include "Kernels/Camera/Effects/EffectOperators.h"
-#include "Kernels/Estimation/AffineTransform.h"
+#include "Kernels/Numerics/AffineTransform.h"
 
 #include <cstdint>
 #include <memory>

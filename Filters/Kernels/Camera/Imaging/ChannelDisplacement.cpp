@@ -1,6 +1,6 @@
 #include "Kernels/Camera/Imaging/ChannelDisplacement.h"
 
-#include "Kernels/Camera/Angle.h"
+#include "Kernels/Numerics/Angle.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <Eigen/Cholesky>

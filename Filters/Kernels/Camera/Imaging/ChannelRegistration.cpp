@@ -1,7 +1,7 @@
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
 
-#include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Imaging/WeightedSum.h"
+#include "Kernels/Numerics/Angle.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // A chart of square patches whose pixels have a closed form, so that it can be displaced without interpolation.
 #pragma once
 
-#include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Imaging/ChannelDisplacement.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "Kernels/Estimation/Methods/Methods.h"
 
 #include "Kernels/Estimation/CrossValidation.h"
-#include "Kernels/Estimation/LeastSquares.h"
 #include "Kernels/Estimation/Responsivity.h"
+#include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Spectra/Counted.h"
 
 #include <Eigen/Eigenvalues>

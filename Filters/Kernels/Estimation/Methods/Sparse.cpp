@@ -1,9 +1,9 @@
 #include "Kernels/Estimation/Methods/Methods.h"
 
 #include "Kernels/Estimation/CrossValidation.h"
-#include "Kernels/Estimation/Lasso.h"
 #include "Kernels/Estimation/LocalChoice.h"
 #include "Kernels/Estimation/Responsivity.h"
+#include "Kernels/Numerics/Lasso.h"
 
 #include <array>
 #include <sstream>

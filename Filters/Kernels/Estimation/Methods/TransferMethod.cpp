@@ -1,6 +1,6 @@
 #include "Kernels/Estimation/Methods/Methods.h"
 
-#include "Kernels/Estimation/TransferEstimation.h"
+#include "Kernels/Estimation/Transfer/TransferEstimation.h"
 
 #include <stdexcept>
 

@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldBlockLight.h"
 
-#include "Kernels/Camera/Angle.h"
 #include "Kernels/Gap/Field/FieldColumns.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 #include "Kernels/Gap/Field/FieldColumns.h"
 
-#include "Kernels/Camera/Angle.h"
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldBlockLight.h"
 #include "Kernels/Gap/Field/FieldModel.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>
 #include <array>

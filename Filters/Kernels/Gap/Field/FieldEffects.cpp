@@ -1,9 +1,9 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 
-#include "Kernels/Camera/Angle.h"
 #include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Gap/Field/FieldStripes.h"
 #include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>
 #include <cmath>

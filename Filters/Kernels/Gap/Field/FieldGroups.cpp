@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldGroups.h"
 
-#include "Kernels/Camera/CounterRandom.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldModel.h"
 
-#include "Kernels/Camera/Angle.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <cmath>
 

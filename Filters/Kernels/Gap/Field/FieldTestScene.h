@@ -1,8 +1,8 @@
 // Image pairs with known effects, rendered on a finer grid by plain loops that share no code with the library's simulator.
 #pragma once
 
-#include "Kernels/Camera/CounterRandom.h"
 #include "Kernels/Gap/Field/FieldGap.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <cmath>
 #include <functional>

@@ -1,8 +1,8 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 
-#include "Kernels/Camera/CounterRandom.h"
 #include "Kernels/Camera/StagedResponse.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <Eigen/Cholesky>
 

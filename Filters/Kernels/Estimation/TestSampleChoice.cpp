@@ -101,6 +101,7 @@ TEST(SampleChoice, BeatsRandomDrawsOnRealSamples)
                                const std::vector<Eigen::Index>& ofHalf)
       {
         std::vector<Eigen::Index> chosen;
+        chosen.reserve(ofHalf.size());
         for (const Eigen::Index i : ofHalf)
         {
           chosen.push_back(half[static_cast<std::size_t>(i)]);

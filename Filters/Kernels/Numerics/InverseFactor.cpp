@@ -161,12 +161,12 @@ void forPanels(Eigen::Index size, const Act& act)
 }
 
 // sum += a b; sum += a b'
-void addProduct(Block sum, const ConstBlock& a, const ConstBlock& b)
+void addProduct(const Block& sum, const ConstBlock& a, const ConstBlock& b)
 {
   HWY_DYNAMIC_DISPATCH(addAll)(a, b.data(), 1, b.outerStride(), sum);
 }
 
-void addTransposedProduct(Block sum, const ConstBlock& a, const ConstBlock& b)
+void addTransposedProduct(const Block& sum, const ConstBlock& a, const ConstBlock& b)
 {
   HWY_DYNAMIC_DISPATCH(addAll)(a, b.data(), b.outerStride(), 1, sum);
 }

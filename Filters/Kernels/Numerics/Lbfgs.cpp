@@ -94,8 +94,12 @@ LbfgsResult minimizeLbfgs(
 {
   Point current{ start, Eigen::VectorXd(start.size()), 0.0 };
   current.value = function(current.at, current.gradient);
+  LbfgsResult result{ start, current.value };
+  if (!std::isfinite(current.value))
+  {
+    return result; // the gradient was not written
+  }
   std::deque<Correction> corrections;
-  LbfgsResult result;
   while (result.iterations < options.maximumIterations && !result.converged)
   {
     if (current.gradient.cwiseAbs().maxCoeff() < options.gradientNorm)

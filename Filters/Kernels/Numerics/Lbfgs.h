@@ -32,7 +32,7 @@ struct LbfgsResult
 // Source: Liu and Nocedal, "On the limited memory BFGS method for large scale optimization", 1989, doi
 //         10.1007/BF01589116; search: Lewis and Overton, "Nonsmooth optimization via quasi-Newton
 //         methods", 2013, doi 10.1007/s10107-012-0514-2.
-// The function must be finite at 'start'; the result is never worse than 'start'.
+// The result is never worse than 'start'; it is 'start', not converged, where the function is not finite there.
 LbfgsResult minimizeLbfgs(const DifferentiableFunction& function, const Eigen::VectorXd& start,
   const LbfgsOptions& options = {});
 

@@ -55,4 +55,17 @@ TEST(Lbfgs, StaysWhereNothingIsBetter)
   EXPECT_TRUE(result.converged);
 }
 
+TEST(Lbfgs, StaysAtAStartOutsideOfTheDomain)
+{
+  const auto nowhere = [](const Eigen::VectorXd&, Eigen::VectorXd& gradient)
+  {
+    gradient.setConstant(std::numeric_limits<double>::signaling_NaN());
+    return std::numeric_limits<double>::infinity();
+  };
+  const auto result = msi::minimizeLbfgs(nowhere, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(result.at, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(result.iterations, 0);
+  EXPECT_FALSE(result.converged);
+}
+
 }

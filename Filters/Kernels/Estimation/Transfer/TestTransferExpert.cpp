@@ -52,6 +52,18 @@ TEST(TransferKernel, IsTheStatedFunction)
   }
 }
 
+// One sample again and again: what differs is rounding, which must not become the unit of the features.
+TEST(TransferFeatures, OfOneRepeatedSampleAreNotBlownUp)
+{
+  Eigen::MatrixXd chart = Eigen::MatrixXd::Constant(4, 30, 0.1);
+  chart(1, 2) = std::nextafter(0.1, 1.0);
+  for (const TransferSpace space : BothSpaces)
+  {
+    const auto features = msi::featuresOf(space, chart);
+    EXPECT_LT(features.ofTarget(1.1 * chart).cwiseAbs().maxCoeff(), 1.0);
+  }
+}
+
 TEST(TransferFeatures, UndoGainAndOffsetOfTheTarget)
 {
   const Eigen::MatrixXd chart = positive(3, 20, 3);

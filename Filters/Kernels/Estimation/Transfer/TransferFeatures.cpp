@@ -5,6 +5,12 @@
 namespace msi
 {
 
+namespace
+{
+// Of features whose root mean square is about 1: less is rounding, every sample has the same response.
+constexpr double LeastDeviation = 1e-9;
+}
+
 Eigen::MatrixXd TransferFeatures::ofChart(const Eigen::MatrixXd& responses) const
 {
   Eigen::MatrixXd x =
@@ -34,7 +40,7 @@ TransferFeatures featuresOf(TransferSpace space, const Eigen::MatrixXd& chartRes
   const double mean = raw.mean();
   const double deviation = std::sqrt((raw.array() - mean).square().mean());
   features.center = raw.rowwise().mean();
-  features.scale = deviation > 0.0 ? deviation : 1.0;
+  features.scale = deviation > LeastDeviation ? deviation : 1.0;
   return features;
 }
 

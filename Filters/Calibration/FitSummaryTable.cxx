@@ -43,7 +43,10 @@ void write(const std::string& method, const FitSummary& summary, vtkTable* table
   addCount(table, "samples", summary.samples);
   addCount(table, "unknowns", summary.unknowns);
   addCount(table, "rank", summary.rank);
-  addNumber(table, "condition", summary.condition);
+  if (summary.condition > 0.0)
+  {
+    addNumber(table, "condition", summary.condition);
+  }
   addCount(table, "iterations", summary.iterations);
   addNumber(table, "residual_rms", summary.residualRms);
   addCount(table, "complete", summary.complete ? 1 : 0);

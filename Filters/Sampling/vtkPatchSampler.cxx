@@ -16,7 +16,9 @@
 #include "Kernels/Sampling/PatchGrid.h"
 #include "Kernels/Sampling/PatchStatistics.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -190,8 +192,26 @@ int vtkPatchSampler::RequestData(
   {
     return 1;
   }
-  return msi::runAlgorithm(this, outputs,
-    [&] { this->WriteTable(vtkTable::GetData(inputs[2]), outputs->GetInformationObject(0)); });
+  auto* outInfo = outputs->GetInformationObject(0);
+  const int done = msi::runAlgorithm(
+    this, outputs, [&] { this->WriteTable(vtkTable::GetData(inputs[2]), outInfo); });
+  const bool firstPiece =
+    outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) == 0;
+  if (done && firstPiece && !vtkImageData::GetData(inputs[1]) && !this->HasCorners())
+  {
+    vtkWarningMacro("neither labels nor corners are given, so the patches are a grid of "
+      << this->GridColumns << " x " << this->GridRows
+      << " over the whole image; choose Labels, or set Corner1 to Corner4 to the outer corners of "
+         "the chart");
+  }
+  return done;
+}
+
+bool vtkPatchSampler::HasCorners() const
+{
+  const double* corners[] = { this->Corner1, this->Corner2, this->Corner3, this->Corner4 };
+  return std::any_of(std::begin(corners), std::end(corners),
+    [](const double* corner) { return corner[0] != 0.0 || corner[1] != 0.0; });
 }
 
 void vtkPatchSampler::AddBlock(vtkInformationVector** inputs)
@@ -234,13 +254,11 @@ msi::PatchGrid vtkPatchSampler::MakeGrid(vtkInformation* imageInfo) const
 {
   const double* corners[] = { this->Corner1, this->Corner2, this->Corner3, this->Corner4 };
   msi::PatchGrid::Corners points;
-  bool given = false;
   for (std::size_t i = 0; i < 4; ++i)
   {
     points[i] = { corners[i][0], corners[i][1] };
-    given = given || !points[i].isZero();
   }
-  if (!given)
+  if (!this->HasCorners())
   {
     int whole[6];
     double origin[3] = { 0.0, 0.0, 0.0 };

@@ -58,7 +58,7 @@ public:
   /**
    * Outer corners of the chart in the image's coordinates: first patch, end of the first row, last patch,
    * start of the last row. Patch 1 is at the first corner. All zero (default): the whole image, first
-   * patch at the top left.
+   * patch at the top left, with a warning.
    */
   vtkSetVector2Macro(Corner1, double);
   vtkGetVector2Macro(Corner1, double);
@@ -104,6 +104,7 @@ private:
 
   struct Sampling;
 
+  bool HasCorners() const;
   msi::PatchGrid MakeGrid(vtkInformation* imageInfo) const;
   void AddBlock(vtkInformationVector** inputs);
   void WriteTable(vtkTable* patchTable, vtkInformation* outInfo);

@@ -86,6 +86,20 @@ std::vector<std::string> offeredNames(const std::string& kind)
   return kind == "effects" ? namesOf(effectLibrary()) : std::vector<std::string>();
 }
 
+std::vector<std::string> pointArrayNames(vtkPVDataInformation* data)
+{
+  std::vector<std::string> names;
+  auto* arrays = data->GetAttributeInformation(vtkDataObject::POINT);
+  for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
+  {
+    if (const char* name = arrays->GetArrayInformation(i)->GetName())
+    {
+      names.emplace_back(name);
+    }
+  }
+  return names;
+}
+
 std::vector<std::string> withOwnNames(
   vtkPVDataInformation* table, const std::vector<std::string>& names, vtkSMProperty* property)
 {

@@ -15,6 +15,8 @@ namespace msi
 // metrics, methods, quantities, effects. Empty for any other kind.
 std::vector<std::string> offeredNames(const std::string& kind);
 
+std::vector<std::string> pointArrayNames(vtkPVDataInformation* data);
+
 // First the curves of a table of the user's own (may be null), then the names, then what else the property holds.
 std::vector<std::string> withOwnNames(
   vtkPVDataInformation* table, const std::vector<std::string>& names, vtkSMProperty* property);

@@ -17,15 +17,24 @@ void vtkSMNameDomain::PrintSelf(ostream& os, vtkIndent indent)
 
 void vtkSMNameDomain::Update(vtkSMProperty*)
 {
-  auto* table =
+  auto* data =
     this->GetRequiredProperty("Input") ? this->GetInputDataInformation("Input") : nullptr;
-  this->SetStrings(msi::withOwnNames(table, this->Names, this->GetProperty()));
+  auto names = this->Names;
+  if (this->IsOfArrays && data)
+  {
+    const auto arrays = msi::pointArrayNames(data);
+    names.insert(names.end(), arrays.begin(), arrays.end());
+  }
+  this->SetStrings(
+    msi::withOwnNames(this->IsOfArrays ? nullptr : data, names, this->GetProperty()));
 }
 
 int vtkSMNameDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElement* element)
 {
   const int result = this->Superclass::ReadXMLAttributes(property, element);
-  this->Names = msi::offeredNames(element->GetAttributeOrEmpty("of"));
+  const std::string kind = element->GetAttributeOrEmpty("of");
+  this->IsOfArrays = kind == "arrays";
+  this->Names = this->IsOfArrays ? std::vector<std::string>{ "" } : msi::offeredNames(kind);
   if (const char* last = element->GetAttribute("with"))
   {
     this->Names.emplace_back(last);

@@ -3,8 +3,8 @@
  * @brief   Names of one kind to choose one of
  *
  * The attribute "of" says which (OfferedNames.h), "with" one more. The required property "Input", which may be left out, takes a table whose
- * curves are offered too; What the property holds is offered
- * always: ParaView's lists would change it silently.
+ * curves are offered too. Of "arrays": nothing, for the active scalars, and the point arrays of the input. What the property holds is
+ * offered always: ParaView's lists would change it silently.
  */
 #ifndef vtkSMNameDomain_h
 #define vtkSMNameDomain_h
@@ -37,6 +37,7 @@ private:
   void OnPropertyModified() { this->Update(nullptr); }
 
   std::vector<std::string> Names;
+  bool IsOfArrays = false;
 };
 
 #endif

@@ -1,8 +1,10 @@
 #include "SpectralColors.h"
 
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
 #include "vtkSMCoreUtilities.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
@@ -82,10 +84,9 @@ void centerOnZero(vtkSMProxy* colors, vtkPVArrayInformation* array, vtkPVDataInf
     array->GetComponentFiniteRange(i, range);
     largest = std::max({ largest, std::abs(range[0]), std::abs(range[1]) });
   }
-  if (largest > 0.0 && std::isfinite(largest))
-  {
-    vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, -largest, largest, false);
-  }
+  // No difference at all has the color of zero, too.
+  largest = largest > 0.0 && std::isfinite(largest) ? largest : 1.0;
+  vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, -largest, largest, false);
 }
 }
 
@@ -102,6 +103,44 @@ bool isPicture(vtkPVArrayInformation* array)
 bool isColorDifference(const std::string& arrayName)
 {
   return arrayName.compare(0, 2, "dE") == 0 && arrayName.find(' ') != std::string::npos;
+}
+
+vtkPVArrayInformation* arrayToShow(vtkPVDataSetAttributesInformation* points)
+{
+  auto* chosen = points->GetAttributeInformation(vtkDataSetAttributes::SCALARS);
+  bool isDifference = false;
+  for (int i = 0; i < points->GetNumberOfArrays(); ++i)
+  {
+    auto* array = points->GetArrayInformation(i);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (isPicture(array))
+    {
+      return array;
+    }
+    if (name == "dE00 D65" || name == "Gap" || (!isDifference && isColorDifference(name)))
+    {
+      chosen = array;
+      isDifference = true;
+    }
+  }
+  return chosen                        ? chosen
+    : points->GetNumberOfArrays() == 1 ? points->GetArrayInformation(0)
+                                       : nullptr;
+}
+
+const char* typeWithoutArea(vtkPVDataInformation* data)
+{
+  const int* extent = data->GetExtent();
+  int directions = 0;
+  for (int i = 0; i < 6; i += 2)
+  {
+    if (extent[i] > extent[i + 1])
+    {
+      return nullptr;
+    }
+    directions += extent[i] < extent[i + 1] ? 1 : 0;
+  }
+  return directions > 1 ? nullptr : directions == 1 ? "Surface" : "Points";
 }
 
 void styleColors(

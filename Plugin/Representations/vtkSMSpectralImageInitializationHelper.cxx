@@ -3,7 +3,6 @@
 #include "SpectralColors.h"
 
 #include "vtkDataObject.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
@@ -18,31 +17,6 @@
 #include <string>
 
 vtkStandardNewMacro(vtkSMSpectralImageInitializationHelper);
-
-namespace
-{
-// The array to show at first; null where there is none.
-vtkPVArrayInformation* arrayToShow(vtkPVDataSetAttributesInformation* points)
-{
-  auto* chosen = points->GetAttributeInformation(vtkDataSetAttributes::SCALARS);
-  bool isDifference = false;
-  for (int i = 0; i < points->GetNumberOfArrays(); ++i)
-  {
-    auto* array = points->GetArrayInformation(i);
-    const std::string name = array->GetName() ? array->GetName() : "";
-    if (msi::isPicture(array))
-    {
-      return array;
-    }
-    if (name == "dE00 D65" || name == "Gap" || (!isDifference && msi::isColorDifference(name)))
-    {
-      chosen = array;
-      isDifference = true;
-    }
-  }
-  return chosen;
-}
-}
 
 void vtkSMSpectralImageInitializationHelper::PrintSelf(ostream& os, vtkIndent indent)
 {
@@ -61,7 +35,14 @@ void vtkSMSpectralImageInitializationHelper::PostInitializeProxy(
     return;
   }
   auto* data = source->GetDataInformation(input.GetOutputPort());
-  auto* array = arrayToShow(data->GetAttributeInformation(vtkDataObject::POINT));
+  if (const char* type = msi::typeWithoutArea(data))
+  {
+    constexpr double Width = 12.0; // pixels of the screen
+    vtkSMPropertyHelper(proxy, "Representation", true).Set(type);
+    vtkSMPropertyHelper(proxy, "LineWidth", true).Set(Width);
+    vtkSMPropertyHelper(proxy, "PointSize", true).Set(Width);
+  }
+  auto* array = msi::arrayToShow(data->GetAttributeInformation(vtkDataObject::POINT));
   if (!array)
   {
     return;

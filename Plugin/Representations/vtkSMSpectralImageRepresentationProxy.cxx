@@ -3,10 +3,12 @@
 #include "SpectralColors.h"
 
 #include "vtkCommand.h"
+#include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTransferFunctionManager.h"
@@ -108,6 +110,23 @@ bool vtkSMSpectralImageRepresentationProxy::SetScalarColoringInternal(
   if (array && colors && !msi::isPicture(array))
   {
     msi::styleColors(colors, array, this->InputInformation(), !useComponent);
+  }
+  return done;
+}
+
+bool vtkSMSpectralImageRepresentationProxy::SetRepresentationType(const char* type)
+{
+  auto* known = this->IsFirstType ? this->InputInformation() : nullptr;
+  const char* own = known ? msi::typeWithoutArea(known) : nullptr;
+  const bool done = this->Superclass::SetRepresentationType(own ? own : type);
+  // A volume is an outline at first, which takes the colors away that its surface needs.
+  auto* data = this->ColorArray() ? nullptr : known;
+  this->IsFirstType = false;
+  auto* array =
+    data ? msi::arrayToShow(data->GetAttributeInformation(vtkDataObject::POINT)) : nullptr;
+  if (array)
+  {
+    this->SetScalarColoring(array->GetName(), vtkDataObject::POINT);
   }
   return done;
 }

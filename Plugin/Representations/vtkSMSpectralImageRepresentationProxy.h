@@ -23,6 +23,9 @@ public:
   using vtkSMPVRepresentationProxy::SetScalarBarVisibility;
   bool SetScalarBarVisibility(vtkSMProxy* view, bool visible) override;
 
+  using vtkSMPVRepresentationProxy::SetRepresentationType;
+  bool SetRepresentationType(const char* type) override;
+
 protected:
   vtkSMSpectralImageRepresentationProxy();
   ~vtkSMSpectralImageRepresentationProxy() override = default;
@@ -40,6 +43,8 @@ private:
   // The array that gives the colors, where its data are known.
   vtkPVArrayInformation* ColorArray();
   void AdaptMapScalars();
+
+  bool IsFirstType = true;
 };
 
 #endif

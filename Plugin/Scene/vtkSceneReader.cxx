@@ -222,6 +222,11 @@ void vtkSceneReader::Open()
       parts->last[static_cast<std::size_t>(PatchPort) + static_cast<std::size_t>(i)] = table;
     }
   }
+  if (scene.white.empty())
+  {
+    this->Notes = "no white reference, so the colors are those of the camera and its lamp; put "
+                  "images of a white tile into white/";
+  }
   note(this->Notes, "image", scene.image);
   note(this->Notes, "white", scene.white);
   note(this->Notes, "dark", scene.dark);

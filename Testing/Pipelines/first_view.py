@@ -157,6 +157,21 @@ def main():
     check_colors(display, "Display P3", 0)
     wide.Input.Preview = 1
 
+    same = pipeline.create("ResponseDifference", Input=flat, Simulated=flat)
+    pipeline.update(same)
+    show(same)
+    points = list(simple.GetColorTransferFunction("Difference").RGBPoints)
+    check(f"the range of no difference is {points[0]} to {points[-4]}", points[0] == -points[-4] < 0.0)
+
+    # Slices need two directions.
+    for region, wanted in (([40, 40, 20, 20], "Points"), ([40, 70, 20, 20], "Surface"), ([40, 70, 20, 50], "Slice")):
+        part = stack()
+        part.Region = region
+        pipeline.update(part)
+        display, view = show(part)
+        check(f"the pixels {region} are shown as {display.Representation}", display.Representation == wanted)
+        check_colors(display, "sRGB", 0)
+
     # What the window does with the chart of a profile.
     profile = pipeline.create("SpectralProfile", Input=estimate)
     chart_view = simple.CreateView("XYChartView")
@@ -171,6 +186,7 @@ def main():
     pipeline.update(cube)
     display, view = show(cube)
     check(f"a cube is shown as {display.Representation}", display.Representation == "Surface")
+    check_colors(display, "Reflectance", 1)
     one_channel_and_photograph()
 
     print("\n".join(faults) or "every first view is right")

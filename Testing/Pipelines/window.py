@@ -21,7 +21,8 @@ ROOT = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
 SCENE = ROOT / "Data" / "Images" / "demo-fabric"
 SAMPLES = ROOT / "Data" / "Samples"
 WATCH = f"--script={ROOT / 'Testing' / 'Pipelines' / 'window_state.py'}"
-PATIENCE = 120.0  # seconds for one step on a busy machine
+# Seconds on a busy machine: for what the window does by itself, and for what is computed or started.
+PATIENCE, WORK = 30.0, 120.0
 MOST_CLICKS = 10
 
 
@@ -58,7 +59,7 @@ class Window:
             command = "paraview", self.serve(*server), WATCH
         self.log = open(self.folder / "paraview.log", "w", encoding="utf-8")
         self.run(command or ["paraview", WATCH], stdout=self.log, stderr=subprocess.STDOUT)
-        self.wait("the panel and the toolbar", lambda s: "MultispectralMainJob" in s["named"])
+        self.wait("the panel and the toolbar", lambda s: "MultispectralMainJob" in s["named"], WORK)
         self.xdotool("search", "--onlyvisible", "--name", "ParaView 5", "windowmove", "0", "0", "windowsize", "1400", "880")
         self.wait("the larger window", lambda s: s["width"] > 1300)
         self.settle()
@@ -77,7 +78,7 @@ class Window:
         with open(log, "w", encoding="utf-8") as file:
             self.run([mpiexec, "-q", *as_root, "--oversubscribe", "-np", "2", pvserver, f"--server-port={port}"], stdout=file,
                      stderr=subprocess.STDOUT)
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + WORK
         while "Accepting connection" not in log.read_text(encoding="utf-8"):
             if time.monotonic() > end:
                 raise Failed("the server does not listen: " + log.read_text(encoding="utf-8"))
@@ -114,17 +115,17 @@ class Window:
         except FileNotFoundError:
             return None
 
-    def wait(self, what, holds):
-        end = time.monotonic() + PATIENCE
+    def wait(self, what, holds, patience=PATIENCE):
+        end = time.monotonic() + patience
         while time.monotonic() < end:
             state = self.state()
             if state is not None and holds(state):
                 return state
             if self.processes[-1].poll() is not None:
                 raise Failed(f"{what}: ParaView has ended")
-            time.sleep(0.2)
+            time.sleep(0.1)
         self.picture("failed")
-        raise Failed(f"{what}: not within {PATIENCE:.0f} s; there is {json.dumps(self.state())[:1500]}")
+        raise Failed(f"{what}: not within {patience:.0f} s; there is {json.dumps(self.state())[:1500]}")
 
     def settle(self):
         """Until nothing moves any more."""
@@ -186,7 +187,7 @@ def one_message(window):
     for path in SCENE.glob("channel_*.tif"):
         shutil.copy(path, folder)
     ask_main_job(window, folder)
-    said = window.wait("the message", lambda s: s["messages"])["messages"]
+    said = window.wait("the message", lambda s: s["messages"], WORK)["messages"]
     if len(said) != 1 or "reach 4.1 % of the largest ones of the calibration samples" not in said[0]:
         raise Failed(f"raw counts: {said}")
     window.picture("one_message")
@@ -213,7 +214,7 @@ def ask_main_job(window, scene, light=None):
 def main_job(window):
     ask_main_job(window, SCENE)
     state = window.wait("four views", lambda s: len(s["frames"]) == 4 and
-                        sum(len(view["texts"]) for view in s["views"].values()) == 4 and not s["dialogs"])
+                        sum(len(view["texts"]) for view in s["views"].values()) == 4 and not s["dialogs"], WORK)
     if window.clicks > MOST_CLICKS:
         raise Failed(f"the main job took {window.clicks} clicks")
     texts = sorted(text for view in state["views"].values() for text in view["texts"])
@@ -232,7 +233,7 @@ def own_lamp(window):
     before = set(window.state()["views"])
     ask_main_job(window, SCENE, lamp)
     state = window.wait("four views under the lamp", lambda s: len(s["frames"]) == 4 and not s["dialogs"] and
-                        sum(len(view["texts"]) for key, view in s["views"].items() if key not in before) == 4)
+                        sum(len(view["texts"]) for key, view in s["views"].items() if key not in before) == 4, WORK)
     views = [view for key, view in state["views"].items() if key not in before]
     arrays = sorted(array for view in views for array in view["arrays"])
     captions = sorted(text for view in views for text in view["texts"])
@@ -299,7 +300,15 @@ def chart(window):
     window.click(state["named"]["MultispectralChartReference"])
     window.type(window.folder / "chart-reference.csv")
     window.click(state["named"]["MultispectralChartFind"])
-    state = window.wait("the chart", lambda s: len(s["corners"]) == 4 and "24 patches" in s["status"])
+    found = window.wait("the chart", lambda s: len(s["corners"]) == 4 and "24 patches" in s["status"], WORK)
+    if set(found["sources"]) == set(state["sources"]):
+        raise Failed("Find makes nothing that Escape could take back")
+    window.key("Escape")
+    window.wait("the search taken back", lambda s: not s["dialogs"] and s["sources"] == state["sources"] and pictures(s) == pictures(state))
+    window.click(state["named"]["MultispectralFindChart"])
+    state = window.wait("the dialog of the chart again", lambda s: "MultispectralChartFind" in s["named"])
+    window.click(state["named"]["MultispectralChartFind"])
+    state = window.wait("the chart again", lambda s: len(s["corners"]) == 4 and "24 patches" in s["status"], WORK)
     first = state["corners"]
     window.picture("chart")
     window.drag(first[2], [first[2][0] - 60, first[2][1] - 40])
@@ -357,6 +366,105 @@ def menus(window):
             raise Failed(f"the menu {menu} > Multispectral has {entries}")
 
 
+def pictures(state):
+    """What the views of images show."""
+    return sorted(str(view["arrays"]) for view in state["views"].values())
+
+
+def ask_file(window, path):
+    """File > Open, up to the panel of the file's reader."""
+    window.key("ctrl+o")
+    window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
+    window.type(path)
+    window.key("Return")
+    # A question that is answered by itself may be seen for a moment.
+    name = re.sub(r"\d+(?=nm\.tif$)", "*", path.name)  # a channel comes with the others
+    state = window.wait(f"the reader of {name}", lambda s: any(key.startswith(name) for key in s["sources"]) and not s["dialogs"])
+    return next(kind for key, kind in state["sources"].items() if key.startswith(name))
+
+
+def apply(window):
+    window.click(window.wait("something to apply", lambda s: "Apply" in s["named"])["named"]["Apply"])
+    return window.wait("applied", lambda s: "Apply" not in s["named"])
+
+
+def cancelled(window):
+    """Escape at each step of a dialog leaves everything as it was, without a message."""
+    def things(state):
+        return state["sources"], pictures(state), state["messages"], state["output"], state["pins"]
+
+    before = things(window.state())
+    rows = [f"Multispectral{row}Browse" for row in ("Scene", "Chart", "Swatches", "Light", "Observer")]
+    for button, browse in (("MultispectralOpenScene", ()), ("MultispectralMainJob", rows), ("MultispectralFindChart", ())):
+        window.click(window.state()["named"][button])
+        state = window.wait(f"the dialog of {button}", lambda s: len(s["dialogs"]) == 1)
+        for name in browse:
+            window.click(state["named"][name])
+            window.wait(f"the dialog of {name}", lambda s: len(s["dialogs"]) == 2)
+            window.key("Escape")
+            window.wait(f"{name} cancelled", lambda s: len(s["dialogs"]) == 1)
+        window.key("Escape")
+        window.wait(f"{button} cancelled", lambda s: not s["dialogs"])
+    window.key("ctrl+s")  # File > Save Data
+    window.wait("the dialog of Save Data", lambda s: s["dialogs"])
+    window.type(window.folder / "kept.hdr")
+    window.key("Return")
+    window.wait("the options of the writer", lambda s: any("Writer" in title for title in s["dialogs"]))
+    window.key("Escape")
+    window.wait("Save Data cancelled", lambda s: not s["dialogs"])
+    if (window.folder / "kept.hdr").exists() or things(window.state()) != before:
+        raise Failed(f"cancelled dialogs leave {things(window.state())}; there was {before}")
+
+
+def refused_folder(window):
+    """A folder that no reader knows: ParaView's own readers of folders would end the program."""
+    (window.folder / "no image" / "inside").mkdir(parents=True)
+    before = window.state()["sources"]
+    window.key("ctrl+o")
+    window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
+    window.type(f"{window.folder / 'no image'}/")
+    window.key("Return")
+    time.sleep(1.0)
+    window.type("inside")
+    window.key("Tab")  # closes the proposals
+    window.click(window.state()["buttons"]["OK"])
+    said = window.wait("the refusal", lambda s: s["messages"])["messages"]
+    window.picture("refused")
+    window.key("Return")
+    state = window.wait("the refusal closed", lambda s: not s["dialogs"])
+    if len(said) != 1 or "inside: the folder holds no spectral image" not in said[0] or state["sources"] != before:
+        raise Failed(f"a folder without an image: {said}, {state['sources']}")
+
+
+def failed_filter(window):
+    """A filter that fails leaves its input in view, and shows its result when it has one."""
+    before = pictures(window.state())
+    (window.folder / "trigger-entry").write_text(json.dumps(["Filters", "Flat Field Correction", "channel_*nm.tif"]), encoding="utf-8")
+    window.wait("the filter", lambda s: "FlatFieldCorrection1" in s["sources"])
+    apply(window)
+    state = window.wait("the input in view", lambda s: len(s["output"]) == 1 and s["shown"] == ["channel_*nm.tif"])
+    if "connect a white image" not in state["output"][0]:
+        raise Failed(f"Flat Field Correction alone says {state['output']}")
+    window.faults_end = len((window.folder / "paraview.log").read_text(encoding="utf-8", errors="replace"))
+    window.click(window.wait("the panel", lambda s: "White" in s["panel"])["panel"]["White"]["middle"])
+    time.sleep(0.5)
+    window.key("Down", "Return")
+    apply(window)
+    window.wait("the result in view", lambda s: s["shown"] == ["FlatFieldCorrection1"] and pictures(s) == before)
+
+
+def several_at_once(window):
+    """Sources that are applied together go into the views that suit them, whichever is active."""
+    for path in (SCENE / "white").glob("channel_[45]*.tif"):
+        shutil.copy(path, window.folder / path.name.replace("channel", "tile"))
+    for path in (window.folder / "tile_400nm.tif", SAMPLES / "demo-fabric.csv"):
+        ask_file(window, path)
+    apply(window)
+    state = window.wait("the image and the table", lambda s: "tile_*nm.tif" in s["shown"] and "demo-fabric.csv" in s["shown in tables"])
+    if "tile_*nm.tif" in state["shown in tables"]:
+        raise Failed("an image is shown in a spreadsheet")
+
+
 def open_files(window):
     """No question stays, and the right reader is taken, also where only the content tells."""
     shutil.copy(SAMPLES / "demo-fabric.csv", window.folder / "measured.csv")
@@ -364,19 +472,11 @@ def open_files(window):
     for path, reader in ((window.folder / "measured.csv", "SampleTableReader"), (window.folder / "curves.csv", "CameraReader"),
                          (SCENE / "channel_400nm.tif", "SpectralImageReader"), (SCENE / "labels.png", "LabelImageReader"),
                          (SAMPLES / "demo-chart.csv", "SampleTableReader")):
-        name = "channel_*nm.tif" if "channel" in path.name else path.name  # with the other channels
-        window.key("ctrl+o")
-        window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
-        window.type(path)
-        window.key("Return")
-        # A question that is answered by itself may be seen for a moment.
-        state = window.wait(f"the reader of {name}", lambda s, name=name: any(key.startswith(name) for key in s["sources"]))
-        found = next(kind for key, kind in state["sources"].items() if key.startswith(name))
+        found = ask_file(window, path)
         if found != reader:
             window.picture("failed")
-            raise Failed(f"File > Open took {found} for {name}")
-        window.click(window.wait(f"{name} to apply", lambda s: "Apply" in s["named"])["named"]["Apply"])
-        window.wait(f"{name} applied", lambda s: "Apply" not in s["named"])
+            raise Failed(f"File > Open took {found} for {path.name}")
+        apply(window)
     # The label image lies over the channels' picture, which is hidden; curves are a chart; tables begin with what a row is.
     state = window.wait("the files", lambda s: s["charts"] == 1 and s["first columns"] and any(
         view["arrays"] == [["POINTS", "Label", 1]] for view in s["views"].values()))
@@ -428,6 +528,11 @@ def reset(window):
     window.wait("no spectra", lambda s: not s["sources"] and not s["pins"] and not s["live"])
 
 
+def open_channels(window):
+    ask_file(window, SCENE / "channel_400nm.tif")
+    apply(window)
+
+
 def page_names_what_is_there(window):
     """Every name in italics on the page about the window is written somewhere in the window."""
     page = re.sub(r"`[^`]*`", "", (ROOT / "Documentation" / "Window.md").read_text(encoding="utf-8"))
@@ -464,7 +569,7 @@ def examples(folder, launcher):
         window.watch_from_python()
         try:
             window.start(launcher, "paraview", name)
-            window.wait(f"the example {name}", lambda s, shown=shown: shown(s) and not s["dialogs"])
+            window.wait(f"the example {name}", lambda s, shown=shown: shown(s) and not s["dialogs"], WORK)
             window.picture("shown")
             if window.errors():
                 return f"{name}: ParaView said: " + "\n".join(window.errors()[:10])
@@ -479,8 +584,10 @@ def run_steps(window, steps):
     """What went wrong, or None."""
     try:
         for step in steps:
+            start = time.monotonic()
             step(window)
             window.picture(step.__name__)
+            print(f"{step.__name__}: {time.monotonic() - start:.0f} s", flush=True)
         return "ParaView said: " + "\n".join(window.errors()[:10]) if window.errors() else None
     except Failed as failed:
         return "\n".join([str(failed), *window.errors()[:10]])
@@ -510,8 +617,8 @@ def main():
     elif "server" in sys.argv[2:3]:
         fault = in_window(folder, (one_message, main_job, spectra), sys.argv[3:])
     else:
-        fault = in_window(folder, (one_message, main_job, spectra, region_and_files, help_page, menus, open_files, panels, own_lamp, chart,
-                                   page_names_what_is_there, reset))
+        fault = in_window(folder, (one_message, main_job, spectra, cancelled, region_and_files, help_page, menus, refused_folder, open_files,
+                                   several_at_once, panels, own_lamp, chart, page_names_what_is_there, reset, open_channels, failed_filter))
     print(fault or "the window does as a user expects")
     sys.exit(1 if fault else 0)
 

@@ -1,4 +1,4 @@
-"""Writes what ParaView's window shows into the file MULTISPECTRAL_WINDOW_STATE, three times a second."""
+"""Writes what ParaView's window shows into the file MULTISPECTRAL_WINDOW_STATE, six times a second."""
 
 import json
 import os
@@ -62,6 +62,29 @@ def _show_panel():
     simple.SetActiveSource(made)
 
 
+def _trigger_entry():
+    """On the test's word: an entry of a menu's group Multispectral, as a click does it."""
+    word = os.path.join(os.path.dirname(os.environ["MULTISPECTRAL_WINDOW_STATE"]), "trigger-entry")
+    if not os.path.exists(word):
+        return
+    with open(word, encoding="utf-8") as file:
+        menu, entry, source = json.load(file)
+    os.remove(word)
+    simple.SetActiveSource(simple.FindSource(source))
+    application = QtWidgets.QApplication.instance()
+    main = next(w for w in application.topLevelWidgets() if isinstance(w, QtWidgets.QMainWindow) and w.isVisible())
+    for title in main.menuBar().actions():
+        if title.text().replace("&", "") != menu:
+            continue
+        title.menu().aboutToShow.emit()  # which enables the entries
+        for group in title.menu().actions():
+            if group.menu() is not None and group.text() == "Multispectral":
+                group.menu().aboutToShow.emit()
+                for action in group.menu().actions():
+                    if action.text() == entry and action.isEnabled():
+                        QtCore.QTimer.singleShot(0, action.trigger)
+
+
 def _panel(main):
     """What the panel Properties asks of the selected source: name, middle of the field, and what stands in it or is offered."""
     found = {}
@@ -86,6 +109,14 @@ def _corners(placement, frame):
     if placement is None or not placement.isVisible() or placement.view is None:
         return []
     return [[int(frame[0] + x), int(frame[1] + frame[3] - y)] for x, y in map(placement.on_screen, placement.corners)]
+
+
+def _shown(kind):
+    """The names of what the views of a kind show."""
+    names = {source.SMProxy.GetGlobalID(): name for (name, _), source in simple.GetSources().items()}
+    return sorted({names.get(display.Input.SMProxy.GetGlobalID(), "") for view in simple.GetViews() if view.SMProxy.GetXMLName() == kind
+                   for display in view.Representations
+                   if getattr(display, "Input", None) is not None and getattr(display, "Visibility", 0)})
 
 
 def _plain(text):
@@ -156,6 +187,12 @@ def _state():
     placement = main.findChild(QtWidgets.QDialog, "MultispectralChartDialog")
     tree = main.findChild(QtWidgets.QDockWidget, "outputWidgetDock").findChild(QtWidgets.QTreeView)
     return {
+        "shown": _shown("RenderView"),
+        "shown in tables": _shown("SpreadSheetView"),
+        "buttons": {_plain(button.text()): _middle(button) for window in windows if isinstance(window, QtWidgets.QDialog)
+                    for button in window.findChildren(QtWidgets.QAbstractButton) if button.isVisible() and button.text()},
+        "bar": main.statusBar().currentMessage(),
+        "camera": {view.SMProxy.GetGlobalIDAsString(): [*view.CameraPosition, view.CameraParallelScale] for view in simple.GetRenderViews()},
         "messages": [w.text() for w in windows if isinstance(w, QtWidgets.QMessageBox)],
         "output": [tree.model().index(row, 0).data() for row in range(tree.model().rowCount())],
         "width": main.width(),
@@ -184,6 +221,7 @@ def _state():
 def _write():
     _load_chart()
     _show_panel()
+    _trigger_entry()
     state = _state()
     if state is not None:
         path = os.environ["MULTISPECTRAL_WINDOW_STATE"]
@@ -194,4 +232,4 @@ def _write():
 
 _timer = QtCore.QTimer()
 _timer.timeout.connect(_write)
-_timer.start(300)
+_timer.start(150)

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 namespace
 {
@@ -63,6 +64,21 @@ TEST(CalibrationPipeline, EveryMethodEstimatesWhatNumPyDoes)
       EXPECT_EQ(
         tableAt(fit, 3)->GetNumberOfRows(), method == vtkMetamerismCorrection::BANDED ? 2 : 0);
     }
+  }
+}
+
+TEST(CalibrationPipeline, TellsAConditionNumberWhereThereIsOne)
+{
+  const ExpectedEstimation expected(0);
+  for (const auto& [method, has] : { std::pair(vtkMetamerismCorrection::POOLED, true),
+         std::pair(vtkMetamerismCorrection::TRANSFER, false) })
+  {
+    vtkNew<vtkMetamerismCorrection> fit;
+    fit->SetInputData(0, tableOf(expected.calibration()));
+    fit->SetInputData(1, tableOf(expected.tuning()));
+    fit->SetMethod(method);
+    ASSERT_EQ(errorOf(fit), "");
+    EXPECT_EQ(tableAt(fit, 2)->GetColumnByName("condition") != nullptr, has);
   }
 }
 

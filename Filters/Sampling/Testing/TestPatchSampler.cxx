@@ -178,7 +178,12 @@ TEST(PatchSampler, SamplesAGridOverTheWholeImage)
   sampler->SetGridColumns(3);
   sampler->SetGridRows(2);
   sampler->SetPatchFraction(0.6);
-  ASSERT_EQ(errorOf(sampler), "");
+  MessageLog log(sampler);
+  sampler->Update();
+  ASSERT_EQ(log.firstError(), "");
+  ASSERT_EQ(log.warnings().size(), 1U);
+  EXPECT_NE(log.warnings().front().find("a grid of 3 x 2 over the whole image"), std::string::npos)
+    << log.warnings().front();
   auto* table = sampler->GetOutput();
   ASSERT_EQ(table->GetNumberOfRows(), 6);
   for (int row = 0; row < 6; ++row)
@@ -202,7 +207,9 @@ TEST(PatchSampler, SamplesAGridBetweenFourCorners)
   sampler->SetCorner2(-0.5, -0.5);
   sampler->SetCorner3(-0.5, 19.5);
   sampler->SetCorner4(29.5, 19.5);
+  const MessageLog log(sampler);
   ASSERT_EQ(errorOf(sampler), "");
+  EXPECT_TRUE(log.warnings().empty());
   for (int row = 0; row < 6; ++row)
   {
     EXPECT_EQ(cell(sampler->GetOutput(), row, "C1"), 6.0 - row);

@@ -67,7 +67,7 @@ class SpectrumChart(QtWidgets.QWidget):
 
     def _draw_axes(self, painter, plot, across, upwards, place):
         metrics = painter.fontMetrics()
-        for x in _steps(*across, max(2, int(plot.width() / 70))):
+        for x in _steps(*across, max(2, int(plot.width() / 50))):
             painter.setPen(_GRID)
             painter.drawLine(place(x, upwards[0]), place(x, upwards[1]))
             painter.setPen(_TEXT)

@@ -13,6 +13,7 @@ CHARTS = {"ColorChecker, 24 patches": (6, 4), "ColorChecker SG, 140 patches": (1
           "Other": None}
 _NEAR = 14  # pixels from a corner that still take it
 _COLORS = ("#F0E442", "#56B4E9", "#56B4E9", "#56B4E9")  # the first patch's corner is yellow, as in the picture
+_HINT = "Select the image of the chart in the Pipeline Browser, name the reference, and press Find."
 _INSET = 0.15  # of the image's size: where corners start that were not found
 
 
@@ -26,6 +27,7 @@ class Placement(QtWidgets.QDialog):
         self.setMinimumWidth(460)
         self.finder = self.samples = self.view = self._held = None
         self.corners, self._marks, self._tags = [], Marks(), []
+        self._made = []  # objects of the pipeline that a search has made and nobody has saved
         form = QtWidgets.QFormLayout(self)
         self.kind = QtWidgets.QComboBox()
         self.kind.setObjectName("MultispectralChartKind")
@@ -49,7 +51,7 @@ class Placement(QtWidgets.QDialog):
         line.addWidget(self.reference, 1)
         line.addWidget(browse)
         form.addRow("Reference", line)
-        self.status = QtWidgets.QLabel("Select the image of the chart in the Pipeline Browser, name the reference, and press Find.")
+        self.status = QtWidgets.QLabel(_HINT)
         self.status.setObjectName("MultispectralChartStatus")
         self.status.setWordWrap(True)
         self.status.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
@@ -58,7 +60,7 @@ class Placement(QtWidgets.QDialog):
         self.find_button = self._button(buttons, "Find", "Search for the chart in the selected image", self.find)
         self.save_button = self._button(buttons, "Save\u2026", "Save the chart's samples as a table", self._ask_file)
         self.save_button.setEnabled(False)
-        self._button(buttons, "Close", "Remove the corners from the view", self.close)
+        self._button(buttons, "Close", "Close; what was found goes unless it was saved", self.close)
         form.addRow(buttons)
         self._take_kind(self.kind.currentText())
 
@@ -99,7 +101,7 @@ class Placement(QtWidgets.QDialog):
         path = self.reference.text()
         if not os.path.isfile(path):
             return self._say(f"{path or 'The reference'}: no such file. Name the table with the chart's measured reflectance.")
-        self._forget()
+        self._put_back()
         self._image, self._extent = image, extent
         name = pixel.name_of(image)
         with messages.heard() as said:
@@ -108,10 +110,12 @@ class Placement(QtWidgets.QDialog):
         if said.errors:
             simple.Delete(reference)
             return self._say(said.errors[0])
+        self._made = [reference]
         self.finder = simple.ChartFinder(registrationName=f"{name}: chart", Input=image, Reference=reference,
                                          GridColumns=self.columns.value(), GridRows=self.rows.value())
         self.samples = simple.PatchSampler(registrationName=f"{name}: chart samples", Input=image, Labels=self.finder[0],
                                            PatchTable=self.finder[1])
+        self._made += [self.finder, self.samples]
         said = self._update()
         found = not said.errors
         self.corners = self._found_corners() if found else self._start_corners()
@@ -224,6 +228,8 @@ class Placement(QtWidgets.QDialog):
             writer = servermanager.writers.SampleTableWriter(Input=self.samples, FileName=path)
             with messages.heard() as said:
                 writer.UpdatePipeline()
+            if not said.errors:
+                self._made = []  # stays in the pipeline
             self._say(said.errors[0] if said.errors else f"Saved: {path}")
 
     def _forget(self):
@@ -236,10 +242,33 @@ class Placement(QtWidgets.QDialog):
             self._marks.clear(self.view)
         self.view = None
 
-    def done(self, result):
+    def _put_back(self):
+        """Everything as it was before the search, unless its samples were saved."""
+        view, known = self.view, {source.SMProxy.GetGlobalID() for source in simple.GetSources().values()}
         self._forget()
+        made = [source for source in reversed(self._made) if source.SMProxy.GetGlobalID() in known]
+        self._made = []
+        if not made:
+            return
+        active = simple.GetActiveSource()
+        for source in made:
+            simple.Delete(source)
+        self.finder = self.samples = None
+        if view is not None and self._image.SMProxy.GetGlobalID() in known:
+            simple.Show(self._image, view)
+            simple.Render(view)
+            if active is None or active.SMProxy in [source.SMProxy for source in made]:
+                simple.SetActiveSource(self._image)
+
+    def _end(self):
+        self._put_back()
+        self.save_button.setEnabled(False)
+        self._say(_HINT)
+
+    def done(self, result):
+        self._end()
         super().done(result)
 
     def closeEvent(self, event):
-        self._forget()
+        self._end()
         super().closeEvent(event)

@@ -4,40 +4,135 @@ begin with the columns whose names come first in the alphabet, a cube is seen al
 from PyQt5 import QtCore, QtWidgets
 from paraview import simple
 
-from . import view_choice
+from . import pixel, view_choice
 
 # Columns that tell what a row is, and the result, in the order in which they are read.
-_LEADING = ("method", "rank", "sample", "label", "medium", "effect", "form", "axis", "cell", "name", "value", "unit", "standard_error", "probability",
+_LEADING = ("method", "rank", "sample", "label", "medium", "title", "effect", "form", "axis", "cell", "name", "value", "unit", "standard_error", "probability",
             "share", "shrink", "metric", "illuminant", "count", "mean", "median", "p95", "max", "channel", "wavelength",
             "dx", "dy", "agreement")
 
 _seen = set()  # global ids of displays
+_shown = set()  # global id and port of each source that has had a display
+_misplaced = []  # spreadsheets and the displays of images in them
+_failed = set()  # global ids of displays whose filter gave no image
+_listening = []  # to the button Apply
+_fitted = {}  # by view: camera and size when its image filled it
 _ordered = {}  # the columns that each table showed when they were put in order
 
 
 def adapt(window):
+    button = window.findChild(QtWidgets.QAbstractButton, "Accept")
+    if button is not None and not _listening:
+        _listening.append(button)
+        button.clicked.connect(lambda: QtCore.QTimer.singleShot(0, _try_again))
+    _take_images_out_of_tables()
     for view in simple.GetRenderViews():
+        _replace_failed(view)
         shown = [display for display in view.Representations if getattr(display, "Visibility", 0) and _is_image_of_ours(display)]
         new = [display for display in shown if display.SMProxy.GetGlobalID() not in _seen]
         if new:
             _seen.update(display.SMProxy.GetGlobalID() for display in shown)
             _show_last(view, shown, new[-1])
+            _fitted[_key(view)] = _camera(view)
+        _fit_to_size(view)
     for table in window.findChildren(QtWidgets.QTableView):
         if table.metaObject().className() == "pqSpreadSheetViewWidget":
             order_columns(table)
 
 
-def _is_image_of_ours(display):
+def _key(proxy):
+    return proxy.SMProxy.GetGlobalID()
+
+
+def _type(display):
+    return display.Input.GetDataInformation(display.Input.Port).GetDataSetTypeAsString()
+
+
+def _is_ours(display):
     source = getattr(display, "Input", None)
-    return source is not None and view_choice.is_ours(source) and \
-        source.GetDataInformation(source.Port).GetDataSetTypeAsString() == "vtkImageData"
+    return source is not None and view_choice.is_ours(source)
+
+
+def _is_empty(display):
+    return display.Input.GetDataInformation(display.Input.Port).GetNumberOfPoints() == 0
+
+
+def _is_image_of_ours(display):
+    return _is_ours(display) and _type(display) == "vtkImageData" and not _is_empty(display)
+
+
+def _take_images_out_of_tables():
+    """Of several sources that are applied at once, ParaView shows all in the view of the last one: where that is a spreadsheet, images
+    become tables of their pixels. Who shows an image in a spreadsheet later has seen it before. One look later, when all are applied."""
+    for table, display in _misplaced:
+        _move(display, table)
+    _misplaced.clear()
+    for view in simple.GetViews():
+        if not hasattr(view, "Representations"):
+            continue
+        for display in list(view.Representations):
+            if getattr(display, "Input", None) is None:
+                continue
+            shown = _key(display.Input), display.Input.Port
+            if shown in _shown:
+                continue
+            _shown.add(shown)
+            if view.SMProxy.GetXMLName() == "SpreadSheetView" and _is_image_of_ours(display):
+                _misplaced.append((view, display))
+
+
+def _move(display, table):
+    image, known = view_choice.free_view("RenderView"), [_key(view) for view in simple.GetViews()]
+    if image is None or _key(table) not in known or _key(display) not in [_key(other) for other in table.Representations]:
+        return
+    display.Visibility = 0
+    others = [other for other in table.Representations if _is_ours(other) and _type(other) == "vtkTable"]
+    if others and not any(other.Visibility for other in table.Representations):
+        others[-1].Visibility = 1
+    simple.Render(table)
+    simple.Show(display.Input, image)
+
+
+def _replace_failed(view):
+    """A filter that failed has a display without an array, which would stay empty when the filter succeeds later. Until then its input
+    is shown, which ParaView has hidden."""
+    for display in list(view.Representations):
+        if not _is_ours(display) or _type(display) != "vtkImageData":
+            continue
+        if _is_empty(display):
+            if _key(display) not in _failed and display.Visibility:
+                _failed.add(_key(display))
+                display.Visibility = 0
+                _show_input_of(display, view)
+        elif _key(display) in _failed:
+            _failed.discard(_key(display))
+            source = display.Input
+            simple.Delete(display)
+            simple.Show(source, view)
+
+
+def _try_again():
+    """After Apply: ParaView does not run what no view shows."""
+    source = simple.GetActiveSource()
+    if source is not None and any(_key(display) in _failed and _key(display.Input) == _key(source)
+                                  for view in simple.GetRenderViews() for display in view.Representations):
+        source.UpdatePipeline()
+
+
+def _show_input_of(display, view):
+    source = getattr(display.Input, "Input", None)
+    for other in view.Representations:
+        known = getattr(other, "Input", None)
+        if source is not None and known is not None and (_key(known), known.Port) == (_key(source), source.Port):
+            other.Visibility = 1
+            simple.Render(view)
 
 
 def _show_last(view, shown, last):
     """Two pictures in one place are one wrong picture, and a legend tells of the one below: the last one stays."""
-    after_cube = False
-    for display in shown:
-        if display is not last and _overlap(display, last):
+    after_cube, others = False, [display for display in shown if display is not last]
+    for display in others:
+        if _overlap(display, last):
             display.SetScalarBarVisibility(view, False)
             display.Visibility = 0
             after_cube = after_cube or _is_cube(display)
@@ -47,7 +142,27 @@ def _show_last(view, shown, last):
         view.InteractionMode = "2D"
         view.ResetActiveCameraToNegativeZ()
         simple.ResetCamera(view)
+    elif others and not any(_bounds(display) == _bounds(last) for display in others):
+        simple.ResetCamera(view)
     simple.Render(view)
+
+
+def _camera(view):
+    return [*view.CameraPosition, *view.CameraFocalPoint, view.CameraParallelScale], list(view.ViewSize)
+
+
+def _fit_to_size(view):
+    """A view that became smaller shows its whole image, as long as the user has not moved it. Captions have their own place."""
+    before = _fitted.get(_key(view))
+    if before is None or view_choice.has_caption(view):
+        return
+    now = _camera(view)
+    if now[0] != before[0]:
+        del _fitted[_key(view)]
+    elif now[1] != before[1]:
+        simple.ResetCamera(view)
+        simple.Render(view)
+        _fitted[_key(view)] = _camera(view)
 
 
 def _is_cube(display):
@@ -55,20 +170,28 @@ def _is_cube(display):
 
 
 def _show_cube(view, display):
-    """From three sides, with the spectra on its faces; ParaView leaves a volume without colors."""
-    if not display.ColorArrayName[1]:
-        simple.ColorBy(display, ("POINTS", display.Input.PointData.GetArray(0).Name))
-        display.SetScalarBarVisibility(view, True)
+    """From three sides, with the spectra on its faces."""
+    display.SetScalarBarVisibility(view, True)
     view.InteractionMode = "3D"
     view.ResetActiveCameraToNegativeZ()
     view.ApplyIsometricView()
     simple.ResetCamera(view)
 
 
+def _bounds(display):
+    return display.Input.GetDataInformation(display.Input.Port).GetBounds()
+
+
+def _area(display):
+    """Left, right, bottom, top of the pixels; bounds go from middle to middle."""
+    extent, origin, spacing = pixel.grid(display.Input, display.Input.Port)
+    return [origin[i] + spacing[i] * (extent[2 * i + end] + (end - 0.5)) for i in range(2) for end in range(2)]
+
+
 def _overlap(a, b):
-    boxes = [display.Input.GetDataInformation(display.Input.Port).GetBounds() for display in (a, b)]
+    first, second = _area(a), _area(b)
     moved = any(tuple(getattr(display, "Position", (0, 0, 0))) != (0, 0, 0) for display in (a, b))
-    return not moved and all(boxes[0][2 * i] < boxes[1][2 * i + 1] and boxes[1][2 * i] < boxes[0][2 * i + 1] for i in range(2))
+    return not moved and all(first[2 * i] < second[2 * i + 1] and second[2 * i] < first[2 * i + 1] for i in range(2))
 
 
 def order_columns(table):
@@ -78,6 +201,8 @@ def order_columns(table):
     if not names or _ordered.get(table) == names:
         return
     _ordered[table] = names
+    for i in range(header.count()):  # the order of the columns of another table
+        header.moveSection(header.visualIndex(i), i)
     place = 0
     for name in _LEADING:
         if name in names:

@@ -6,7 +6,7 @@ import os
 from PyQt5 import QtCore, QtGui, QtWidgets
 from paraview import simple
 
-from . import first_views, pixel, profile_chart
+from . import first_views, notes, pixel, profile_chart
 from .chart import Curve, SpectrumChart
 from .marks import Marks, rectangle
 
@@ -22,7 +22,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         super().__init__("Spectrum", parent)
         self.setObjectName("MultispectralSpectrum")
         self.live, self.pins, self._watched, self._pressed = None, [], {}, None
-        self._marks, self._marked = Marks(), {}
+        self._marks, self._marked, self._marked_grids = Marks(), {}, {}
         self.chart = SpectrumChart()
         self.text = QtWidgets.QLabel("Move the cursor over an image; click to keep a spectrum.")
         self.text.setWordWrap(True)
@@ -78,7 +78,10 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         self._adapt_band()
         profile_chart.adapt_views()
         first_views.adapt(self.window())
+        notes.adapt(self.window())
         self._forget_deleted()
+        if self.pins and self._marked and self._grids() != self._marked_grids:
+            self._mark(next(iter(self._marked.values())))
 
     def _forget_deleted(self):
         """The spectra of a source that is there no more, as after Edit > Reset Session."""
@@ -136,14 +139,22 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         return self.region.isChecked()
 
     def _mark(self, view, also=()):
-        """The places of the kept spectra, in this view and in those that had marks before."""
-        points = [(pin.point, self._color(i)) for i, pin in enumerate(self.pins) if pin.region is None]
-        lines = [(rectangle(*pin.region), self._color(i)) for i, pin in enumerate(self.pins) if pin.region is not None]
+        """The places of the kept spectra, in this view and in those that had marks before, where their image is shown."""
         known = {other.SMProxy.GetGlobalID() for other in simple.GetRenderViews()}
         self._marked = {key: other for key, other in self._marked.items() if key in known}
         self._marked[view.SMProxy.GetGlobalID()] = view
         for other in self._marked.values():
+            grids = pixel.visible_grids(other)
+            pins = [(pin, self._color(i)) for i, pin in enumerate(self.pins) if pin.grid in grids]
+            points = [(pin.point, color) for pin, color in pins if pin.region is None]
+            lines = [(rectangle(*pin.region), color) for pin, color in pins if pin.region is not None]
             self._marks.show(other, points, [*lines, *also])
+        self._marked_grids = self._grids()
+
+    def _grids(self):
+        """By view with marks: the grids of its images. The marks go with the image to whose pixels they belong."""
+        known = {view.SMProxy.GetGlobalID(): view for view in simple.GetRenderViews()}
+        return {key: pixel.visible_grids(known[key]) for key in self._marked if key in known}
 
     @staticmethod
     def _color(i):

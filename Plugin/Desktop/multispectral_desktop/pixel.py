@@ -9,8 +9,9 @@ SPECTRA = ("Reflectance", "Responses")
 
 # values: the spectrum; deviation: its standard uncertainty, or None; measured: the reference at the pixel, or None;
 # errors: {"dE00 D65": 1.2, ..}; region: None for one pixel, else two opposite corners, of whose pixels values are the mean and
-# deviation is the standard deviation; count: the pixels of the region; source: its number among ParaView's
-Pixel = collections.namedtuple("Pixel", "name column row point kind wavelengths values deviation measured errors source region count",
+# deviation is the standard deviation; count: the pixels of the region; source: its number among ParaView's; grid: of the image, as
+# grid_of says
+Pixel = collections.namedtuple("Pixel", "name column row point kind wavelengths values deviation measured errors source grid region count",
                                defaults=(None, 1))
 
 
@@ -102,13 +103,13 @@ def at(view, x, y):
         if source.SMProxy.GetXMLName() == "CIEDE2000Evaluator" and getattr(source, "Input", None) is not None:
             source, port = source.Input, source.Input.Port  # over an error map: the spectrum that it judges
         data = data_of(source, port)
-        found = _local(source, data, point) if data is not None else _remote(source, port, point)
+        found = _local(source, port, data, point) if data is not None else _remote(source, port, point)
         if found is not None:
             return found
     return None
 
 
-def _local(source, data, point):
+def _local(source, port, data, point):
     place, array = _index(data, point), _spectral_array(data)
     if place is None or array is None:
         return None
@@ -133,7 +134,7 @@ def _local(source, data, point):
                     errors[name] = arrays.GetArray(i).GetTuple1(number)
     top = data.GetExtent()[3] - row  # as images count rows: from the top
     return Pixel(name_of(source), column, top, point, array.GetName(), wavelengths, values, deviation, measured, errors,
-                 source.SMProxy.GetGlobalID())
+                 source.SMProxy.GetGlobalID(), grid_of(source, port))
 
 
 def region(view, start, end):
@@ -171,7 +172,7 @@ def _mean(source, port, ends):
     place = [(low[i] + high[i]) / 2 for i in range(2)]
     column, up = (math.floor((place[i] - origin[i]) / spacing[i] + 0.5) for i in range(2))
     return Pixel(name_of(source), column, extent[3] - up, place, profile.kind, profile.across, profile.values,
-                 profile.deviation, measured, {}, source.SMProxy.GetGlobalID(), (low, high), profile.count)
+                 profile.deviation, measured, {}, source.SMProxy.GetGlobalID(), grid_of(source, port), (low, high), profile.count)
 
 
 def grid(source, port):
@@ -183,6 +184,16 @@ def grid(source, port):
     bounds = information.GetBounds()
     spacing = [(bounds[2 * i + 1] - bounds[2 * i]) / max(1, extent[2 * i + 1] - extent[2 * i]) or 1.0 for i in range(2)]
     return extent, [bounds[2 * i] - spacing[i] * extent[2 * i] for i in range(2)], spacing
+
+
+def grid_of(source, port):
+    """What two images have in common whose pixels lie in the same places."""
+    extent, origin, spacing = grid(source, port)
+    return None if extent is None else (*extent, *origin, *spacing)
+
+
+def visible_grids(view):
+    return {grid_of(source, port) for source, port, _ in visible_images(view)}
 
 
 _profiles = {}
@@ -247,7 +258,7 @@ def _remote(source, port, point):
                 if error is not None and math.isfinite(error.values[0]):
                     errors[name] = error.values[0]
     return Pixel(name_of(source), column, extent[3] - row, list(point), profile.kind, profile.across, profile.values,
-                 deviation and deviation.values, measured, errors, source.SMProxy.GetGlobalID())
+                 deviation and deviation.values, measured, errors, source.SMProxy.GetGlobalID(), grid_of(source, port))
 
 
 def name_of(source):

@@ -35,8 +35,8 @@ def _folder_without_reader(dialog):
 
 def _refuse(dialog, folder):
     dialog.reject()
-    QtWidgets.QMessageBox.warning(dialog.parentWidget(), "Multispectral", f"{folder}: no spectral image stands in this folder; name the "
-                                  "folder that holds the image, with white/ and dark/ beside it, or open a file")
+    QtWidgets.QMessageBox.warning(dialog.parentWidget(), "Multispectral", f"{folder}: the folder holds no spectral image; expected the "
+                                  "image with white/ and dark/ beside it; choose that folder, or a file")
 
 
 def answer(dialog):

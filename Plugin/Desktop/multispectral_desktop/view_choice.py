@@ -12,15 +12,21 @@ def adapt(is_new):
     source, active = simple.GetActiveSource(), simple.GetActiveView()
     wanted = _view_of(source) if source is not None and active is not None else None
     fits = wanted is None or active.SMProxy.GetXMLName() == wanted
-    if fits and not (is_new and wanted is not None and _has_caption(active)):
+    if fits and not (is_new and wanted is not None and has_caption(active)):
         return
-    suitable = [view for view in simple.GetViews() if view.SMProxy.GetXMLName() == wanted]
-    free = [view for view in suitable if not _has_caption(view)]
-    if free or (suitable and not fits):
-        simple.SetActiveView((free or suitable)[0])
+    view = free_view(wanted, at_all=not fits)
+    if view is not None:
+        simple.SetActiveView(view)
 
 
-def _has_caption(view):
+def free_view(kind, at_all=True):
+    """A view of this kind, best one without a caption; at_all: else one with a caption. None where there is none."""
+    suitable = [view for view in simple.GetViews() if view.SMProxy.GetXMLName() == kind]
+    free = [view for view in suitable if not has_caption(view)]
+    return next(iter(free or (suitable if at_all else [])), None)
+
+
+def has_caption(view):
     inputs = [getattr(display, "Input", None) for display in view.Representations]
     return any(source is not None and source.SMProxy.GetXMLName() == "TextSource" for source in inputs)
 

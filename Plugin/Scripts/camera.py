@@ -1,5 +1,6 @@
 """A camera simulated beside the real one: fitted to measured samples or read, with any set of effects."""
 
+import math
 import os
 import sys
 
@@ -89,6 +90,21 @@ WRITES = (
     "channel-??.png", "ideal.img", "ideal.hdr", "responses.img", "responses.hdr", "report.html")
 
 
+def lead_of(difference, fit, measured):
+    """The result in one sentence."""
+    names, rows = pipeline.table(pipeline.port(difference, 1))
+    if not rows:
+        return ""
+    rms = math.sqrt(sum(row[names.index("rms")] ** 2 for row in rows) / len(rows))
+    if not measured:
+        return f"Noise and effects change the responses of the ideal camera by rms {rms:.4f} (1 = white) over {len(rows)} channels."
+    text = f"The simulated camera differs from the real one by rms {rms:.4f} (response, 1 = white) over {len(rows)} channels"
+    if fit is not None:
+        titles, figures = pipeline.table(pipeline.port(fit, 2))
+        text += f"; on samples that took no part in the fit, by {figures[0][titles.index('held_out_rms')]:.4f}"
+    return text + "."
+
+
 def main():
     options = OPTIONS
     command.require_files(*(options.image or []), options.samples, options.scene, options.labels, options.patches,
@@ -116,7 +132,7 @@ def main():
     if options.fit:
         fit = cameras.fit(samples, designed, options.draws, folder, options.detector_curve)
         camera, uncertainty = pipeline.port(fit, 0), pipeline.port(fit, 1)
-        pages.append(report.table("The fit", *pipeline.table(pipeline.port(fit, 2))))
+        pages.append(report.figures("The fit", *pipeline.table(pipeline.port(fit, 2))))
         pages.append(report.table("Channels", *pipeline.table(pipeline.port(fit, 3))))
     else:
         cameras.save(camera, os.path.join(folder, "camera.json"))
@@ -152,7 +168,7 @@ def main():
         pipeline.update(maps)
         pages.append(report.pictures("The chart, channel by channel", folder,
                                      cameras.draw_channels(chart, image, maps, folder)))
-    report.write(folder, "The camera, simulated and real", pages)
+    report.write(folder, "The camera, simulated and real", pages, lead_of(difference, fit, measured))
     command.say(f"camera, tables, pictures and report.html: {folder}")
 
 

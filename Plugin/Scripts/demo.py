@@ -106,7 +106,8 @@ def main():
                     "Data/Samples/README.md and Data/Images/README.md say how they were made."),
         report.table("Methods on held-out swatches", *comparison.condensed(names, rows),
                      note=f"{TUNING} tuning swatches. Mean / median / max over the swatches held out, "
-                          f"mean over {DRAWS} draws; rms of reflectance factor, CIEDE2000."),
+                          f"mean over {DRAWS} draws; rms of reflectance factor, CIEDE2000. "
+                          + comparison.explained(names, rows)),
         report.pictures("The comparison in pictures", folder, {
             "spectra.png": "A typical held-out swatch",
             "rms-against-tuning.png": "Error against the number of tuning swatches",

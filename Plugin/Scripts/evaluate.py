@@ -61,8 +61,9 @@ def main():
                                             draws=options.draws, seed=options.seed, colors=judged)
     report.write(folder, "Methods compared", [
         report.table("Errors of the held-out samples", *comparison.condensed(names, rows),
-                     note=f"Mean / median / largest over the held-out samples, mean over {options.draws} draws of "
-                          f"{options.tuning} tuning samples; rms of reflectance factor, {judged.label}."),
+                     note=f"Mean / median / largest over the held-out samples, mean over {counted(options.draws, 'draw')} of "
+                          f"{options.tuning} tuning samples; rms of reflectance factor, {judged.label}. "
+                          + comparison.explained(names, rows)),
         report.table("Is the best method better?", *comparison.against_best(names, rows, pairs),
                      note="Ratio of the mean errors with its 95 % interval, and in how many held-out samples the error is "
                           "smaller. 'open': the interval holds 1. Intervals are about other draws of tuning samples and other "

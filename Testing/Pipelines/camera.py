@@ -31,6 +31,10 @@ def main():
                  "responsivities.png", "difference-channels.png", "samples.png", "report.html"):
         if not (fitted / name).is_file():
             faults.append(f"no {name}")
+    page = (fitted / "report.html").read_text(encoding="utf-8")
+    for part in ("class='lead'>The simulated camera differs from the real one by rms 0.00", "rms of held-out samples (1 = white)"):
+        if part not in page:
+            faults.append(f"report.html does not say '{part}'")
     # The demo's camera has noise of about 0.003 of white: its own chart is predicted as well as that.
     for row in rows(fitted / "difference-channels.csv"):
         if not float(row["rms"]) < 0.01 or abs(float(row["gain"]) - 1.0) > 0.01:

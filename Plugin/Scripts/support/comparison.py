@@ -1,11 +1,12 @@
 """Comparing the methods: the results table and its three pictures."""
 
+import math
 import os
 
 from . import command, pictures, pipeline
 from .colors import Colors
 from .command import Failure
-from .methods import NAMES
+from .methods import MEANINGS, NAMES
 
 # Numbers of tuning samples of the picture rms against tuning.
 TUNING_STEPS = (4, 6, 10, 16, 24, 36, 48)
@@ -83,6 +84,15 @@ def condensed(names, rows):
              for method, cells in by_method.items()])
 
 
+def explained(names, rows):
+    """The methods of a condensed table and its intervals, in words."""
+    titles, lines = condensed(names, rows)
+    text = "; ".join(f"{line[0]}: {MEANINGS[line[0]]}" for line in lines) + "."
+    if any(title.startswith("within") for title in titles):
+        text += " Within 90 % interval: how many of the held-out reflectances lie in the interval that the method predicts."
+    return text
+
+
 def against_best(names, rows, pairs):
     """The paired comparison of the method with the least rms with all others, as titles and lines of a table."""
     column = {name: i for i, name in enumerate(names)}
@@ -98,8 +108,9 @@ def against_best(names, rows, pairs):
         if row[at["method"]] == first:
             verdict = {first: "better", "": "open"}.get(row[at["better"]], "worse")
             values = [row[at[name]] for name in ("ratio", "low", "high", "wins")]
+            interval = "no interval from one draw" if math.isnan(values[1]) else "{:.2f} .. {:.2f}".format(*values[1:3])
             lines.setdefault(row[at["against"]], {})[row[at["metric"]], row[at["illuminant"]]] = (
-                "{:.2f} ({:.2f} .. {:.2f}), smaller in {:.0%}: {}".format(*values, verdict))
+                f"{values[0]:.2f} ({interval}), smaller in {100.0 * values[3]:.0f} %: {verdict}")
     return ([f"{first} against"] + [" ".join(filter(None, metric)) for metric in metrics],
             [[other] + [cells.get(metric, "") for metric in metrics] for other, cells in lines.items()])
 

@@ -183,8 +183,8 @@ def lead(gap):
         value = f" {cause['value']:.3g}{'' if cause['unit'] in ('', '1') else ' ' + cause['unit']}" if len(parameters) == 1 else ""
         found.append(f"{title_of(cause)}{value} ({percent(cause['share'])} of the gap)")
     causes = "; ".join(found) if found else "no known effect accounts for it"
-    return (f"The simulated and the real camera differ by rms {figures['rms_before']:.4f}; after correction, by "
-            f"{figures['rms_after']:.4f}. Cause{'s' if len(found) > 1 else ''}: {causes}.")
+    return (f"The simulated and the real camera differ by rms {figures['rms_before']:.4f} (response, 1 = white); after "
+            f"correction, by {figures['rms_after']:.4f}. Cause{'s' if len(found) > 1 else ''}: {causes}.")
 
 
 def sections(gap, folder):

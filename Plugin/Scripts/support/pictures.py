@@ -131,10 +131,14 @@ def _draw_image(path, pixels, title, value_range, shown):
     drawn = _draw(plot, pixels, "viridis", value_range, _even_steps() if fixed else None)
     bar = figure.colorbar(drawn, ticks=DIFFERENCES if fixed else None, cax=figure.add_axes(((width + 0.15 * legend) / (width + legend), 0.12,
                                                       0.12 * legend / (width + legend), 0.76)))
-    bar.set_label(title, fontsize=13 * enlarged)
+    bar.set_label(_in_words(title), fontsize=13 * enlarged)
     bar.ax.tick_params(labelsize=11 * enlarged)
     bar.outline.set_visible(False)
     _save(figure, path)
+
+
+def _in_words(title):
+    return "\u0394" + title[1:] if title.startswith("dE") else title
 
 
 def _even_steps():
@@ -174,7 +178,7 @@ def _draw_row(path, panels):
         drawn = _draw(plot, pixels, "coolwarm" if bounds[0] < 0.0 else "viridis", bounds)
         bar = figure.colorbar(drawn, orientation="horizontal", cax=figure.add_axes(
             ((left + 0.1 * width) / whole[0], 0.68 * foot / whole[1], 0.8 * width / whole[0], 0.18 * foot / whole[1])))
-        bar.set_label(title, fontsize=10 * enlarged, labelpad=1)
+        bar.set_label(_in_words(title), fontsize=10 * enlarged, labelpad=1)
         bar.locator.set_params(nbins=4)
         bar.update_ticks()
         bar.ax.tick_params(labelsize=8 * enlarged, pad=1)

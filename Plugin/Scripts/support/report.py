@@ -14,7 +14,12 @@ _LONG = 40  # letters: such a cell is broken into lines
 _WIDE = 1.7  # times the height: needs the whole width of the page
 _WORDS = {"p95": "95th percentile", "left_out": "left out", "residual_rms": "residual rms", "condition": "condition number",
           "complete": "all unknowns determined", "OutOfRange": "excess over range",
-          "UncertaintyRms": "standard uncertainty"}  # of the tables' columns and the maps
+          "UncertaintyRms": "standard uncertainty", "held_out_rms": "rms of held-out samples (1 = white)",
+          "locality": "penalty on width", "smoothness": "penalty on roughness", "freedom": "effective coefficients per channel",
+          "curve_square": "detector curve: square term", "curve_held_out_rms": "detector curve: rms of held-out samples (1 = white)",
+          "curve_deviations": "detector curve: gain in standard deviations", "determined": "directions that the chart determines",
+          "directions": "directions of the responsivity", "centroid": "mean wavelength (nm)", "dark_error": "standard error of dark",
+          "rms_around_line": "rms around the line"}  # of the tables' columns and the maps
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 62rem; margin: 2rem auto;
        padding: 0 1rem; }
@@ -61,8 +66,8 @@ def _value_in_words(name, value):
     return value
 
 
-def table(title, names, rows, columns=None, note=None):
-    """columns: the columns to show, in order; all by default."""
+def table(title, names, rows, columns=None, note=None, fold=True):
+    """columns: the columns to show, in order; all by default. fold: long tables are opened by a click."""
     if not rows:
         return ""
     chosen = [names.index(name) for name in (columns or names)]
@@ -71,9 +76,16 @@ def table(title, names, rows, columns=None, note=None):
                    + "</tr>" for row in rows)
     remark = f"<p>{html.escape(note)}</p>" if note else ""
     content = f"<div class='scroll'><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
-    if len(rows) > _MOST_ROWS_SHOWN:
+    if fold and len(rows) > _MOST_ROWS_SHOWN:
         content = f"<details><summary>{len(rows)} rows</summary>{content}</details>"
     return _section(title, remark + content)
+
+
+def figures(title, names, rows, note=None):
+    """The figures of one row, each in a line of its own: for tables of one row and many columns."""
+    values = [_value_in_words(name, value) for name, value in zip(names, rows[0])] if rows else []
+    lines = [[in_words(name), value if isinstance(value, str) else _cell(value)] for name, value in zip(names, values)]
+    return table(title, ["figure", "value"], [line for line in lines if line[1] != ""], note=note, fold=False)
 
 
 def pictures(title, folder, captions):

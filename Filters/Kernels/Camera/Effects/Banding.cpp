@@ -83,14 +83,61 @@ private:
   std::vector<Eigen::ArrayXd> Start;
 };
 
-// Sine and cosine of a period, in every channel.
-std::vector<ImageTerm> sines(ImageParameter sine, ImageParameter cosine)
+// Its step on image pairs.
+struct StripesOfImage
 {
-  return { { sine, true, -0.3, 0.3, 0.01 }, { cosine, true, -0.3, 0.3, 0.01 } };
+  enum Number : std::size_t
+  {
+    Sine,
+    Cosine,
+    Gain,
+    Added,
+    OfColumns // and the same of columns
+  };
+
+  static double stripe(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  {
+    double factor = 1.0;
+    double added = 0.0;
+    for (const ImageLine* line : { &pixel.row, &pixel.column })
+    {
+      factor +=
+        numbers[Sine] * line->sine + numbers[Cosine] * line->cosine + numbers[Gain] * line->gain;
+      added += numbers[Added] * line->offset;
+      if (by != nullptr)
+      {
+        by[Sine] = line->sine * signal;
+        by[Cosine] = line->cosine * signal;
+        by[Gain] = line->gain * signal;
+        by[Added] = line->offset;
+        by += OfColumns;
+      }
+      numbers += OfColumns;
+    }
+    signal = signal * factor + added;
+    return factor;
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Lines,
+      { { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Rows },
+        { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns },
+        { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns } },
+      stripe };
+    return made;
+  }
+};
+
+// Sine and cosine of a period, in every channel.
+std::vector<ImageTerm> sines(std::size_t first)
+{
+  return { { first + StripesOfImage::Sine, true, -0.3, 0.3, 0.01 },
+    { first + StripesOfImage::Cosine, true, -0.3, 0.3, 0.01 } };
 }
 
 // The strength of a profile of any shape; three sines come nearest to it where it is put back.
-ImageTerm profile(ImageParameter strength)
+ImageTerm profile(std::size_t strength)
 {
   return { strength, true, 0.0, 2.0, 0.3 };
 }
@@ -116,7 +163,6 @@ std::vector<EffectParameter> harmonics(const char* unit, const char* kind)
 
 Effect banding()
 {
-  using P = ImageParameter;
   const std::vector<EffectParameter> stripes = { { "amplitude", "1", 0.0, 0.0, 0.45, 0.01,
                                                    "relative", true },
     { "period", "pixels", 32.0, 2.0, 4096.0, 8.0, "one cycle", false, true },
@@ -141,13 +187,13 @@ Effect banding()
         harmonics("white", "of white") },
       { "column_offsets", "the same with the column", harmonics("white", "of white") } },
     "flat field at two exposure times", EffectTrait::None,
-    { { "rows", sines(P::RowSine, P::RowCosine) },
-      { "columns", sines(P::ColumnSine, P::ColumnCosine) },
-      { "row_harmonics", { profile(P::RowGain) } },
-      { "column_harmonics", { profile(P::ColumnGain) } },
-      { "row_offsets", { profile(P::RowOffset) } },
-      { "column_offsets", { profile(P::ColumnOffset) } } } };
+    { { "rows", sines(0) }, { "columns", sines(StripesOfImage::OfColumns) },
+      { "row_harmonics", { profile(StripesOfImage::Gain) } },
+      { "column_harmonics", { profile(StripesOfImage::OfColumns + StripesOfImage::Gain) } },
+      { "row_offsets", { profile(StripesOfImage::Added) } },
+      { "column_offsets", { profile(StripesOfImage::OfColumns + StripesOfImage::Added) } } } };
   effect.onImage.makePixels = makePixelOperator<Banding>;
+  effect.onImage.step = &StripesOfImage::step();
   return effect;
 }
 

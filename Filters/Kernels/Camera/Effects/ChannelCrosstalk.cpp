@@ -55,6 +55,32 @@ private:
 };
 }
 
+namespace
+{
+// Its step on image pairs.
+struct CrosstalkOfImage
+{
+  static double exchange(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  {
+    const double before = pixel.previous != nullptr ? *pixel.previous - pixel.self : 0.0;
+    const double behind = pixel.next != nullptr ? *pixel.next - pixel.self : 0.0;
+    if (by != nullptr)
+    {
+      by[0] = before;
+      by[1] = behind;
+    }
+    signal += numbers[0] * before + numbers[1] * behind;
+    return 1.0; // what changes the light here changes that of the neighbours much alike
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Exposure, { {}, {} }, exchange };
+    return made;
+  }
+};
+}
+
 Effect channelCrosstalk()
 {
   const EffectParameter coupling{ "coupling", "1", 0.0, -0.2, 0.45, 0.01,
@@ -79,10 +105,9 @@ Effect channelCrosstalk()
       { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
         { previous, next } } },
     "narrow-band source", EffectTrait::CouplesChannels,
-    { { "one_sided",
-      { imageTerm(ImageParameter::FromPrevious, previous),
-        imageTerm(ImageParameter::FromNext, next) } } } };
+    { { "one_sided", { imageTerm(0, previous), imageTerm(1, next) } } } };
   effect.makeBlock = makeBlockOperator<ChannelCrosstalk>;
+  effect.onImage.step = &CrosstalkOfImage::step();
   return effect;
 }
 

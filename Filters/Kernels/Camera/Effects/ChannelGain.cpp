@@ -12,8 +12,9 @@ Effect channelGain()
   effect.definition = { "channel_gain", "Channel gain",
     "Every channel has an error of its own in exposure or white balance.", EffectStage::Detector,
     EffectNeed::Nothing, { { "per_channel", "gain_k u_k", { gain }, {} } }, "grey ramp",
-    EffectTrait::Exact, { { "per_channel", { imageTerm(ImageParameter::Gain, gain) } } } };
+    EffectTrait::Exact, { { "per_channel", { imageTerm(0, gain) } } } };
   effect.makeBlock = makeBlockOperator<GainOperator>;
+  effect.onImage.step = &gainStep();
   return effect;
 }
 

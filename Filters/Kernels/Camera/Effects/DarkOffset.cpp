@@ -28,6 +28,26 @@ EffectParameter offset(bool perChannel)
   return { "offset", "white", 0.0, -0.2, 0.2, 0.005, "dark response beyond the model's",
     perChannel };
 }
+
+// Its step on image pairs.
+struct DarkOfImage
+{
+  static double add(const double* numbers, const ImagePixel&, double& signal, double* by)
+  {
+    if (by != nullptr)
+    {
+      by[0] = 1.0;
+    }
+    signal += numbers[0];
+    return 1.0;
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Detector, { { 0.0, ImageAxis::Channel } }, add };
+    return made;
+  }
+};
 }
 
 Effect darkOffset()
@@ -39,9 +59,10 @@ Effect darkOffset()
     { { "common", "u + offset", { offset(false) } },
       { "per_channel", "u_k + offset_k", { offset(true) }, {} } },
     "lens cap", EffectTrait::Exact,
-    { { "common", { imageTerm(ImageParameter::Dark, offset(false)) } },
-      { "per_channel", { imageTerm(ImageParameter::Dark, offset(true)) } } } };
+    { { "common", { imageTerm(0, offset(false)) } },
+      { "per_channel", { imageTerm(0, offset(true)) } } } };
   effect.makeBlock = makeBlockOperator<DarkOffset>;
+  effect.onImage.step = &DarkOfImage::step();
   effect.afterDark = true;
   return effect;
 }

@@ -2,6 +2,8 @@
 #include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Camera/Imaging/SeparableFilter.h"
 
+#include <cmath>
+
 namespace msi
 {
 
@@ -14,14 +16,37 @@ EffectParameter blur(bool perChannel)
 
 ImageTerm blurVariance(bool perChannel)
 {
-  ImageTerm term = imageTerm(ImageParameter::BlurVariance, blur(perChannel));
+  ImageTerm term = imageTerm(0, blur(perChannel));
   for (double* number : { &term.lower, &term.upper, &term.typical })
   {
     *number *= *number;
   }
-  term.scale = ImageScale::Squared;
+  term.squared = true;
   return term;
 }
+
+// Its step on image pairs.
+struct DefocusOfImage
+{
+  // The scene comes blurred.
+  static double blurred(const double*, const ImagePixel& pixel, double&, double* by)
+  {
+    if (by != nullptr)
+    {
+      by[0] = pixel.blur;
+    }
+    return 1.0;
+  }
+
+  static double varianceOf(const double* numbers) { return std::fmax(numbers[0], 0.0); }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Scene, { { 0.0, ImageAxis::Edges } }, blurred, {},
+      nullptr, nullptr, varianceOf };
+    return made;
+  }
+};
 
 SymmetricKernel makeBlur(const BoundEffect& effect)
 {
@@ -40,6 +65,7 @@ Effect defocus()
     "grid target for each filter", EffectTrait::ActsOnEdges,
     { { "common", { blurVariance(false) } }, { "per_channel", { blurVariance(true) } } } };
   effect.onImage.makeBlur = makeBlur;
+  effect.onImage.step = &DefocusOfImage::step();
   return effect;
 }
 

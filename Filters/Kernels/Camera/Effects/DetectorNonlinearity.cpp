@@ -93,9 +93,57 @@ private:
 };
 }
 
+namespace
+{
+// Its step on image pairs.
+struct CurveOfImage
+{
+  enum Number : std::size_t
+  {
+    Square,
+    Exponent,
+    Compression
+  };
+
+  static constexpr double LeastSignal = 1e-3; // below, a power has no useful slope
+
+  static double bend(const double* numbers, const ImagePixel&, double& signal, double* by)
+  {
+    double power = signal;
+    double slope = 1.0;
+    double byExponent = 0.0;
+    const double exponent = numbers[Exponent];
+    if (signal > 0.0)
+    {
+      const double logarithm = std::log(signal);
+      power = exponent == 1.0 ? signal : std::exp(exponent * logarithm);
+      slope = exponent == 1.0 ? 1.0 : exponent * power / std::fmax(signal, LeastSignal);
+      byExponent = power * logarithm;
+    }
+    const double divisor = 1.0 + numbers[Compression] * power;
+    const double bent = power / divisor;
+    const double outer = (1.0 + 2.0 * numbers[Square] * bent) / (divisor * divisor);
+    if (by != nullptr)
+    {
+      by[Square] = bent * bent;
+      by[Exponent] = outer * byExponent;
+      by[Compression] = -bent * bent * (1.0 + 2.0 * numbers[Square] * bent);
+    }
+    signal = bent + numbers[Square] * bent * bent;
+    return outer * slope;
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Detector, { { 0.0, ImageAxis::Level }, { 1.0 }, {} },
+      bend };
+    return made;
+  }
+};
+}
+
 Effect detectorNonlinearity()
 {
-  using P = ImageParameter;
   const EffectParameter square{ "square", "1", 0.0, -0.45, 0.9, 0.05, "weight of u^2" };
   const EffectParameter cube{ "cube", "1", 0.0, -0.45, 0.9, 0.05, "weight of u^3" };
   const EffectParameter exponent{ "exponent", "1", 1.0, 0.4, 2.5, 0.05, "exponent" };
@@ -119,10 +167,11 @@ Effect detectorNonlinearity()
           line("constant", "of that line") },
         {}, FormTrait::BesideLine } },
     "exposure series of one patch", EffectTrait::None,
-    { { "quadratic", { imageTerm(P::Square, square) } },
-      { "gamma", { imageTerm(P::Exponent, exponent) } },
-      { "compressive", { imageTerm(P::Compression, compression) } } } };
+    { { "quadratic", { imageTerm(CurveOfImage::Square, square) } },
+      { "gamma", { imageTerm(CurveOfImage::Exponent, exponent) } },
+      { "compressive", { imageTerm(CurveOfImage::Compression, compression) } } } };
   effect.makeBlock = makeBlockOperator<DetectorNonlinearity>;
+  effect.onImage.step = &CurveOfImage::step();
   return effect;
 }
 

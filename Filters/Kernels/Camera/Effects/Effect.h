@@ -31,8 +31,11 @@ struct Effect
   ImageFactories onImage = {};
 };
 
-// The term of an image form for a parameter of the library's form: the same name, bounds and size.
-ImageTerm imageTerm(ImageParameter parameter, const EffectParameter& of);
+// The term of an image form for a parameter of the library's form: the same name, bounds and size. number: in the effect's step.
+ImageTerm imageTerm(std::size_t number, const EffectParameter& of);
+
+// Of an effect with ImageFactories::lightFrom: its strength is the only number.
+ImageStep stepOfLight();
 
 template <typename Operator>
 std::unique_ptr<ResponsivityOperator> makeResponsivityOperator(const BoundEffect& effect)

@@ -13,8 +13,9 @@ Effect exposureGain()
     "All channels brighter or darker: exposure time, aperture, lamp, white tile.",
     EffectStage::Detector, EffectNeed::Nothing, { { "common", "gain u", { gain } } },
     "repeated white", EffectTrait::Exact | EffectTrait::CommonGain,
-    { { "common", { imageTerm(ImageParameter::Gain, gain) } } } };
+    { { "common", { imageTerm(0, gain) } } } };
   effect.makeBlock = makeBlockOperator<GainOperator>;
+  effect.onImage.step = &gainStep();
   return effect;
 }
 

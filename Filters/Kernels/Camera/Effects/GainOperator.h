@@ -23,4 +23,27 @@ private:
   ChannelValues Gain;
 };
 
+inline double amplify(const double* numbers, const ImagePixel&, double& signal, double* by)
+{
+  signal *= numbers[0];
+  if (by != nullptr)
+  {
+    by[0] = signal; // relative to the gain
+  }
+  return numbers[0];
+}
+
+inline void relativeToGain(int, const double* numbers, const double*, double* derivatives)
+{
+  derivatives[0] = 1.0 / numbers[0];
+}
+
+// One gain of each channel, whichever effect it is.
+inline const ImageStep& gainStep()
+{
+  static const ImageStep step{ ImageStage::Detector,
+    { { 1.0, ImageAxis::Channel | ImageAxis::Level } }, amplify, {}, relativeToGain };
+  return step;
+}
+
 } // namespace msi

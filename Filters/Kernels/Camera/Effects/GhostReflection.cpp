@@ -29,9 +29,11 @@ Effect ghostReflection()
       { "per_channel", "the same with a strength of its own for each channel",
         { strength(true) } } },
     "one bright spot off the center of a dark field", EffectTrait::None,
-    { { "common", { imageTerm(ImageParameter::Light, strength(false)) } },
-      { "per_channel", { imageTerm(ImageParameter::Light, strength(true)) } } } };
+    { { "common", { imageTerm(0, strength(false)) } },
+      { "per_channel", { imageTerm(0, strength(true)) } } } };
   effect.onImage.lightFrom = throughCenter;
+  static const ImageStep step = stepOfLight();
+  effect.onImage.step = &step;
   return effect;
 }
 

@@ -29,7 +29,7 @@ std::unique_ptr<PixelOperator> makePixelOperator(const BoundEffect& effect)
   return std::make_unique<Operator>(effect);
 }
 
-// At most one is set: the channels are moved, blurred, scattered, get light from elsewhere in the image, then change
+// `step` is what the diagnosis of image pairs does. Of the others at most one is set: the channels are moved, blurred, scattered, get light from elsewhere in the image, then change
 // pixel by pixel.
 struct ImageFactories
 {
@@ -38,6 +38,7 @@ struct ImageFactories
   ScatterTail (*makeTail)(const BoundEffect&) = nullptr;
   LightFrom lightFrom = nullptr; // times the first parameter of the form
   std::unique_ptr<PixelOperator> (*makePixels)(const BoundEffect&) = nullptr;
+  const ImageStep* step = nullptr; // lives as long as the program
 };
 
 } // namespace msi

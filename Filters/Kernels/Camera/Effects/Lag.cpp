@@ -29,6 +29,30 @@ private:
 };
 }
 
+namespace
+{
+// Its step on image pairs.
+struct LagOfImage
+{
+  static double keep(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  {
+    const double previous = pixel.previous != nullptr ? *pixel.previous : 0.0;
+    if (by != nullptr)
+    {
+      by[0] = previous;
+    }
+    signal += numbers[0] * previous;
+    return 1.0;
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Exposure, { {} }, keep };
+    return made;
+  }
+};
+}
+
 Effect lag()
 {
   const EffectParameter retained{ "retained", "1", 0.0, 0.0, 0.3, 0.01,
@@ -38,8 +62,9 @@ Effect lag()
     "A detector keeps a part of the exposure before: that of the channel before.",
     EffectStage::Image, EffectNeed::Nothing, { { "common", "u_k + retained u_k-1", { retained } } },
     "channels captured in another order", EffectTrait::None,
-    { { "common", { imageTerm(ImageParameter::Retained, retained) } } } };
+    { { "common", { imageTerm(0, retained) } } } };
   effect.onImage.makePixels = makePixelOperator<Lag>;
+  effect.onImage.step = &LagOfImage::step();
   return effect;
 }
 

@@ -3,6 +3,9 @@
 #include "Kernels/Camera/Effects/StrayLight.h"
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 
+#include <Eigen/Core>
+
+#include <algorithm>
 #include <vector>
 
 namespace msi
@@ -10,14 +13,109 @@ namespace msi
 
 namespace
 {
+// Its step on image pairs.
+struct TailOfImage
+{
+  static constexpr int FreePasses =
+    TailPasses - 1; // the first is too narrow to be told from a blur
+  static constexpr double NeutralRadius = 8.0;
+
+  enum Number : std::size_t
+  {
+    Fraction,
+    Radius,
+    FirstWeight,                         // of single passes, from the second on: any shape
+    FirstPass = FirstWeight + FreePasses // further derivative
+  };
+
+  // The derivative by the weight of a pass, counted from 0.
+  static constexpr std::size_t pass(int number)
+  {
+    return number == 0 ? FirstPass : FirstWeight + static_cast<std::size_t>(number) - 1;
+  }
+
+  static Eigen::ArrayXd weightsOf(double radius)
+  {
+    const std::vector<double> weights = passWeights(radius, TailPasses);
+    return Eigen::Map<const Eigen::ArrayXd>(weights.data(), TailPasses);
+  }
+
+  static Eigen::ArrayXd slopeOf(double radius)
+  {
+    const double step = 0.02 * radius;
+    const double above = std::min(radius + step, 64.0);
+    const double below = std::max(radius - step, 1.0);
+    return (weightsOf(above) - weightsOf(below)) / (above - below);
+  }
+
+  static void tailOf(const double* numbers, double* weights)
+  {
+    const Eigen::ArrayXd tail = numbers[Fraction] * weightsOf(numbers[Radius]);
+    for (int number = 0; number < TailPasses; ++number)
+    {
+      weights[number] = tail[number] + (number > 0 ? numbers[pass(number)] : 0.0);
+    }
+  }
+
+  static double scatter(const double*, const ImagePixel& pixel, double& signal, double* by)
+  {
+    double sum = 0.0;
+    double fraction = 0.0;
+    for (int number = 0; number < TailPasses; ++number)
+    {
+      const double more = pixel.surround[number] - signal;
+      sum += pixel.tailWeights[number] * more;
+      fraction += pixel.tailWeights[number];
+      if (by != nullptr)
+      {
+        by[pass(number)] = more;
+      }
+    }
+    signal += sum;
+    return 1.0 - fraction;
+  }
+
+  static void overPasses(int n, const double* numbers, const double* about, double* derivatives)
+  {
+    if (n >= static_cast<int>(FirstWeight))
+    {
+      derivatives[n] = 1.0;
+      return;
+    }
+    const Eigen::ArrayXd weights = n == static_cast<int>(Fraction)
+      ? weightsOf(about[Radius])
+      : Eigen::ArrayXd(numbers[Fraction] * slopeOf(about[Radius]));
+    for (int number = 0; number < TailPasses; ++number)
+    {
+      derivatives[pass(number)] = weights[number];
+    }
+  }
+
+  static ImageStep stepOfTail()
+  {
+    ImageStep step{ ImageStage::Surround,
+      { {}, { NeutralRadius, ImageAxis::None, ImagePull::Kept } }, scatter, { ImageAxis::Edges },
+      overPasses, nullptr, nullptr, tailOf };
+    step.numbers.resize(FirstPass, { 0.0, ImageAxis::Edges });
+    return step;
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made = stepOfTail();
+    return made;
+  }
+};
+
 // Weights of the single passes of the tail, of any shape; the form neighbours comes nearest to it where it is put back.
 std::vector<ImageTerm> anyTail()
 {
   std::vector<ImageTerm> terms;
-  terms.reserve(FreePasses);
-  for (int i = 0; i < FreePasses; ++i)
+  terms.reserve(TailOfImage::FreePasses);
+  for (int i = 0; i < TailOfImage::FreePasses; ++i)
   {
-    terms.push_back({ surroundWeight(i), false, -0.05, 0.6, 0.01 });
+    terms.push_back(
+      { TailOfImage::FirstWeight + static_cast<std::size_t>(i), false, -0.05, 0.6, 0.01 });
   }
   return terms;
 }
@@ -30,11 +128,12 @@ ScatterTail makeTail(const BoundEffect& effect)
 
 Effect localStrayLight()
 {
-  using P = ImageParameter;
   const EffectParameter tail{ "fraction", "1", 0.0, -0.1, 0.6, 0.01,
     "share of the light in the tail" };
-  const EffectParameter radius{ "radius", "pixels", 8.0, 1.0, 64.0, 4.0,
+  const EffectParameter radius{ "radius", "pixels", TailOfImage::NeutralRadius, 1.0, 64.0, 4.0,
     "reach of the tail, images only", false, true };
+  ImageTerm reach = imageTerm(TailOfImage::Radius, radius);
+  reach.starts = { 2.0, 4.0, 8.0, 16.0, 32.0 };
   Effect effect;
   effect.definition = { "local_stray_light", "Local stray light",
     "Light scattered by a small angle: the broad tail of the point spread.",
@@ -51,11 +150,12 @@ Effect localStrayLight()
             true },
           radius } } },
     "patch with black and with white surround", EffectTrait::ActsOnEdges,
-    { { "neighbours", { imageTerm(P::TailFraction, tail), imageTerm(P::TailRadius, radius) } },
+    { { "neighbours", { imageTerm(TailOfImage::Fraction, tail), reach } },
       { "neighbours", anyTail() } } };
   effect.makeSurround = makeSurroundOperator<StrayLight>;
   effect.surround = Surround::Near;
   effect.onImage.makeTail = makeTail;
+  effect.onImage.step = &TailOfImage::step();
   return effect;
 }
 

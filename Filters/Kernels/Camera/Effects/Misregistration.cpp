@@ -1,6 +1,7 @@
 // Channels whose images do not lie on one another.
 #include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <vector>
 
@@ -9,6 +10,44 @@ namespace msi
 
 namespace
 {
+// Its step on image pairs.
+struct MisregistrationOfImage
+{
+  enum Number : std::size_t
+  {
+    Right,
+    Down,
+    Magnification,
+    Rotation
+  };
+
+  // The scene comes moved.
+  static double moved(const double*, const ImagePixel& pixel, double&, double* by)
+  {
+    if (by != nullptr)
+    {
+      by[Right] = pixel.right;
+      by[Down] = pixel.down;
+      by[Magnification] = pixel.fromMiddleX * pixel.right + pixel.fromMiddleY * pixel.down;
+      by[Rotation] = Degree * (pixel.fromMiddleX * pixel.down - pixel.fromMiddleY * pixel.right);
+    }
+    return 1.0;
+  }
+
+  static ImageDisplacement displacementOf(const double* numbers)
+  {
+    return { numbers[Right], numbers[Down], numbers[Magnification], numbers[Rotation] };
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Scene,
+      { { 0.0, ImageAxis::Edges }, { 0.0, ImageAxis::Edges }, {}, {} }, moved, {}, nullptr,
+      displacementOf };
+    return made;
+  }
+};
+
 ChannelRegistration makeRegistration(const BoundEffect& effect, const ImageExtent& extent)
 {
   return { effect.perChannel("right"), effect.perChannel("down"),
@@ -18,17 +57,16 @@ ChannelRegistration makeRegistration(const BoundEffect& effect, const ImageExten
 
 Effect misregistration()
 {
-  using P = ImageParameter;
   const std::vector<EffectParameter> parameters = { { "right", "pixels", 0.0, -20.0, 20.0, 0.5,
                                                       "displacement in x", true },
     { "down", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", true },
     { "magnification", "1", 0.0, -0.02, 0.02, 0.001, "relative growth of the image", true },
     { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
       "turn from the axis x towards the axis y of the image", true } };
-  const ImageTerm right = imageTerm(P::Right, parameters[0]);
-  const ImageTerm down = imageTerm(P::Down, parameters[1]);
-  const ImageTerm magnification = imageTerm(P::Magnification, parameters[2]);
-  const ImageTerm rotation = imageTerm(P::Rotation, parameters[3]);
+  const ImageTerm right = imageTerm(MisregistrationOfImage::Right, parameters[0]);
+  const ImageTerm down = imageTerm(MisregistrationOfImage::Down, parameters[1]);
+  const ImageTerm magnification = imageTerm(MisregistrationOfImage::Magnification, parameters[2]);
+  const ImageTerm rotation = imageTerm(MisregistrationOfImage::Rotation, parameters[3]);
   Effect effect;
   effect.definition = { "misregistration", "Misregistration",
     "The channels' images do not lie on one another: filters of different thickness and wedge, "
@@ -41,6 +79,7 @@ Effect misregistration()
     { { "per_channel", { right, down } }, { "per_channel", { right, down, magnification } },
       { "per_channel", { right, down, magnification, rotation } } } };
   effect.onImage.makeRegistration = makeRegistration;
+  effect.onImage.step = &MisregistrationOfImage::step();
   return effect;
 }
 

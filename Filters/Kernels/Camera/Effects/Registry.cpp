@@ -39,27 +39,55 @@ template <typename Items>
 
 namespace
 {
-// Gives the parameter of light from elsewhere its own number.
-void numberLight(Effect& effect, std::size_t& lights)
+struct Library
 {
-  if (effect.onImage.lightFrom == nullptr)
+  std::vector<Effect> effects;
+  std::vector<PlacedStep> steps;
+};
+
+// Effects that share a step share its numbers.
+std::vector<PlacedStep> placedSteps(const std::vector<Effect>& effects)
+{
+  std::vector<PlacedStep> steps;
+  for (const Effect& effect : effects)
   {
-    return;
+    const ImageStep* step = effect.onImage.step;
+    if (step != nullptr &&
+      std::none_of(
+        steps.begin(), steps.end(), [step](const PlacedStep& other) { return other.step == step; }))
+    {
+      steps.push_back({ step, effect.onImage.lightFrom, 0, 0 });
+    }
   }
-  for (ImageForm& form : effect.definition.imageForms)
+  std::stable_sort(steps.begin(), steps.end(),
+    [](const PlacedStep& a, const PlacedStep& b) { return a.step->stage < b.step->stage; });
+  for (std::size_t s = 1; s < steps.size(); ++s)
   {
-    form.terms.front().parameter = imageLight(lights);
+    steps[s].number = steps[s - 1].number + steps[s - 1].step->numbers.size();
+    steps[s].column = steps[s - 1].column + steps[s - 1].step->width();
   }
-  ++lights;
-}
+  return steps;
 }
 
-const std::vector<Effect>& effectRegistry()
+// Counts the numbers of image forms among those of all steps.
+void place(Effect& effect, const std::vector<PlacedStep>& steps)
 {
-  static const std::vector<Effect> registry = []
+  const auto own = std::find_if(steps.begin(), steps.end(),
+    [&effect](const PlacedStep& step) { return step.step == effect.onImage.step; });
+  for (ImageForm& form : effect.definition.imageForms)
   {
-    std::vector<Effect> effects;
-    std::size_t lights = 0;
+    for (ImageTerm& term : form.terms)
+    {
+      term.parameter += own->number;
+    }
+  }
+}
+
+const Library& library()
+{
+  static const Library all = []
+  {
+    Library made;
     // In the order in which they act.
     for (MakeEffect* make : { specularComponent, translucency, fluorescence, interreflection,
            mediumGain, filterBandwidth, filterShift, filterLeak, illuminantDrift,
@@ -67,12 +95,58 @@ const std::vector<Effect>& effectRegistry()
            channelGain, channelCrosstalk, sessionDrift, detectorNonlinearity, darkOffset,
            saturation, excessNoise, misregistration, defocus, ghostReflection, lag, banding })
     {
-      effects.push_back(make());
-      numberLight(effects.back(), lights);
+      made.effects.push_back(make());
     }
-    return effects;
+    made.steps = placedSteps(made.effects);
+    for (Effect& effect : made.effects)
+    {
+      place(effect, made.steps);
+    }
+    return made;
   }();
-  return registry;
+  return all;
+}
+}
+
+const std::vector<Effect>& effectRegistry()
+{
+  return library().effects;
+}
+
+const std::vector<PlacedStep>& imageSteps()
+{
+  return library().steps;
+}
+
+const PlacedStep& stepOf(ImageParameter parameter)
+{
+  const auto& steps = imageSteps();
+  auto step = steps.begin();
+  while (step + 1 != steps.end() && (step + 1)->number <= parameter)
+  {
+    ++step;
+  }
+  return *step;
+}
+
+ImageParameter imageParameter(std::string_view effect, std::string_view name)
+{
+  for (const ImageForm& form : requireEffect(effect).imageForms)
+  {
+    for (const ImageTerm& term : form.terms)
+    {
+      if (term.name == name)
+      {
+        return term.parameter;
+      }
+    }
+  }
+  std::vector<ImageTerm> known;
+  for (const ImageForm& form : requireEffect(effect).imageForms)
+  {
+    known.insert(known.end(), form.terms.begin(), form.terms.end());
+  }
+  rejectName("number of " + std::string(effect) + " in images", name, known);
 }
 
 const std::vector<EffectDefinition>& effectLibrary()
@@ -87,23 +161,6 @@ const std::vector<EffectDefinition>& effectLibrary()
     return all;
   }();
   return library;
-}
-
-const std::vector<LightFrom>& imageLights()
-{
-  static const std::vector<LightFrom> lights = []
-  {
-    std::vector<LightFrom> all;
-    for (const Effect& effect : effectRegistry())
-    {
-      if (effect.onImage.lightFrom != nullptr)
-      {
-        all.push_back(effect.onImage.lightFrom);
-      }
-    }
-    return all;
-  }();
-  return lights;
 }
 
 const Effect& registered(const EffectDefinition& definition)
@@ -179,9 +236,24 @@ std::string separatingCapture(std::string_view effect)
   return definition == nullptr ? std::string() : definition->separatingCapture;
 }
 
-ImageTerm imageTerm(ImageParameter parameter, const EffectParameter& of)
+ImageStep stepOfLight()
 {
-  return { parameter, of.perChannel, of.lower, of.upper, of.typical, of.name, of.unit };
+  ImageStep step{ ImageStage::Light, { {} },
+    [](const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+    {
+      if (by != nullptr)
+      {
+        by[0] = pixel.elsewhere;
+      }
+      signal += numbers[0] * pixel.elsewhere;
+      return 1.0;
+    } };
+  return step;
+}
+
+ImageTerm imageTerm(std::size_t number, const EffectParameter& of)
+{
+  return { number, of.perChannel, of.lower, of.upper, of.typical, of.name, of.unit };
 }
 
 std::vector<EffectParameter> effectParameters(

@@ -71,16 +71,55 @@ private:
 };
 }
 
+namespace
+{
+// Its step on image pairs.
+struct ClippingOfImage
+{
+  enum Number : std::size_t
+  {
+    Clip, // 1: a rounded min(u, level); parts of it only on the way there
+    ClipLevel
+  };
+
+  static constexpr double NeutralLevel = 8.0;
+  static constexpr double ClipSoftness = 0.01;
+
+  static double clip(const double* numbers, const ImagePixel&, double& signal, double* by)
+  {
+    const double beyond = signal - numbers[ClipLevel];
+    const double root = std::sqrt(beyond * beyond + ClipSoftness * ClipSoftness);
+    const double lost = 0.5 * (beyond + root);
+    const double byLevel = 0.5 * numbers[Clip] * (1.0 + beyond / root);
+    if (by != nullptr)
+    {
+      by[Clip] = -lost;
+      by[ClipLevel] = byLevel;
+    }
+    signal -= numbers[Clip] * lost;
+    return 1.0 - byLevel;
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Detector,
+      { {}, { NeutralLevel, ImageAxis::None, ImagePull::Found } }, clip };
+    return made;
+  }
+};
+}
+
 Effect saturation()
 {
-  const EffectParameter level{ "level", "white", 8.0, 0.1, 8.0, 0.1, "largest response" };
+  const EffectParameter level{ "level", "white", ClippingOfImage::NeutralLevel, 0.1, 8.0, 0.1,
+    "largest response" };
   Effect effect;
   effect.definition = { "saturation", "Saturation", "Full wells or the end of the converter.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "soft", "(u + level - sqrt((u - level)^2 + softness^2)) / 2, a rounded min(u, level)",
         { level,
-          { "softness", "white", 0.01, 0.001, 0.2, 0.02, "width of the rounded corner", false,
-            true } },
+          { "softness", "white", ClippingOfImage::ClipSoftness, 0.001, 0.2, 0.02,
+            "width of the rounded corner", false, true } },
         { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } },
       { "gradual", "u / (1 + (u / level)^sharpness)^(1 / sharpness)",
         { level,
@@ -89,9 +128,10 @@ Effect saturation()
         { { 1.2, 10.0 }, { 0.9, 10.0 }, { 0.7, 10.0 } } } },
     "shorter exposure", EffectTrait::LimitsResponse,
     { { "soft",
-      { { ImageParameter::Clip, false, 0.0, 1.0, 0.3 },
-        imageTerm(ImageParameter::ClipLevel, level) } } } };
+      { { ClippingOfImage::Clip, false, 0.0, 1.0, 0.3 },
+        imageTerm(ClippingOfImage::ClipLevel, level) } } } };
   effect.makeBlock = makeBlockOperator<Saturation>;
+  effect.onImage.step = &ClippingOfImage::step();
   effect.afterDark = true;
   return effect;
 }

@@ -11,11 +11,38 @@ EffectParameter glare(bool perChannel)
 {
   return { "fraction", "1", 0.0, 0.0, 0.5, 0.01, "share of the scene's mean signal", perChannel };
 }
+
+// Its step on image pairs.
+struct GlareOfImage
+{
+  enum Number : std::size_t
+  {
+    Added,
+    Conserving
+  };
+
+  static double cover(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  {
+    if (by != nullptr)
+    {
+      by[Added] = pixel.mean;
+      by[Conserving] = pixel.mean - signal;
+    }
+    signal =
+      (1.0 - numbers[Conserving]) * signal + (numbers[Added] + numbers[Conserving]) * pixel.mean;
+    return 1.0 - numbers[Conserving];
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Light, { {}, {} }, cover };
+    return made;
+  }
+};
 }
 
 Effect veilingGlare()
 {
-  using P = ImageParameter;
   Effect effect;
   effect.definition = { "veiling_glare", "Veiling glare",
     "Light scattered in the lens covers the whole field in proportion to the scene's mean.",
@@ -25,10 +52,11 @@ Effect veilingGlare()
       { "per_channel", "u + fraction (mean of the scene), a fraction for each channel",
         { glare(true) } } },
     "black trap, second scene", EffectTrait::None,
-    { { "common", { imageTerm(P::Glare, glare(false)) } },
-      { "conserving", { imageTerm(P::ConservingGlare, glare(false)) } },
-      { "per_channel", { imageTerm(P::Glare, glare(true)) } } } };
+    { { "common", { imageTerm(GlareOfImage::Added, glare(false)) } },
+      { "conserving", { imageTerm(GlareOfImage::Conserving, glare(false)) } },
+      { "per_channel", { imageTerm(GlareOfImage::Added, glare(true)) } } } };
   effect.makeSurround = makeSurroundOperator<StrayLight>;
+  effect.onImage.step = &GlareOfImage::step();
   return effect;
 }
 

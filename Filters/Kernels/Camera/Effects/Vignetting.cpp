@@ -50,9 +50,77 @@ private:
 };
 }
 
+namespace
+{
+// Its step on image pairs.
+struct VignettingOfImage
+{
+  enum Number : std::size_t
+  {
+    Falloff,
+    Fourth,
+    Sixth,
+    CenterX,
+    CenterY,
+    AlongX, // further derivatives: the signal times x, times y, and the signal
+    AlongY,
+    Even
+  };
+
+  // u (1 - falloff rho^2 - fourth rho^4 - sixth rho^6), not below zero
+  static double darken(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  {
+    const double x = pixel.x - numbers[CenterX];
+    const double y = pixel.y - numbers[CenterY];
+    const double square = x * x + y * y;
+    const double factor = std::fmax(
+      1.0 - square * (numbers[Falloff] + square * (numbers[Fourth] + square * numbers[Sixth])),
+      0.0);
+    if (by != nullptr)
+    {
+      by[Falloff] = -square * signal;
+      by[Fourth] = square * by[Falloff];
+      by[Sixth] = square * by[Fourth];
+      const double steep = 2.0 * signal *
+        (numbers[Falloff] + square * (2.0 * numbers[Fourth] + 3.0 * square * numbers[Sixth]));
+      by[CenterX] = x * steep;
+      by[CenterY] = y * steep;
+      by[AlongX] = pixel.x * signal;
+      by[AlongY] = pixel.y * signal;
+      by[Even] = signal;
+    }
+    signal *= factor;
+    return factor;
+  }
+
+  // The square of the distance from another center is the same polynomial.
+  static void recentered(int n, const double* numbers, const double* about, double* derivatives)
+  {
+    derivatives[n] = 1.0;
+    if (n == Falloff)
+    {
+      const double right = about[CenterX] - numbers[CenterX];
+      const double down = about[CenterY] - numbers[CenterY];
+      derivatives[AlongX] = 2.0 * right;
+      derivatives[AlongY] = 2.0 * down;
+      derivatives[Even] =
+        -(right * (about[CenterX] + numbers[CenterX]) + down * (about[CenterY] + numbers[CenterY]));
+    }
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Lens,
+      { { 0.0 }, { 0.0, ImageAxis::Position }, { 0.0 }, { 0.0, ImageAxis::None, ImagePull::Itself },
+        { 0.0, ImageAxis::None, ImagePull::Itself } },
+      darken, { ImageAxis::None, ImageAxis::None, ImageAxis::None }, recentered };
+    return made;
+  }
+};
+}
+
 Effect vignetting()
 {
-  using P = ImageParameter;
   const EffectParameter falloff{ "falloff", "1", 0.0, -0.45, 0.45, 0.03, "loss at rho = 1" };
   const auto order = [](const char* name, const char* meaning) {
     return EffectParameter{ name, "1", 0.0, -1.5, 1.5, 0.03, meaning };
@@ -65,12 +133,16 @@ Effect vignetting()
     return EffectParameter{ name, "half field", 0.0, -1.0, 1.0, 0.2, "optical axis", false, true };
   };
   const std::vector<EffectParameter> center = { axis("center_x"), axis("center_y") };
-  const ImageTerm quadratic = imageTerm(P::Falloff, falloff);
-  const ImageTerm steep = imageTerm(P::Falloff, orders[0]);
-  const ImageTerm fourth = imageTerm(P::Fourth, orders[1]);
-  const ImageTerm sixth = imageTerm(P::Sixth, orders[2]);
-  const ImageTerm centerX = imageTerm(P::CenterX, center[0]);
-  const ImageTerm centerY = imageTerm(P::CenterY, center[1]);
+  const ImageTerm quadratic = imageTerm(VignettingOfImage::Falloff, falloff);
+  const ImageTerm steep = imageTerm(VignettingOfImage::Falloff, orders[0]);
+  const ImageTerm fourth = imageTerm(VignettingOfImage::Fourth, orders[1]);
+  const ImageTerm sixth = imageTerm(VignettingOfImage::Sixth, orders[2]);
+  const ImageTerm centerX = imageTerm(VignettingOfImage::CenterX, center[0]);
+  const ImageTerm centerY = imageTerm(VignettingOfImage::CenterY, center[1]);
+  // Terms of a higher order are known about the model's center alone.
+  ImageTerm anyX = centerX;
+  ImageTerm anyY = centerY;
+  anyX.starts = anyY.starts = { -0.3, 0.0, 0.3 };
   Effect effect;
   effect.definition = { "vignetting", "Vignetting", "The lens passes less light off its axis.",
     EffectStage::Irradiance, EffectNeed::Position,
@@ -83,10 +155,11 @@ Effect vignetting()
       { "polynomial", "u (1 - falloff rho^2 - fourth rho^4 - sixth rho^6), not below zero",
         { orders[0], orders[1], orders[2], center[0], center[1] } } },
     "chart rotated by 180 degrees", EffectTrait::None,
-    { { "quadratic", { quadratic } }, { "quadratic", { quadratic, centerX, centerY } },
+    { { "quadratic", { quadratic } }, { "quadratic", { quadratic, anyX, anyY } },
       { "polynomial", { steep, fourth, sixth } },
       { "polynomial", { steep, fourth, sixth, centerX, centerY } } } };
   effect.makeBlock = makeBlockOperator<Vignetting>;
+  effect.onImage.step = &VignettingOfImage::step();
   return effect;
 }
 

@@ -79,6 +79,18 @@ void ScatterTail::operator()(const PixelBuffer& buffer, PixelBuffer& tail) const
   }
 }
 
+std::vector<double> passWeights(double radius, std::size_t passes)
+{
+  std::vector<double> weights(passes, 0.0);
+  std::size_t pass = 0;
+  const ScatterTail tail(std::clamp(radius, SmallestRadius, LargestRadius));
+  for (const float weight : tail.weights())
+  {
+    weights[std::min(pass++, passes - 1)] += static_cast<double>(weight);
+  }
+  return weights;
+}
+
 void ScatterRows::begin(const ScatterTail& tail, int channels, int width, int height)
 {
   Weights = tail.weights();

@@ -36,6 +36,9 @@ private:
   std::vector<float> Weights; // of pass 1, 2, ...
 };
 
+// The weights of a tail in so many passes, whose last has those of all beyond; the radius cut to the range.
+std::vector<double> passWeights(double radius, std::size_t passes);
+
 // The same of an image that comes row by row: the same bytes, and memory for the rows that the tail spans alone.
 class ScatterRows
 {

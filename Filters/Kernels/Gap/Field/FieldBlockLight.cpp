@@ -1,6 +1,5 @@
 #include "Kernels/Gap/Field/FieldBlockLight.h"
 
-#include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>
@@ -13,10 +12,11 @@ namespace msi
 FieldDisplacement::FieldDisplacement(
   const FieldPair& pair, const FieldModel& model, Eigen::Index channel)
   : Pair(&pair)
-  , Moved{ model.at(ImageParameter::Right, channel), model.at(ImageParameter::Down, channel) }
 {
-  const double scale = 1.0 / (1.0 + model.at(ImageParameter::Magnification, channel));
-  const double angle = Degree * model.at(ImageParameter::Rotation, channel);
+  const ImageDisplacement displacement = model.displacement(channel);
+  Moved = { displacement.right, displacement.down };
+  const double scale = 1.0 / (1.0 + displacement.magnification);
+  const double angle = Degree * displacement.rotation;
   Cosine = scale * std::cos(angle);
   Sine = scale * std::sin(angle);
   Varies = Cosine != 1.0 || Sine != 0.0;
@@ -201,10 +201,10 @@ FieldNeighbourhood::FieldNeighbourhood(const FieldData& data, const ImageWindow&
 
 namespace
 {
-FieldNeighbourhood near(const FieldData& data, const FieldModel& model, const ImageWindow& window,
-  Eigen::Index channel, const FieldDisplacement& where, bool derivatives)
+FieldNeighbourhood neighbourhood(const FieldData& data, const FieldModel& model,
+  const ImageWindow& window, Eigen::Index channel, const FieldDisplacement& where, bool derivatives)
 {
-  const double variance = std::max(model.at(ImageParameter::BlurVariance, channel), 0.0);
+  const double variance = model.blurVariance(channel);
   const FieldDisplacement::Place middle = where.atMiddle(window);
   return { data, window, channel, AxisKernels(middle.right, variance),
     AxisKernels(middle.down, variance), derivatives || where.varies() };
@@ -213,42 +213,98 @@ FieldNeighbourhood near(const FieldData& data, const FieldModel& model, const Im
 
 BlockLight::BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
   const FieldBlock& block, Eigen::Index channel, bool derivatives)
-  : Block(block)
-  , K(static_cast<std::size_t>(data.channels()))
-  , Channel(static_cast<std::size_t>(channel))
+  : Data(data)
+  , Block(block)
+  , Steps(model.steps(ImageStage::Scene, ImageStage::Light, channel, true))
+  , Active(model.steps(ImageStage::Scene, ImageStage::Light, channel))
+  , Glare(glare[channel])
   , Where(data.pair, model, channel)
-  , Near(near(data, model, block.window, channel, Where, derivatives))
-  , Weights(tailWeights(model, channel))
-  , Added((model.at(ImageParameter::Glare, channel) +
-            model.at(ImageParameter::ConservingGlare, channel)) *
-      glare[channel])
-  , Lost(1.0 - model.at(ImageParameter::ConservingGlare, channel))
+  , Near(neighbourhood(data, model, block.window, channel, Where, derivatives))
+  , Weights(model.tailWeights(channel))
 {
-  for (std::size_t number = 0; number < imageLights().size(); ++number)
+  const std::size_t pixels = block.window.pixels();
+  const FieldFactor factor(model);
+  Surround.reserve(pixels * TailPasses);
+  const auto K = static_cast<std::size_t>(data.channels());
+  const auto k = static_cast<std::size_t>(channel);
+  for (std::size_t i = 0; i < pixels; ++i)
   {
-    Strength.push_back(model.at(imageLight(number), channel));
-    for (int i = 0; i < static_cast<int>(block.window.pixels()); ++i)
+    for (std::size_t pass = 0; pass < TailPasses; ++pass)
     {
-      const ImagePlace pixel{ block.window.x + i % block.window.width,
-        block.window.y + i / block.window.width };
-      Others.push_back(
-        lightElsewhere(data.pair, data.scene, model, imageLights()[number], pixel, Channel));
+      Surround.push_back(static_cast<double>(block.tail[(pass * pixels + i) * K + k]));
     }
+    const int x = static_cast<int>(i) % block.window.width;
+    const int y = static_cast<int>(i) / block.window.width;
+    addElsewhere(
+      data.pair, data.scene, factor, { block.window.x + x, block.window.y + y }, k, Others);
   }
 }
 
-std::vector<double> fieldFactors(
-  const FieldData& data, const FieldModel& model, const ImageWindow& window)
+ImagePixel BlockLight::pixel(int number) const
 {
-  std::vector<double> factors;
-  for (int y = window.y; y < window.y + window.height; ++y)
+  const int i = number % Block.window.width;
+  const int j = number / Block.window.width;
+  const int x = Block.window.x + i;
+  const int y = Block.window.y + j;
+  ImagePixel pixel;
+  pixel.x = Data.pair.fieldX(x);
+  pixel.y = Data.pair.fieldY(y);
+  pixel.fromMiddleX = Data.pair.offX(x);
+  pixel.fromMiddleY = Data.pair.offY(y);
+  if (Near.blur.size() > 0)
   {
-    for (int x = window.x; x < window.x + window.width; ++x)
+    pixel.right = Near.right(i, j);
+    pixel.down = Near.down(i, j);
+    pixel.blur = Near.blur(i, j);
+  }
+  pixel.surround = Surround.data() + std::size_t{ TailPasses } * static_cast<std::size_t>(number);
+  pixel.tailWeights = Weights.data();
+  pixel.mean = Glare;
+  return pixel;
+}
+
+double BlockLight::near(int number, const ImagePixel& pixel) const
+{
+  const int i = number % Block.window.width;
+  const int j = number / Block.window.width;
+  double value = Near.value(i, j);
+  if (Where.varies())
+  {
+    const FieldDisplacement::Place more =
+      Where.beyondMiddle(Block.window, Block.window.x + i, Block.window.y + j);
+    value += more.right * pixel.right + more.down * pixel.down;
+  }
+  return value;
+}
+
+const double* BlockLight::others(int number) const
+{
+  return Others.data() + Others.size() / Block.window.pixels() * static_cast<std::size_t>(number);
+}
+
+double BlockLight::signal(int number) const
+{
+  ImagePixel told = pixel(number);
+  return run(Active, told, others(number), near(number, told));
+}
+
+double BlockLight::signal(int number, ImagePixel& pixel, StepDerivatives& derivatives) const
+{
+  return run(Steps, pixel, others(number), near(number, pixel), &derivatives);
+}
+
+void addElsewhere(const FieldPair& pair, const float* scene, const FieldFactor& factor,
+  const ImagePlace& pixel, std::size_t channel, std::vector<double>& others)
+{
+  for (const PlacedStep& step : imageSteps())
+  {
+    if (step.from != nullptr)
     {
-      factors.push_back(model.fieldFactor(data.pair.fieldX(x), data.pair.fieldY(y)));
+      const ImagePlace place = step.from(pixel, pair.extent);
+      others.push_back(factor(pair.fieldX(place.x), pair.fieldY(place.y)) *
+        static_cast<double>(scene[pair.index(place.x, place.y) * pair.channels.size() + channel]));
     }
   }
-  return factors;
 }
 
 } // namespace msi

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -69,8 +70,6 @@ struct FieldNeighbourhood
     const AxisKernels& x, const AxisKernels& y, bool derivatives);
 };
 
-using TailSurround = Eigen::Array<double, TailPasses, 1>;
-
 // In one block and channel. Holds references.
 class BlockLight
 {
@@ -78,78 +77,29 @@ public:
   BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
     const FieldBlock& block, Eigen::Index channel, bool derivatives);
 
-  const FieldNeighbourhood& scene() const noexcept { return Near; }
-  double fraction() const { return Weights.sum(); }
-  double lost() const noexcept { return Lost; }
-
-  TailSurround surround(int pixel) const
-  {
-    const std::size_t pixels = Block.window.pixels();
-    TailSurround values;
-    for (std::size_t pass = 0; pass < TailPasses; ++pass)
-    {
-      values[static_cast<Eigen::Index>(pass)] = static_cast<double>(
-        Block.tail[(pass * pixels + static_cast<std::size_t>(pixel)) * K + Channel]);
-    }
-    return values;
-  }
-  double self(int pixel) const
-  {
-    const int x = pixel % Block.window.width;
-    const int y = pixel / Block.window.width;
-    double value = Near.value(x, y);
-    if (Where.varies())
-    {
-      const FieldDisplacement::Place more =
-        Where.beyondMiddle(Block.window, Block.window.x + x, Block.window.y + y);
-      value += more.right * Near.right(x, y) + more.down * Near.down(x, y);
-    }
-    return value;
-  }
-  // Behind lens and stray light.
-  double light(int pixel, double field) const
-  {
-    const double own = self(pixel);
-    return field * (own + (Weights * (surround(pixel) - own)).sum());
-  }
-  // From elsewhere in the image, at strength one: that of one of imageLights().
-  double other(std::size_t number, int pixel) const
-  {
-    return Others[number * Block.window.pixels() + static_cast<std::size_t>(pixel)];
-  }
-  double signal(int pixel, double field) const
-  {
-    double sum = Lost * light(pixel, field) + Added;
-    for (std::size_t number = 0; number < Strength.size(); ++number)
-    {
-      sum += Strength[number] * other(number, pixel);
-    }
-    return sum;
-  }
+  // What the steps are told, but for other channels and lines.
+  ImagePixel pixel(int number) const;
+  // The light on the detector.
+  double signal(int number) const;
+  double signal(int number, ImagePixel& pixel, StepDerivatives& derivatives) const;
 
 private:
+  const FieldData& Data;
   const FieldBlock& Block;
-  std::size_t K;
-  std::size_t Channel;
+  ChannelSteps Steps, Active;
+  double Glare;
   FieldDisplacement Where;
   FieldNeighbourhood Near;
-  TailSurround Weights;
-  double Added;
-  double Lost;
-  std::vector<double> Strength, Others; // light after light, pixel after pixel
+  std::array<double, TailPasses> Weights;
+  std::vector<double> Surround; // pass after pass, of each pixel
+  std::vector<double> Others;   // light from elsewhere, of each pixel
+
+  double near(int number, const ImagePixel& pixel) const;
+  const double* others(int number) const;
 };
 
-// The light at the place from where it falls on a pixel, too: of the unmoved, unblurred scene, all channels.
-inline double lightElsewhere(const FieldPair& pair, const float* scene, const FieldModel& model,
-  LightFrom from, const ImagePlace& pixel, std::size_t channel)
-{
-  const ImagePlace place = from(pixel, pair.extent);
-  return model.fieldFactor(pair.fieldX(place.x), pair.fieldY(place.y)) *
-    static_cast<double>(scene[pair.index(place.x, place.y) * pair.channels.size() + channel]);
-}
-
-// The field's factor at each pixel of a window.
-std::vector<double> fieldFactors(
-  const FieldData& data, const FieldModel& model, const ImageWindow& window);
+// Appends the light at the places from where it falls on a pixel, too: of the unmoved, unblurred scene.
+void addElsewhere(const FieldPair& pair, const float* scene, const FieldFactor& factor,
+  const ImagePlace& pixel, std::size_t channel, std::vector<double>& others);
 
 } // namespace msi

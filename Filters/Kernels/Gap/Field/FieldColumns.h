@@ -11,65 +11,25 @@
 namespace msi
 {
 
-// The columns of the linear model of a block's residual, one channel: derivatives of the prediction.
+// The columns of the linear model of a block's residual, one channel: derivatives of the prediction, as the steps give them
+// (PlacedStep::column), and last the residual.
 namespace FieldColumn
 {
-// By a parameter; by Gain relative to it. Those of TailFraction and TailRadius are empty: their derivatives are sums of the
-// tail's passes.
-constexpr int of(ImageParameter parameter) noexcept
-{
-  return static_cast<int>(parameter);
-}
-// By the weight of one of TailPasses passes, counted from 0: the surround minus u.
-inline int pass(int number)
-{
-  return number > 0 ? of(surroundWeight(number - 1)) : static_cast<int>(fieldParameterCount());
-}
-// x y u and (x^2 - y^2) u: only to see where a gap lies.
-inline int diagonal()
-{
-  return pass(0) + 1;
-}
-inline int saddle()
-{
-  return pass(0) + 2;
-}
-// real - predicted, the last one; how many stand before it, and how many there are.
-inline int residual()
-{
-  return pass(0) + 3;
-}
+int residual(); // real - predicted, the last one; how many stand before it
 inline int count()
 {
   return residual() + 1;
 }
+// Those of an axis (ImageAxis).
+std::vector<int> of(unsigned axis);
+// By a gain, relative to it: the response itself. By an offset.
+int gain();
+int offset();
 }
 
-// The weights of the tail's passes for a radius (ScatterTail), and their derivative by the radius.
-Eigen::ArrayXd tailWeights(double radius);
-Eigen::ArrayXd tailSlope(double radius);
-// Those of a model: the signal becomes signal + sum of weight (surround - signal).
-Eigen::ArrayXd tailWeights(const FieldModel& model, Eigen::Index channel);
-
-// Where a fit starts from what the normal equations do not have yet, and what they are taken to be there.
-struct FieldShape
-{
-  double radius = 0.0;  // of the tail; 0: the model's
-  double centerX = 0.0; // of vignetting
-  double centerY = 0.0;
-  // Direction of the gradient, of length 1; 0: the model's.
-  double gradientRight = 0.0;
-  double gradientDown = 0.0;
-};
-
-constexpr bool hasDirection(const FieldShape& shape) noexcept
-{
-  return shape.gradientRight != 0.0 || shape.gradientDown != 0.0;
-}
-
-// What one parameter changes in the columns of a channel, which are those at `model`.
+// What one parameter changes in the columns of a channel, which are those at `model`, where the model is `about`.
 Eigen::VectorXd columnsChanged(
-  ImageParameter parameter, const FieldModel& model, Eigen::Index channel, const FieldShape& shape);
+  ImageParameter parameter, const FieldModel& model, const FieldModel& about, Eigen::Index channel);
 
 // Memory of a thread.
 struct FieldScratch
@@ -85,7 +45,7 @@ struct FieldScratch
 
 // Fills `scratch` for the usable pixels of a block in one channel.
 // Exact in the model but for one thing: the surround of the tail is that of the unmoved, unblurred image, and the
-// factors of gradient and vignetting come after the neighbourhood.
+// factors over the field come after the neighbourhood.
 void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
   const FieldBlock& block, Eigen::Index channel, FieldScratch& scratch);
 

@@ -2,7 +2,6 @@
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldBlockLight.h"
-#include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Gap/Field/FieldScene.h"
 
 #include <cmath>
@@ -17,45 +16,48 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   , Glare(sceneMean(pair, model))
   , Filled(filledScene(pair))
 {
-  using P = ImageParameter;
-  if (!model.isNeutral(P::Right) || !model.isNeutral(P::Down) ||
-    !model.isNeutral(P::Magnification) || !model.isNeutral(P::Rotation))
+  const auto K = static_cast<Eigen::Index>(pair.channels.size());
+  Eigen::ArrayXd right(K), down(K), magnification(K), rotation(K), variance(K);
+  for (Eigen::Index k = 0; k < K; ++k)
   {
-    Registration.emplace(
-      model[P::Right], model[P::Down], model[P::Magnification], model[P::Rotation], pair.extent);
-  }
-  if (!model.isNeutral(P::BlurVariance))
-  {
-    Blur = gaussianKernel(model[P::BlurVariance].max(0.0).sqrt());
-  }
-  for (std::size_t k = 0; k < pair.channels.size(); ++k)
-  {
-    const auto channel = static_cast<Eigen::Index>(k);
-    Detector.emplace_back(model, channel);
-    Tail.push_back(tailWeights(model, channel).cast<float>());
+    const ImageDisplacement displacement = model.displacement(k);
+    right[k] = displacement.right;
+    down[k] = displacement.down;
+    magnification[k] = displacement.magnification;
+    rotation[k] = displacement.rotation;
+    variance[k] = model.blurVariance(k);
+    Tail.push_back(model.tailWeights(k));
     for (int pass = Passes; pass < TailPasses; ++pass)
     {
-      Passes = Tail.back()[pass] != 0.0F ? pass + 1 : Passes;
+      Passes = Tail.back()[static_cast<std::size_t>(pass)] != 0.0 ? pass + 1 : Passes;
     }
+  }
+  if ((right != 0.0 || down != 0.0 || magnification != 0.0 || rotation != 0.0).any())
+  {
+    Registration.emplace(right, down, magnification, rotation, pair.extent);
+  }
+  if ((variance > 0.0).any())
+  {
+    Blur = gaussianKernel(variance.sqrt());
   }
 }
 
 void FieldCorrection::operator()(
   const ImageWindow& window, float* corrected, CorrectionWorkspace& workspace) const
 {
-  using P = ImageParameter;
   const std::size_t K = Pair.channels.size();
   const int halo = (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) +
     2 * ((1 << Passes) - 1);
   PixelBuffer& signal = workspace.signal;
   signal.resize(grown(window, halo, Pair.extent), static_cast<int>(K));
   const ImageWindow& region = signal.window;
+  const FieldFactor field(Model);
   const float* scene = Filled.empty() ? Pair.simulated : Filled.data();
   for (int y = region.y; y < region.y + region.height; ++y)
   {
     for (int x = region.x; x < region.x + region.width; ++x)
     {
-      const auto factor = static_cast<float>(Model.fieldFactor(Pair.fieldX(x), Pair.fieldY(y)));
+      const auto factor = static_cast<float>(field(Pair.fieldX(x), Pair.fieldY(y)));
       const float* source = scene + Pair.index(x, y) * K;
       float* out = signal.pixel(x, y);
       for (std::size_t k = 0; k < K; ++k)
@@ -80,15 +82,19 @@ void FieldCorrection::operator()(
     convolve(splineKernel(signal.channels, 1 << pass), wide);
     for (std::size_t i = 0; i < signal.values.size(); ++i)
     {
-      signal.values[i] += Tail[i % K][pass] * (wide.values[i] - workspace.tail.values[i]);
+      signal.values[i] += static_cast<float>(Tail[i % K][static_cast<std::size_t>(pass)]) *
+        (wide.values[i] - workspace.tail.values[i]);
     }
   }
   std::vector<FieldLines> rows, columns;
+  std::vector<ChannelSteps> lights, behind;
   for (std::size_t k = 0; k < K; ++k)
   {
     const auto channel = static_cast<Eigen::Index>(k);
     rows.emplace_back(Model, true, channel, -1, window.y, window.height);
     columns.emplace_back(Model, false, channel, -1, window.x, window.width);
+    lights.push_back(Model.steps(ImageStage::Light, ImageStage::Light, channel));
+    behind.push_back(Model.steps(ImageStage::Exposure, ImageStage::Detector, channel));
   }
   std::vector<double>& light = workspace.light;
   light.resize(K);
@@ -98,32 +104,26 @@ void FieldCorrection::operator()(
     {
       const float* self = signal.pixel(x, y);
       const float* simulated = Pair.simulated + Pair.index(x, y) * K;
+      ImagePixel pixel;
+      pixel.x = Pair.fieldX(x);
+      pixel.y = Pair.fieldY(y);
       for (std::size_t k = 0; k < K; ++k)
       {
         const auto channel = static_cast<Eigen::Index>(k);
-        double& u = light[k];
-        u = static_cast<double>(self[k]);
-        u += Model.at(P::Glare, channel) * Glare[channel] +
-          Model.at(P::ConservingGlare, channel) * (Glare[channel] - u);
-        for (std::size_t number = 0; number < imageLights().size(); ++number)
-        {
-          u += Model.at(imageLight(number), channel) *
-            lightElsewhere(Pair, scene, Model, imageLights()[number], { x, y }, k);
-        }
+        pixel.mean = Glare[channel];
+        workspace.others.clear();
+        addElsewhere(Pair, scene, field, { x, y }, k, workspace.others);
+        light[k] = run(lights[k], pixel, workspace.others.data(), static_cast<double>(self[k]));
       }
       for (std::size_t k = 0; k < K; ++k)
       {
-        const auto channel = static_cast<Eigen::Index>(k);
-        const double before = k > 0 ? light[k - 1] : 0.0;
-        double lit = light[k] + Model.at(P::Retained, channel) * before;
-        lit += k > 0 ? Model.at(P::FromPrevious, channel) * (before - light[k]) : 0.0;
-        lit += k + 1 < K ? Model.at(P::FromNext, channel) * (light[k + 1] - light[k]) : 0.0;
-        const Eigen::Index row = y - window.y;
-        const Eigen::Index column = x - window.x;
-        const double u = (lit * (1.0 + rows[k].factor[row] + columns[k].factor[column]) +
-                           rows[k].added[row] + columns[k].added[column]) *
-          Model.at(P::Gain, channel);
-        *corrected++ = std::isfinite(simulated[k]) ? static_cast<float>(Detector[k](u).value)
+        pixel.self = light[k];
+        pixel.previous = k > 0 ? &light[k - 1] : nullptr;
+        pixel.next = k + 1 < K ? &light[k + 1] : nullptr;
+        pixel.row = rows[k][y - window.y];
+        pixel.column = columns[k][x - window.x];
+        const double answer = run(behind[k], pixel, nullptr, light[k]);
+        *corrected++ = std::isfinite(simulated[k]) ? static_cast<float>(answer)
                                                    : std::numeric_limits<float>::quiet_NaN();
       }
     }

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace msi
 struct CorrectionWorkspace
 {
   PixelBuffer signal, scratch, tail;
-  std::vector<double> light; // of one pixel
+  std::vector<double> light, others; // of one pixel
 };
 
 // Runs the model on the simulated image window by window, with the operators of ImageSimulator and in its order.
@@ -39,9 +40,8 @@ private:
   std::vector<float> Filled;
   std::optional<ChannelRegistration> Registration;
   std::optional<SymmetricKernel> Blur;
-  std::vector<Eigen::ArrayXf> Tail;    // weights of the passes, of each channel
-  int Passes = 0;                      // that have a weight
-  std::vector<FieldDetector> Detector; // of each channel
+  std::vector<std::array<double, TailPasses>> Tail; // weights of the passes, of each channel
+  int Passes = 0;                                   // that have a weight
 };
 
 } // namespace msi

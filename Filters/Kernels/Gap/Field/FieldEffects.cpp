@@ -1,11 +1,12 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 
-#include "Kernels/Gap/Field/FieldColumns.h"
+#include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldStripes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,8 +18,7 @@ namespace
 // What a profile counts for beside its strength. Its lines are no parameters: blocks that took no part in it judge it.
 constexpr Eigen::Index ProfileParameters = 3;
 constexpr int RadiusSteps = 48;
-constexpr double LeastBlur = 1e-4;   // pixels^2
-constexpr double LeastSquare = 1e-8; // of a gradient
+constexpr double LeastSquared = 1e-4; // of a number whose root the library has
 
 std::string withChannel(const std::string& name, const std::string& channel)
 {
@@ -39,8 +39,6 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const Fie
   const auto K = static_cast<Eigen::Index>(channels.size());
   const BandingSines sines = bandingSines(choice, model);
   const bool profile = isProfile(choice);
-  const bool offset =
-    choice.has(ImageParameter::RowOffset) || choice.has(ImageParameter::ColumnOffset);
   std::vector<GapParameter> parameters;
   parameters.push_back({ "period", sines.period, "pixels", profile ? 0.0 : periodError });
   for (Eigen::Index k = 0; k < K; ++k)
@@ -54,7 +52,7 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const Fie
         ? error[next + k] * amplitude / std::fmax(model.at(choice.terms.front().parameter, k), 1e-3)
         : std::hypot(error[next + k], error[next + K + k]) / std::sqrt(2.0);
       parameters.push_back({ withChannel("amplitude" + harmonicName(n), channel), amplitude,
-        offset ? "white" : "1", deviation });
+        isOffset(choice) ? "white" : "1", deviation });
       parameters.push_back({ withChannel("start" + harmonicName(n), channel), sines.start(k, n),
         "cycle", std::fmin(deviation / std::fmax(amplitude, 1e-12) / TwoPi, 0.5) });
     }
@@ -66,9 +64,7 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const Fie
 // What a parameter's value and its error are multiplied by for the library.
 double libraryScale(const ImageTerm& term, const FieldModel& model)
 {
-  const double square = std::pow(model.at(ImageParameter::GradientRight, 0), 2) +
-    std::pow(model.at(ImageParameter::GradientDown, 0), 2);
-  return term.scale == ImageScale::AlongSlope ? 1.0 / std::fmax(square, LeastSquare) : 1.0;
+  return term.scale != nullptr ? term.scale(model.numbers(stepOf(term.parameter), 0)) : 1.0;
 }
 
 // The fraction and radius of the effect's own form that come nearest to free weights of the passes.
@@ -80,17 +76,15 @@ struct TailForm
 
 TailForm tailForm(const FieldModel& model)
 {
-  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(TailPasses);
-  for (int i = 0; i < FreePasses; ++i)
-  {
-    weight[i + 1] = model.at(surroundWeight(i), 0);
-  }
+  const std::array<double, TailPasses> weights = model.tailWeights(0);
+  const Eigen::Map<const Eigen::ArrayXd> weight(weights.data(), TailPasses);
   TailForm best{ 0.0, 0.0 };
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step <= RadiusSteps; ++step)
   {
     const double radius = std::exp2(6.0 * step / RadiusSteps); // 1 .. 64 pixels
-    const Eigen::ArrayXd form = tailWeights(radius);
+    const std::vector<double> passes = passWeights(radius, TailPasses);
+    const Eigen::Map<const Eigen::ArrayXd> form(passes.data(), TailPasses);
     const double fraction = (form * weight).sum() / form.square().sum();
     const double error = (weight - fraction * form).square().sum();
     if (error < least)
@@ -102,9 +96,10 @@ TailForm tailForm(const FieldModel& model)
   return best;
 }
 
+// A tail of any shape, by the weights of its passes.
 bool isFree(const FieldChoice& choice)
 {
-  return choice.terms.front().parameter == ImageParameter::SurroundFirst;
+  return choice.stage() == ImageStage::Surround && choice.terms.front().name.empty();
 }
 }
 
@@ -118,7 +113,7 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
     {
       if (std::find(without.begin(), without.end(), effect.name) == without.end())
       {
-        choices.push_back({ &effect, form.form, form.terms });
+        choices.push_back({ &effect, form.form, form.terms, form.twice });
       }
     }
   }
@@ -128,21 +123,19 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
   return choices;
 }
 
-bool FieldChoice::has(ImageParameter parameter) const noexcept
-{
-  return std::any_of(terms.begin(), terms.end(),
-    [parameter](const ImageTerm& term) { return term.parameter == parameter; });
-}
-
 bool isBanding(const FieldChoice& choice)
 {
-  const ImageParameter first = choice.terms.front().parameter;
-  return first >= ImageParameter::RowSine && first <= ImageParameter::ColumnOffset;
+  return choice.stage() == ImageStage::Lines;
 }
 
 bool isProfile(const FieldChoice& choice)
 {
-  return choice.terms.front().parameter >= ImageParameter::RowGain && isBanding(choice);
+  return isBanding(choice) && choice.terms.size() == 1;
+}
+
+bool isOffset(const FieldChoice& choice)
+{
+  return isProfile(choice) && choice.form.find("offset") != std::string::npos;
 }
 
 bool isOfRows(const FieldChoice& choice)
@@ -193,11 +186,12 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
   if (isFree(choice))
   {
     const TailForm form = tailForm(model);
-    const Eigen::VectorXd errors = error.segment(next, FreePasses);
+    const auto passes = static_cast<Eigen::Index>(choice.terms.size());
+    const Eigen::VectorXd errors = error.segment(next, passes);
     parameters.push_back({ "fraction", form.fraction, "1", errors.norm() });
     parameters.push_back({ "radius", form.radius, "pixels",
       form.radius * errors.norm() / std::fmax(std::fabs(form.fraction), 1e-12) });
-    next += FreePasses;
+    next += passes;
     return parameters;
   }
   for (const ImageTerm& term : choice.terms)
@@ -212,7 +206,7 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
       const double scale = libraryScale(term, model);
       double value = scale * model.at(term.parameter, k);
       double deviation = scale * error[next++];
-      if (term.scale == ImageScale::Squared)
+      if (term.squared)
       {
         value = std::sqrt(std::fmax(value, 0.0));
         deviation = value > 0.0 ? deviation / (2.0 * value) : std::sqrt(deviation);
@@ -270,10 +264,9 @@ std::vector<CameraEffect> fieldCorrection(
       for (Eigen::Index k = 0; k < (term.perChannel ? K : 1); ++k)
       {
         const double value = libraryScale(term, model) * model.at(term.parameter, k);
-        const bool squared = term.scale == ImageScale::Squared;
         put(term.perChannel ? withChannel(term.name, channels[static_cast<std::size_t>(k)])
                             : term.name,
-          squared ? (value > LeastBlur ? std::sqrt(value) : 0.0) : value);
+          term.squared ? (value > LeastSquared ? std::sqrt(value) : 0.0) : value);
       }
     }
     effects.push_back(std::move(effect));

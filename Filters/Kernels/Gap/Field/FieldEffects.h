@@ -19,9 +19,11 @@ struct FieldChoice
   const EffectDefinition* effect;
   std::string form;
   std::vector<ImageTerm> terms;
+  bool twice; // ImageForm::twice
 
   bool has(EffectTrait::Bit trait) const noexcept { return effect->has(trait); }
-  bool has(ImageParameter parameter) const noexcept;
+  const PlacedStep& step() const { return stepOf(terms.front().parameter); }
+  ImageStage stage() const { return step().step->stage; }
 };
 
 // Every effect that an image pair can show, without those named.
@@ -31,6 +33,8 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without);
 bool isBanding(const FieldChoice& choice);
 // Stripes by a FieldProfile.
 bool isProfile(const FieldChoice& choice);
+// And an offset of each line instead of a gain.
+bool isOffset(const FieldChoice& choice);
 // Stripes of rows, not of columns.
 bool isOfRows(const FieldChoice& choice);
 

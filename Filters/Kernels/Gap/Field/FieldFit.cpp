@@ -48,52 +48,35 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
   }
 }
 
-FieldShape FieldFitter::shape() const
-{
-  const FieldModel& model = Statistics.model;
-  return { model.at(ImageParameter::TailRadius, 0), model.at(ImageParameter::CenterX, 0),
-    model.at(ImageParameter::CenterY, 0), 0.0, 0.0 };
-}
-
 FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDetail detail) const
 {
   const FieldModel& model = Statistics.model;
   const auto K = static_cast<std::size_t>(Data.channels());
-  FieldShape shape = this->shape();
-  if (start.radius > 0.0 && model.isNeutral(ImageParameter::TailFraction))
+  FieldModel about = model;
+  for (const auto& [parameter, value] : start)
   {
-    shape.radius = start.radius;
-  }
-  if (!model.hasVignetting())
-  {
-    shape.centerX = start.centerX;
-    shape.centerY = start.centerY;
-  }
-  if (model.isNeutral(ImageParameter::GradientRight) &&
-    model.isNeutral(ImageParameter::GradientDown))
-  {
-    shape.gradientRight = start.gradientRight;
-    shape.gradientDown = start.gradientDown;
+    if (model.isNeutral(stepOf(parameter)))
+    {
+      about[parameter].setConstant(value);
+    }
   }
   std::vector<Bound> terms;
   std::vector<char> known(fieldParameterCount(), 0);
   const auto add = [&](const ImageTerm& term, bool held)
   {
-    const double neutral = term.parameter == ImageParameter::TailRadius ? shape.radius
-      : term.parameter == ImageParameter::CenterX && !held              ? shape.centerX
-      : term.parameter == ImageParameter::CenterY && !held              ? shape.centerY
-      : isShape(term.parameter) ? model.at(term.parameter, 0)
-                                : neutralValue(term.parameter);
+    const ImageNumber& number = numberOf(term.parameter);
+    const bool free = isShape(term.parameter) || (number.pull == ImagePull::Itself && !held);
+    const double neutral = free ? about.at(term.parameter, 0) : number.neutral;
     terms.push_back({ term, Eigen::ArrayXd::Constant(Data.channels(), neutral),
       std::vector<char>(K, held ? 1 : 0) });
-    known[static_cast<std::size_t>(term.parameter)] = 1;
+    known[term.parameter] = 1;
   };
   for (const FieldChoice* choice : set)
   {
     for (const ImageTerm& term : choice->terms)
     {
       add(term, false);
-      const Eigen::ArrayXd& value = model[term.parameter];
+      const Eigen::ArrayXd value = model[term.parameter];
       if (!term.perChannel && (value != value[0]).any())
       {
         // Alike in all channels from here on; the common term moves them together.
@@ -102,10 +85,9 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
       }
     }
   }
-  for (std::size_t p = 0; p < fieldParameterCount(); ++p)
+  for (ImageParameter parameter = 0; parameter < fieldParameterCount(); ++parameter)
   {
-    const auto parameter = static_cast<ImageParameter>(p);
-    if (known[p] == 0 && !isShape(parameter) && !model.isNeutral(parameter))
+    if (known[parameter] == 0 && !isShape(parameter) && !model.isNeutral(parameter))
     {
       add({ parameter, true, 0.0, 0.0, 1.0 }, true);
     }
@@ -114,7 +96,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
   std::vector<Eigen::ArrayXd> values;
   for (int round = 0; round < Rounds; ++round)
   {
-    solve(Total, terms, values, shape);
+    solve(Total, terms, values, about);
     bool beyond = false;
     for (std::size_t t = 0; t < terms.size(); ++t)
     {
@@ -136,7 +118,6 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
       break;
     }
   }
-  fit.next[ImageParameter::TailRadius].setConstant(shape.radius);
   std::vector<char> seen(fieldParameterCount(), 0);
   for (std::size_t t = 0; t < terms.size(); ++t)
   {
@@ -149,12 +130,11 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
     }
     fit.step = std::max(
       fit.step, (value - model[bound.term.parameter]).abs().maxCoeff() / bound.term.typical);
-    const auto p = static_cast<std::size_t>(bound.term.parameter);
-    const bool again = seen[p] != 0;
-    seen[p] = 1;
+    const bool again = seen[bound.term.parameter] != 0;
+    seen[bound.term.parameter] = 1;
     const Eigen::ArrayXd before = model[bound.term.parameter];
-    fit.next[bound.term.parameter] =
-      again ? Eigen::ArrayXd(fit.next[bound.term.parameter] + value - before) : value;
+    const Eigen::ArrayXd found = fit.next[bound.term.parameter];
+    fit.next[bound.term.parameter] = again ? Eigen::ArrayXd(found + value - before) : value;
   }
   fit.blockEnergy.setZero(
     detail == FieldDetail::Blocks ? static_cast<Eigen::Index>(Data.blocks.size()) : 0);
@@ -166,7 +146,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
     {
       others[k] -= own[k];
     }
-    const std::vector<Eigen::VectorXd> change = solve(others, terms, values, shape);
+    const std::vector<Eigen::VectorXd> change = solve(others, terms, values, about);
     for (std::size_t k = 0; k < K; ++k)
     {
       fit.energy += energyLeft(own[k], change[k]);
@@ -214,7 +194,7 @@ ArrowSolution solved(ArrowEquations equations)
 // Returns the change of the columns, K; `values` gets the parameters.
 std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixXd>& normal,
   const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values,
-  const FieldShape& shape) const
+  const FieldModel& about) const
 {
   std::vector<const Bound*> common;
   std::vector<const Bound*> own;
@@ -228,7 +208,7 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
     for (std::size_t b = 0; b < bounds.size(); ++b)
     {
       columns.col(static_cast<Eigen::Index>(b)) =
-        columnsChanged(bounds[b]->term.parameter, Statistics.model, channel, shape);
+        columnsChanged(bounds[b]->term.parameter, Statistics.model, about, channel);
     }
     return columns;
   };
@@ -279,7 +259,7 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
   Eigen::Index nextOwn = 0;
   for (const Bound& bound : terms)
   {
-    values.push_back(Statistics.model[bound.term.parameter]);
+    values.emplace_back(Statistics.model[bound.term.parameter]);
     for (std::size_t k = 0; bound.term.perChannel && k < normal.size(); ++k)
     {
       values.back()[static_cast<Eigen::Index>(k)] += solution.own[k][nextOwn];
@@ -294,7 +274,6 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
 std::vector<Eigen::MatrixXd> FieldFitter::design(const FieldSet& set) const
 {
   const auto K = Data.channels();
-  const FieldShape shape = this->shape();
   Eigen::Index count = 0;
   for (const FieldChoice* choice : set)
   {
@@ -313,7 +292,7 @@ std::vector<Eigen::MatrixXd> FieldFitter::design(const FieldSet& set) const
       for (const ImageTerm& term : choice->terms)
       {
         design[static_cast<std::size_t>(k)].col(next + (term.perChannel ? k : 0)) =
-          columnsChanged(term.parameter, Statistics.model, k, shape);
+          columnsChanged(term.parameter, Statistics.model, Statistics.model, k);
         next += term.perChannel ? K : 1;
       }
     }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ enum class FieldDetail
   Sum, // without FieldFit::blockEnergy, a tenth of the time
   Blocks
 };
+
+using FieldShape = std::map<ImageParameter, double>;
 
 struct FieldFit
 {
@@ -56,7 +59,7 @@ public:
   // The effects of `set` free; every other effect of the model is taken back to neutral. Bounds by fixing what is
   // beyond. Each parameter has a prior of ten times its typical size. The estimate without a fold comes from
   // the normal equations without it: exact where the model is linear.
-  // start: where the model has no tail, no vignetting, no gradient.
+  // start: numbers of effects that the model does not have yet, where they are to start from.
   FieldFit fit(const FieldSet& set, const FieldShape& start = {},
     FieldDetail detail = FieldDetail::Blocks) const;
 
@@ -71,15 +74,12 @@ public:
   // Normal matrix of the numbers in the same order, without their priors.
   Eigen::MatrixXd information(const FieldSet& set) const;
 
-  // The model's own.
-  FieldShape shape() const;
-
 private:
   struct Bound;
   std::vector<Eigen::MatrixXd> design(const FieldSet& set) const;
   std::vector<Eigen::VectorXd> solve(const std::vector<Eigen::MatrixXd>& normal,
     const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values,
-    const FieldShape& shape) const;
+    const FieldModel& about) const;
 
   const FieldData& Data;
   const FieldStatistics& Statistics;

@@ -149,8 +149,8 @@ std::vector<std::string> notesOn(
             "beside them in the simulated one";
     notes.push_back(text.str());
   }
-  const bool hasTail =
-    hasTerm(set, ImageParameter::TailFraction) || hasTerm(set, ImageParameter::SurroundFirst);
+  const bool hasTail = hasChoice(
+    set, [](const FieldChoice& choice) { return choice.stage() == ImageStage::Surround; });
   if (!data.filled.empty() && hasTail)
   {
     notes.emplace_back("the surround of the usable pixels is partly not simulated; "
@@ -169,15 +169,23 @@ std::vector<std::string> notesOn(
       notes.push_back(text.str());
     }
   }
-  if ((hasTerm(set, ImageParameter::Falloff) && hasTerm(set, ImageParameter::GradientRight)) ||
-    hasTerm(set, ImageParameter::CenterX))
+  const auto isOfLens = [](const FieldChoice* choice)
+  { return choice->stage() == ImageStage::Lens; };
+  const bool offMiddle = hasChoice(set,
+    [](const FieldChoice& choice)
+    { return numberOf(choice.terms.back().parameter).pull == ImagePull::Itself; });
+  if (offMiddle || std::count_if(set.begin(), set.end(), isOfLens) > 1)
   {
     notes.emplace_back("vignetting about a center off the middle looks like vignetting with "
                        "illumination_gradient; the chart rotated by 180 degrees separates them");
   }
-  const bool hasGlare =
-    hasTerm(set, ImageParameter::Glare) || hasTerm(set, ImageParameter::ConservingGlare);
-  if (hasTerm(set, ImageParameter::Dark) != hasGlare)
+  const bool hasGlare = hasChoice(set,
+    [](const FieldChoice& choice)
+    { return choice.stage() == ImageStage::Light && choice.step().from == nullptr; });
+  const bool hasOffset = hasChoice(set,
+    [](const FieldChoice& choice)
+    { return numberOf(choice.terms.front().parameter).axes == ImageAxis::Channel; });
+  if (hasOffset != hasGlare)
   {
     notes.emplace_back("an offset of each channel may be dark_offset or veiling_glare: one image "
                        "cannot tell unless the offsets go with the channels' means");

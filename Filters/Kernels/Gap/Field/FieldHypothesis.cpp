@@ -13,20 +13,12 @@ namespace
 {
 constexpr int Iterations = 4;
 constexpr double SmallStep = 0.02; // typical sizes
-constexpr double Radii[] = { 2.0, 4.0, 8.0, 16.0, 32.0 };
-constexpr double Centers[] = { -0.3, 0.0, 0.3 }; // half fields
 }
 
 FieldSet joined(FieldSet set, const FieldChoice& choice)
 {
   set.push_back(&choice);
   return set;
-}
-
-bool hasTerm(const FieldSet& set, ImageParameter parameter)
-{
-  return std::any_of(set.begin(), set.end(),
-    [parameter](const FieldChoice* choice) { return choice->has(parameter); });
 }
 
 FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
@@ -57,11 +49,6 @@ FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, con
 FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set, FieldDetail detail)
 {
   const FieldModel& model = fitter.statistics().model;
-  const bool tail =
-    hasTerm(set, ImageParameter::TailFraction) && model.isNeutral(ImageParameter::TailFraction);
-  // Terms of a higher order are known about the model's center alone.
-  const bool center = !model.hasVignetting() && hasTerm(set, ImageParameter::CenterX) &&
-    !hasTerm(set, ImageParameter::Fourth);
   FieldShape start;
   std::optional<FieldFit> best;
   const auto tryOut = [&](const FieldShape& shape)
@@ -74,36 +61,42 @@ FieldFit linearFit(const FieldFitter& fitter, const FieldSet& set, FieldDetail d
     }
   };
   tryOut(start);
-  for (const double radius : Radii)
+  for (const FieldChoice* choice : set)
   {
-    if (tail)
+    if (!model.isNeutral(stepOf(choice->terms.front().parameter)))
     {
-      tryOut({ radius, 0.0, 0.0, 0.0, 0.0 });
+      continue;
     }
-  }
-  if (hasTerm(set, ImageParameter::GradientBend) &&
-    model.isNeutral(ImageParameter::GradientRight) && model.isNeutral(ImageParameter::GradientDown))
-  {
-    FieldShape bent = start;
-    const double right = best->next.at(ImageParameter::GradientRight, 0);
-    const double down = best->next.at(ImageParameter::GradientDown, 0);
-    const double size = std::hypot(right, down);
-    if (size > 0.0)
+    if (choice->twice)
     {
-      bent.gradientRight = right / size;
-      bent.gradientDown = down / size;
-      tryOut(bent);
-    }
-  }
-  const FieldShape found = start;
-  for (const double right : Centers)
-  {
-    for (const double down : Centers)
-    {
-      if (center)
+      FieldShape there = start;
+      for (const ImageTerm& term : choice->terms)
       {
-        tryOut({ found.radius, right, down, found.gradientRight, found.gradientDown });
+        there[term.parameter] = best->next.at(term.parameter, 0);
       }
+      tryOut(there);
+    }
+    // Every combination of the starts.
+    std::vector<FieldShape> shapes{ start };
+    for (const ImageTerm& term : choice->terms)
+    {
+      std::vector<FieldShape> more;
+      for (const FieldShape& shape : shapes)
+      {
+        for (const double value : term.starts)
+        {
+          more.push_back(shape);
+          more.back()[term.parameter] = value;
+        }
+      }
+      if (!more.empty())
+      {
+        shapes = std::move(more);
+      }
+    }
+    for (std::size_t i = 0; shapes.size() > 1 && i < shapes.size(); ++i)
+    {
+      tryOut(shapes[i]);
     }
   }
   return std::move(*best);
@@ -122,9 +115,8 @@ std::vector<std::string> indistinctEffects(
     double information = 0.0;
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
-      const Eigen::VectorXd column =
-        columnsChanged(choice.terms.front().parameter, fitter.statistics().model, k,
-          { neutralValue(ImageParameter::TailRadius), 0.0, 0.0, 0.0, 0.0 });
+      const Eigen::VectorXd column = columnsChanged(
+        choice.terms.front().parameter, fitter.statistics().model, fitter.statistics().model, k);
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
         information += column.dot(

@@ -3,6 +3,7 @@
 
 #include "Kernels/Gap/Field/FieldFit.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,13 +20,18 @@ struct FieldHypothesis
 
 FieldSet joined(FieldSet set, const FieldChoice& choice);
 
-bool hasTerm(const FieldSet& set, ImageParameter parameter);
+template <typename Condition>
+bool hasChoice(const FieldSet& set, Condition condition)
+{
+  return std::any_of(
+    set.begin(), set.end(), [&](const FieldChoice* choice) { return condition(*choice); });
+}
 
 // The model after Gauss-Newton from a start.
 FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
   const FieldModel& start, const FieldLoop& loop);
 
-// One step; the radius of a tail and the center of vignetting that the model does not have yet are the best of several.
+// One step; effects that the model does not have yet start from the best of their starts (ImageTerm::starts).
 FieldFit linearFit(
   const FieldFitter& fitter, const FieldSet& set, FieldDetail detail = FieldDetail::Blocks);
 

@@ -7,68 +7,161 @@
 namespace msi
 {
 
-namespace
+std::size_t fieldParameterCount()
 {
-constexpr double NeutralRadius = 8.0;
-constexpr double NeutralLevel = 8.0;
+  const PlacedStep& last = imageSteps().back();
+  return last.number + last.step->numbers.size();
 }
 
-double neutralValue(ImageParameter parameter) noexcept
+const ImageNumber& numberOf(ImageParameter parameter)
 {
-  switch (parameter)
+  const PlacedStep& step = stepOf(parameter);
+  return step.step->numbers[parameter - step.number];
+}
+
+bool isShape(ImageParameter parameter)
+{
+  const ImagePull pull = numberOf(parameter).pull;
+  return pull == ImagePull::Kept || pull == ImagePull::Found;
+}
+
+StepDerivatives::StepDerivatives()
+  : values(imageSteps().back().column + imageSteps().back().step->width(), 0.0)
+  , slopes(imageSteps().size(), 1.0)
+{
+}
+
+void StepDerivatives::chain() noexcept
+{
+  double slope = 1.0;
+  std::size_t end = values.size();
+  for (std::size_t s = slopes.size(); s-- > 0;)
   {
-    case ImageParameter::Gain:
-    case ImageParameter::Exponent:
-      return 1.0;
-    case ImageParameter::TailRadius:
-      return NeutralRadius;
-    case ImageParameter::ClipLevel:
-      return NeutralLevel;
-    default:
-      return 0.0;
+    const std::size_t first = imageSteps()[s].column;
+    for (std::size_t i = first; i < end; ++i)
+    {
+      values[i] *= slope;
+    }
+    slope *= slopes[s];
+    end = first;
   }
 }
 
 FieldModel::FieldModel(Eigen::Index channels)
-  : Values(fieldParameterCount())
+  : Values(static_cast<Eigen::Index>(fieldParameterCount()), channels)
 {
-  for (std::size_t p = 0; p < Values.size(); ++p)
+  for (ImageParameter p = 0; p < fieldParameterCount(); ++p)
   {
-    Values[p].setConstant(channels, neutralValue(static_cast<ImageParameter>(p)));
+    (*this)[p].setConstant(numberOf(p).neutral);
   }
 }
 
 bool FieldModel::isNeutral(ImageParameter parameter) const
 {
-  return ((*this)[parameter] == neutralValue(parameter)).all();
+  return ((*this)[parameter] == numberOf(parameter).neutral).all();
 }
 
-bool FieldModel::hasVignetting() const
+bool FieldModel::isNeutral(const PlacedStep& step) const
 {
-  return !isNeutral(ImageParameter::Falloff) || !isNeutral(ImageParameter::Fourth) ||
-    !isNeutral(ImageParameter::Sixth);
+  for (std::size_t n = 0; n < step.step->numbers.size(); ++n)
+  {
+    if (step.step->numbers[n].pull == ImagePull::Neutral && !isNeutral(step.number + n))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
-double FieldModel::gradient(double x, double y) const noexcept
+ChannelSteps FieldModel::steps(
+  ImageStage first, ImageStage last, Eigen::Index channel, bool all) const
 {
-  const double right = at(ImageParameter::GradientRight, 0);
-  const double down = at(ImageParameter::GradientDown, 0);
-  const double bend = at(ImageParameter::GradientBend, 0);
-  const double plane = right * x + down * y;
-  const double square = right * right + down * down;
-  return 1.0 + plane + (bend != 0.0 && square > 0.0 ? bend * plane * plane / square : 0.0);
+  const std::vector<PlacedStep>& known = imageSteps();
+  ChannelSteps steps;
+  std::size_t light = 0;
+  for (std::size_t s = 0; s < known.size(); ++s)
+  {
+    const ImageStep& step = *known[s].step;
+    const double* own = numbers(known[s], channel);
+    bool neutral = true;
+    for (std::size_t n = 0; n < step.numbers.size(); ++n)
+    {
+      neutral = neutral &&
+        (step.numbers[n].pull != ImagePull::Neutral || own[n] == step.numbers[n].neutral);
+    }
+    if (step.stage >= first && step.stage <= last && (all || !neutral))
+    {
+      steps.push_back({ &known[s], own, s, light });
+    }
+    light += known[s].from != nullptr ? 1 : 0;
+  }
+  return steps;
 }
 
-double FieldModel::vignetting(double x, double y) const noexcept
+double run(const ChannelSteps& steps, ImagePixel& pixel, const double* others, double signal,
+  StepDerivatives* derivatives)
 {
-  const double right = x - at(ImageParameter::CenterX, 0);
-  const double down = y - at(ImageParameter::CenterY, 0);
-  const double square = right * right + down * down;
-  return std::fmax(1.0 -
-      square *
-        (at(ImageParameter::Falloff, 0) +
-          square * (at(ImageParameter::Fourth, 0) + square * at(ImageParameter::Sixth, 0))),
-    0.0);
+  for (const ChannelStep& step : steps)
+  {
+    if (step.placed->from != nullptr)
+    {
+      pixel.elsewhere = others[step.light];
+    }
+    const auto apply = step.placed->step->apply;
+    if (derivatives == nullptr)
+    {
+      apply(step.numbers, pixel, signal, nullptr);
+      continue;
+    }
+    derivatives->slopes[step.place] =
+      apply(step.numbers, pixel, signal, derivatives->values.data() + step.placed->column);
+  }
+  return signal;
+}
+
+double FieldFactor::operator()(double x, double y) const
+{
+  ImagePixel pixel;
+  pixel.x = x;
+  pixel.y = y;
+  return run(Steps, pixel, nullptr, 1.0);
+}
+
+ImageDisplacement FieldModel::displacement(Eigen::Index channel) const
+{
+  ImageDisplacement displacement{};
+  for (const PlacedStep& step : imageSteps())
+  {
+    if (step.step->displacement != nullptr)
+    {
+      displacement = step.step->displacement(numbers(step, channel));
+    }
+  }
+  return displacement;
+}
+
+double FieldModel::blurVariance(Eigen::Index channel) const
+{
+  double variance = 0.0;
+  for (const PlacedStep& step : imageSteps())
+  {
+    variance +=
+      step.step->blurVariance != nullptr ? step.step->blurVariance(numbers(step, channel)) : 0.0;
+  }
+  return variance;
+}
+
+std::array<double, TailPasses> FieldModel::tailWeights(Eigen::Index channel) const
+{
+  std::array<double, TailPasses> weights{};
+  for (const PlacedStep& step : imageSteps())
+  {
+    if (step.step->tail != nullptr)
+    {
+      step.step->tail(numbers(step, channel), weights.data());
+    }
+  }
+  return weights;
 }
 
 FieldLines::FieldLines(
@@ -78,7 +171,6 @@ FieldLines::FieldLines(
   , gain(sine)
   , offset(sine)
 {
-  using P = ImageParameter;
   const double period = ofRows ? model.rowPeriod : model.columnPeriod;
   const FieldProfile* profile = (ofRows ? model.rows : model.columns).get();
   if (period > 0.0)
@@ -93,51 +185,6 @@ FieldLines::FieldLines(
     gain = profile->gainFor(fold).col(channel).segment(first, count);
     offset = profile->offsetFor(fold).col(channel).segment(first, count);
   }
-  const auto at = [&](P ofRow, P ofColumn) { return model.at(ofRows ? ofRow : ofColumn, channel); };
-  factor = at(P::RowSine, P::ColumnSine) * sine + at(P::RowCosine, P::ColumnCosine) * cosine +
-    at(P::RowGain, P::ColumnGain) * gain;
-  added = at(P::RowOffset, P::ColumnOffset) * offset;
-}
-
-namespace
-{
-constexpr double LeastSignal = 1e-3; // below, a power has no useful slope
-}
-
-FieldDetector::FieldDetector(const FieldModel& model, Eigen::Index channel)
-  : Square(model.at(ImageParameter::Square, channel))
-  , Exponent(model.at(ImageParameter::Exponent, channel))
-  , Compression(model.at(ImageParameter::Compression, channel))
-  , Dark(model.at(ImageParameter::Dark, channel))
-  , Clip(model.at(ImageParameter::Clip, channel))
-  , Level(model.at(ImageParameter::ClipLevel, channel))
-{
-}
-
-DetectorAnswer FieldDetector::operator()(double signal) const noexcept
-{
-  double power = signal;
-  double slope = 1.0;
-  double byExponent = 0.0;
-  if (signal > 0.0)
-  {
-    const double logarithm = std::log(signal);
-    power = Exponent == 1.0 ? signal : std::exp(Exponent * logarithm);
-    slope = Exponent == 1.0 ? 1.0 : Exponent * power / std::fmax(signal, LeastSignal);
-    byExponent = power * logarithm;
-  }
-  const double divisor = 1.0 + Compression * power;
-  const double bent = power / divisor;
-  const double bySquare = bent * bent;
-  const double outer = (1.0 + 2.0 * Square * bent) / (divisor * divisor);
-  const double linear = bent + Square * bySquare + Dark;
-  // (u + level - sqrt((u - level)^2 + softness^2)) / 2
-  const double beyond = linear - Level;
-  const double root = std::sqrt(beyond * beyond + ClipSoftness * ClipSoftness);
-  const double lost = 0.5 * (beyond + root); // of u
-  const double kept = 1.0 - 0.5 * Clip * (1.0 + beyond / root);
-  return { linear - Clip * lost, kept * outer * slope, kept * bySquare, kept * outer * byExponent,
-    kept, -lost, 0.5 * Clip * (1.0 + beyond / root) };
 }
 
 } // namespace msi

@@ -1,4 +1,4 @@
-// The parameters of everything that an image pair can show.
+// The numbers of everything that an image pair can show, and what they do to a pixel.
 #pragma once
 
 #include "Kernels/Camera/ImageTerm.h"
@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,94 +31,103 @@ private:
   static std::size_t at(int fold) noexcept { return static_cast<std::size_t>(fold); }
 };
 
-// How many there are.
-inline std::size_t fieldParameterCount()
+// Derivatives of a pixel's answer: those of every step (PlacedStep::column), and each step's own by its signal.
+struct StepDerivatives
 {
-  return static_cast<std::size_t>(ImageParameter::Light) + imageLights().size();
-}
+  std::vector<double> values, slopes;
+
+  StepDerivatives();
+  // From derivatives of each step's result to those of the last one's.
+  void chain() noexcept;
+};
+
+// A step with its numbers of one channel.
+struct ChannelStep
+{
+  const PlacedStep* placed;
+  const double* numbers;
+  std::size_t place; // among all steps
+  std::size_t light; // among those that bring light from elsewhere
+};
+using ChannelSteps = std::vector<ChannelStep>;
+
+// The signal behind these steps. others: light from elsewhere, of each step that brings it.
+double run(const ChannelSteps& steps, ImagePixel& pixel, const double* others, double signal,
+  StepDerivatives* derivatives = nullptr);
 
 // One number of each parameter for every channel; parameters common to the channels repeat.
-//
-// Order: gradient and vignetting; misregistration; defocus; local stray light; veiling glare; lag; banding;
-//        gain; nonlinearity; dark offset; saturation: that of ImageSimulator.
 struct FieldModel
 {
   explicit FieldModel(Eigen::Index channels = 0);
 
-  Eigen::ArrayXd& operator[](ImageParameter parameter)
+  auto operator[](ImageParameter parameter)
   {
-    return Values[static_cast<std::size_t>(parameter)];
+    return Values.row(static_cast<Eigen::Index>(parameter)).transpose();
   }
-  const Eigen::ArrayXd& operator[](ImageParameter parameter) const
+  auto operator[](ImageParameter parameter) const
   {
-    return Values[static_cast<std::size_t>(parameter)];
+    return Values.row(static_cast<Eigen::Index>(parameter)).transpose();
   }
   double at(ImageParameter parameter, Eigen::Index channel) const
   {
-    return Values[static_cast<std::size_t>(parameter)][channel];
+    return Values(static_cast<Eigen::Index>(parameter), channel);
+  }
+  const double* numbers(const PlacedStep& step, Eigen::Index channel) const
+  {
+    return &Values(static_cast<Eigen::Index>(step.number), channel);
   }
   bool isNeutral(ImageParameter parameter) const;
-  bool hasVignetting() const;
-  // 1 + g n + bend n^2, n the place along the gradient (right, down), g its length
-  double gradient(double x, double y) const noexcept;
-  // 1 - falloff rho^2 - fourth rho^4 - sixth rho^6, not below zero
-  double vignetting(double x, double y) const noexcept;
-  double fieldFactor(double x, double y) const noexcept
-  {
-    return gradient(x, y) * vignetting(x, y);
-  }
+  bool isNeutral(const PlacedStep& step) const; // but for numbers that change nothing alone
+
+  // The steps of these stages; without those that change nothing, or all. They refer to the model.
+  ChannelSteps steps(
+    ImageStage first, ImageStage last, Eigen::Index channel, bool all = false) const;
+
+  ImageDisplacement displacement(Eigen::Index channel) const;
+  double blurVariance(Eigen::Index channel) const;
+  std::array<double, TailPasses> tailWeights(Eigen::Index channel) const;
 
   double rowPeriod = 0.0; // 0: none
   double columnPeriod = 0.0;
   std::shared_ptr<const FieldProfile> rows, columns; // null: none
 
 private:
-  std::vector<Eigen::ArrayXd> Values;
+  Eigen::ArrayXXd Values; // parameters x K
 };
 
-// What stripes do in `count` rows, or columns, of one channel from `first` on; without stripes nothing.
+// The factor over the field, the same in all channels. Refers to the model.
+class FieldFactor
+{
+public:
+  explicit FieldFactor(const FieldModel& model)
+    : Steps(model.steps(ImageStage::Lens, ImageStage::Lens, 0))
+  {
+  }
+  double operator()(double x, double y) const;
+
+private:
+  ChannelSteps Steps;
+};
+
+// The stripes of `count` rows, or columns, of one channel from `first` on.
 struct FieldLines
 {
   // fold: FieldProfile::gainFor.
   FieldLines(
     const FieldModel& model, bool ofRows, Eigen::Index channel, int fold, int first, int count);
 
-  Eigen::ArrayXd factor, added; // of the light; the response has (1 + factor) light + added
-  Eigen::ArrayXd sine, cosine, gain, offset; // what the parameters of these names multiply
-};
-
-double neutralValue(ImageParameter parameter) noexcept;
-
-// A shape that another parameter turns on: without it, it changes nothing.
-constexpr bool isShape(ImageParameter parameter) noexcept
-{
-  return parameter == ImageParameter::TailRadius || parameter == ImageParameter::ClipLevel;
-}
-
-// What the detector answers to a signal, and the derivatives of the answer.
-struct DetectorAnswer
-{
-  double value;
-  double bySignal;
-  double bySquare; // of the quadratic, and minus that by the compression
-  double byExponent;
-  double byOffset;
-  double byClip;
-  double byClipLevel;
-};
-
-class FieldDetector
-{
-public:
-  FieldDetector(const FieldModel& model, Eigen::Index channel);
-
-  DetectorAnswer operator()(double signal) const noexcept;
+  ImageLine operator[](Eigen::Index line) const
+  {
+    return { sine[line], cosine[line], gain[line], offset[line] };
+  }
 
 private:
-  double Square, Exponent, Compression, Dark, Clip, Level;
+  Eigen::ArrayXd sine, cosine, gain, offset;
 };
 
-// A rounded min(u, level): that of the effect saturation, whose softness is held.
-inline constexpr double ClipSoftness = 0.01;
+std::size_t fieldParameterCount();
+const ImageNumber& numberOf(ImageParameter parameter);
+// Kept or found.
+bool isShape(ImageParameter parameter);
 
 } // namespace msi

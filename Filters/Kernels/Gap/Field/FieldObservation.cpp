@@ -45,8 +45,20 @@ std::vector<GapOption> fieldOptions(const std::vector<FieldChoice>& choices)
 
 bool hasProfile(const FieldSet& set, bool rows)
 {
-  return std::any_of(set.begin(), set.end(),
-    [rows](const FieldChoice* choice) { return isProfile(*choice) && isOfRows(*choice) == rows; });
+  return hasChoice(set,
+    [rows](const FieldChoice& choice) { return isProfile(choice) && isOfRows(choice) == rows; });
+}
+
+bool hasSine(const FieldSet& set, bool rows)
+{
+  return hasChoice(set,
+    [rows](const FieldChoice& choice)
+    { return isBanding(choice) && !isProfile(choice) && isOfRows(choice) == rows; });
+}
+
+bool clips(const FieldChoice& choice)
+{
+  return choice.has(EffectTrait::LimitsResponse);
 }
 }
 
@@ -83,7 +95,7 @@ bool FieldObservation::hasStart(const FieldModel& model, const FieldChoice& choi
     return isProfile(choice) ? (rows ? model.rows : model.columns) != nullptr
                              : (rows ? model.rowPeriod : model.columnPeriod) > 0.0;
   }
-  return !choice.has(ImageParameter::Clip) || !model.isNeutral(ImageParameter::ClipLevel);
+  return !clips(choice) || !model.isNeutral(clippingTerms()[1].parameter);
 }
 
 const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
@@ -101,18 +113,18 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
     PeriodError[found.period] = found.standardError;
     return found.period;
   };
-  if (!hasTerm(hypothesis.set, ImageParameter::RowSine))
+  if (!hasSine(hypothesis.set, true))
   {
     model.rowPeriod = period(true);
   }
-  if (!hasTerm(hypothesis.set, ImageParameter::ColumnSine))
+  if (!hasSine(hypothesis.set, false))
   {
     model.columnPeriod = period(false);
   }
   findProfiles(model, hypothesis.set, false);
-  if (!hasTerm(hypothesis.set, ImageParameter::Clip))
+  if (!hasChoice(hypothesis.set, clips))
   {
-    model[ImageParameter::ClipLevel].setConstant(findClipLevel(Data, model, Loop));
+    model[clippingTerms()[1].parameter].setConstant(findClipLevel(Data, model, Loop));
   }
   hypothesis.statistics =
     std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Weights, Loop));
@@ -140,13 +152,14 @@ void FieldObservation::findProfiles(FieldModel& model, const FieldSet& set, bool
 
 FieldModel FieldObservation::registered(const FieldModel& model, const FieldChoice& choice) const
 {
-  const Eigen::MatrixXd& place =
-    choice.has(ImageParameter::Rotation) ? Start.similarity : Start.shift;
+  // Displacement, magnification, rotation; a form without the last starts from a displacement alone.
+  const std::vector<ImageTerm>& all = choice.effect->imageForms.back().terms;
+  const Eigen::MatrixXd& place = choice.terms.size() == all.size() ? Start.similarity : Start.shift;
   FieldModel moved = model;
-  moved[ImageParameter::Right] = place.col(0);
-  moved[ImageParameter::Down] = place.col(1);
-  moved[ImageParameter::Magnification] = place.col(2);
-  moved[ImageParameter::Rotation] = place.col(3);
+  for (std::size_t t = 0; t < all.size(); ++t)
+  {
+    moved[all[t].parameter] = place.col(static_cast<Eigen::Index>(t)).array();
+  }
   return moved;
 }
 
@@ -167,7 +180,7 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
     const auto parameters = static_cast<double>(parameterCount({ &choice }, Data.channels()));
     GapPreview preview{ option, {}, 0.0, parameters };
     double energy = linearFit(fitter, set, FieldDetail::Sum).energy;
-    if (choice.has(ImageParameter::Right) && !Start.shift.isZero())
+    if (choice.step().step->displacement != nullptr && !Start.shift.isZero())
     {
       const FieldModel moved = registered(model, choice);
       const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop);
@@ -249,8 +262,8 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
     described->set.push_back(static_cast<std::size_t>(choice - Choices.data()));
   }
   // What bends the curve does not clip.
-  const bool bends = hasTerm(hypothesis.set, ImageParameter::Clip) &&
-    model.at(ImageParameter::Clip, 0) < ImageDecision::LeastClip;
+  const bool bends = hasChoice(hypothesis.set, clips) &&
+    model.at(clippingTerms().front().parameter, 0) < ImageDecision::LeastClip;
   described->energy = bends ? std::numeric_limits<double>::infinity() : hypothesis.fit.energy;
   std::vector<FreeNumber> numbers;
   std::size_t group = 0;
@@ -262,9 +275,10 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
       for (Eigen::Index k = 0; k < (term.perChannel ? Data.channels() : 1); ++k)
       {
         const double value = model.at(term.parameter, k);
-        numbers.push_back({ group, term.perChannel, ownMean, value - neutralValue(term.parameter),
-          ImageDecision::PriorSize * term.typical, term.typical });
-        if (term.parameter == ImageParameter::CenterX || term.parameter == ImageParameter::CenterY)
+        numbers.push_back(
+          { group, term.perChannel, ownMean, value - numberOf(term.parameter).neutral,
+            ImageDecision::PriorSize * term.typical, term.typical });
+        if (numberOf(term.parameter).pull == ImagePull::Itself)
         {
           described->surprise +=
             0.5 * std::pow(value / term.typical, 2); // axes are near the middle

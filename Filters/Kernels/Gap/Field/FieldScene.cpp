@@ -96,12 +96,13 @@ namespace
 {
 Eigen::ArrayXd meanOf(const SceneCells& cells, const FieldModel& model)
 {
+  const FieldFactor factor(model);
   Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(cells.part.cols());
   for (Eigen::Index k = 0; k < mean.size(); ++k)
   {
     for (Eigen::Index cell = 0; cell < cells.part.rows(); ++cell)
     {
-      mean[k] += cells.part(cell, k) * model.fieldFactor(cells.x(cell, k), cells.y(cell, k));
+      mean[k] += cells.part(cell, k) * factor(cells.x(cell, k), cells.y(cell, k));
     }
   }
   return mean;

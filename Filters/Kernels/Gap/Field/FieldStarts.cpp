@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldStarts.h"
 
+#include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Numerics/Angle.h"
 
@@ -172,11 +173,16 @@ constexpr std::size_t FewestPixels = 20; // beyond the level
 constexpr double Better = 0.5;           // of the squares beyond the level must go
 }
 
+const std::vector<ImageTerm>& clippingTerms()
+{
+  return effectWith(EffectTrait::LimitsResponse).imageForms.front().terms;
+}
+
 double findClipLevel(const FieldData& data, const FieldModel& model, const FieldLoop& loop)
 {
   using Pixel = std::pair<double, double>; // model, real
   FieldModel open = model;
-  open[ImageParameter::Clip].setZero();
+  open[clippingTerms()[0].parameter].setZero();
   const Eigen::ArrayXd glare = sceneMean(data, open);
   std::vector<std::vector<Pixel>> parts(data.blocks.size());
   loop(static_cast<int>(data.blocks.size()),
@@ -207,7 +213,7 @@ double findClipLevel(const FieldData& data, const FieldModel& model, const Field
   double square = 0.0;
   double before = 0.0;
   double most = 0.0;
-  double best = neutralValue(ImageParameter::ClipLevel);
+  double best = numberOf(clippingTerms()[1].parameter).neutral;
   for (std::size_t i = 0; i < pixels.size(); ++i)
   {
     const auto& [level, real] = pixels[i];

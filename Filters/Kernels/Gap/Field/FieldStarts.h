@@ -19,6 +19,9 @@ struct FieldStart
 // block. Zero where it is no better than no displacement, so a start for a fit by gradients.
 FieldStart registrationStart(const FieldData& data, const FieldLoop& loop);
 
+// Weight and level of the effect that limits the response.
+const std::vector<ImageTerm>& clippingTerms();
+
 // The level beyond which the real image stays at one value while the model goes on: that of the least squares of
 // real - min(model, level), among quantiles of the model; the neutral level where the image shows none.
 double findClipLevel(const FieldData& data, const FieldModel& model, const FieldLoop& loop);

@@ -48,7 +48,7 @@ LineSums sumsOf(const FieldData& data, const FieldModel& model, const Eigen::Arr
   for (Eigen::Index k = 0; k < data.channels(); ++k)
   {
     fieldColumns(data, model, glare, block, k, scratch);
-    const auto u = scratch.columns.col(FieldColumn::of(ImageParameter::Gain));
+    const auto u = scratch.columns.col(FieldColumn::gain());
     const auto r = scratch.columns.col(FieldColumn::residual());
     for (Eigen::Index n = 0; n < u.size(); ++n)
     {
@@ -388,23 +388,20 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
 
 BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model)
 {
-  using P = ImageParameter;
   const bool rows = isOfRows(choice);
-  const Eigen::Index K = model[P::Gain].size();
+  const ImageParameter first = choice.terms.front().parameter;
+  const Eigen::Index K = model[first].size();
   if (isProfile(choice))
   {
-    const P strength = choice.terms.front().parameter;
     const FieldProfile& profile = *(rows ? model.rows : model.columns);
-    const bool gain = strength == P::RowGain || strength == P::ColumnGain;
-    return nearestSines(
-      (gain ? profile.gain : profile.offset).back().rowwise() * model[strength].transpose());
+    return nearestSines((isOffset(choice) ? profile.offset : profile.gain).back().rowwise() *
+      model[first].transpose());
   }
   BandingSines sines = noSines(K, 1);
   sines.period = rows ? model.rowPeriod : model.columnPeriod;
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    setSine(sines, k, 0, model.at(rows ? P::RowSine : P::ColumnSine, k),
-      model.at(rows ? P::RowCosine : P::ColumnCosine, k));
+    setSine(sines, k, 0, model.at(first, k), model.at(choice.terms[1].parameter, k));
   }
   return sines;
 }

@@ -18,8 +18,6 @@ namespace
 constexpr std::size_t ChannelBit = 1;
 constexpr std::size_t LevelBit = 2;
 
-using P = ImageParameter;
-
 constexpr double Ridge = 1e-6;
 
 struct FieldAxis
@@ -32,38 +30,31 @@ struct FieldAxis
 std::vector<FieldAxis> fieldAxisBases(const FieldModel& model, bool gaps)
 {
   std::vector<FieldAxis> axes = {
-    { "channel", {}, { FieldColumn::of(P::Gain), FieldColumn::of(P::Dark) } },
-    { "level", { FieldColumn::of(P::Gain), FieldColumn::of(P::Square) }, {} },
-    { "position", {},
-      { FieldColumn::of(P::GradientRight), FieldColumn::of(P::GradientDown),
-        FieldColumn::of(P::Falloff), FieldColumn::of(P::Fourth), FieldColumn::diagonal(),
-        FieldColumn::saddle() } },
-    { "edges", {},
-      { FieldColumn::of(P::Right), FieldColumn::of(P::Down), FieldColumn::of(P::BlurVariance) } },
+    { "channel", {}, FieldColumn::of(ImageAxis::Channel) },
+    { "level", FieldColumn::of(ImageAxis::Level), {} },
+    { "position", {}, FieldColumn::of(ImageAxis::Position) },
+    { "edges", {}, FieldColumn::of(ImageAxis::Edges) },
   };
-  for (int pass = 0; !gaps && pass < TailPasses; ++pass)
+  for (const PlacedStep& step : imageSteps())
   {
-    axes[3].own.push_back(FieldColumn::pass(pass));
+    std::vector<int>& edges = axes.back().own;
+    if (gaps && step.step->stage == ImageStage::Surround)
+    {
+      const auto first = static_cast<int>(step.column);
+      const auto end = static_cast<int>(step.column + step.step->width());
+      edges.erase(
+        std::remove_if(edges.begin(), edges.end(), [&](int c) { return c >= first && c < end; }),
+        edges.end());
+    }
   }
-  const auto stripes = [&](const char* name, bool sines, bool profile, P sine, P gain)
+  if (model.rowPeriod > 0.0 || model.rows != nullptr)
   {
-    std::vector<int> own;
-    if (sines)
-    {
-      own = { FieldColumn::of(sine), FieldColumn::of(sine) + 1 };
-    }
-    if (profile)
-    {
-      own.insert(own.end(), { FieldColumn::of(gain), FieldColumn::of(gain) + 1 });
-    }
-    if (!own.empty())
-    {
-      axes.push_back({ name, {}, own });
-    }
-  };
-  stripes("rows", model.rowPeriod > 0.0, model.rows != nullptr, P::RowSine, P::RowGain);
-  stripes(
-    "columns", model.columnPeriod > 0.0, model.columns != nullptr, P::ColumnSine, P::ColumnGain);
+    axes.push_back({ "rows", {}, FieldColumn::of(ImageAxis::Rows) });
+  }
+  if (model.columnPeriod > 0.0 || model.columns != nullptr)
+  {
+    axes.push_back({ "columns", {}, FieldColumn::of(ImageAxis::Columns) });
+  }
   return axes;
 }
 
@@ -123,20 +114,20 @@ void takeCommonGain(
   double mean = 0.0;
   for (const Eigen::VectorXd& columns : change)
   {
-    mean += columns[FieldColumn::of(P::Gain)] / static_cast<double>(change.size());
+    mean += columns[FieldColumn::gain()] / static_cast<double>(change.size());
   }
   std::vector<double> gain;
   for (std::size_t k = 0; k < normal.size(); ++k)
   {
-    gain.push_back(change[k][FieldColumn::of(P::Gain)] - mean);
-    const Eigen::VectorXd along = normal[k].col(FieldColumn::of(P::Gain));
+    gain.push_back(change[k][FieldColumn::gain()] - mean);
+    const Eigen::VectorXd along = normal[k].col(FieldColumn::gain());
     normal[k].col(FieldColumn::residual()) -= gain[k] * along;
   }
-  own.erase(std::remove(own.begin(), own.end(), FieldColumn::of(P::Gain)), own.end());
+  own.erase(std::remove(own.begin(), own.end(), FieldColumn::gain()), own.end());
   change = regress(normal, {}, own);
   for (std::size_t k = 0; k < normal.size(); ++k)
   {
-    change[k][FieldColumn::of(P::Gain)] = gain[k];
+    change[k][FieldColumn::gain()] = gain[k];
   }
 }
 
@@ -146,13 +137,11 @@ void centerPosition(std::vector<Eigen::MatrixXd>& training, std::vector<Eigen::M
   for (std::size_t k = 0; k < training.size(); ++k)
   {
     Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(FieldColumn::count(), FieldColumn::count());
-    const double square = training[k](FieldColumn::of(P::Gain), FieldColumn::of(P::Gain));
-    for (const int column : { FieldColumn::of(P::GradientRight), FieldColumn::of(P::GradientDown),
-           FieldColumn::of(P::Falloff), FieldColumn::of(P::Fourth), FieldColumn::diagonal(),
-           FieldColumn::saddle() })
+    const double square = training[k](FieldColumn::gain(), FieldColumn::gain());
+    for (const int column : FieldColumn::of(ImageAxis::Position))
     {
-      mix(FieldColumn::of(P::Gain), column) =
-        -training[k](FieldColumn::of(P::Gain), column) / std::fmax(square, 1e-12);
+      mix(FieldColumn::gain(), column) =
+        -training[k](FieldColumn::gain(), column) / std::fmax(square, 1e-12);
     }
     training[k] = mix.transpose() * training[k] * mix;
     test[k] = mix.transpose() * test[k] * mix;
@@ -341,9 +330,9 @@ std::vector<GapAxis> fieldAxes(
       for (std::size_t k = 0; data.blocks[b].fold < 0 && k < K; ++k)
       {
         const Eigen::MatrixXd& N = plain.at(b, static_cast<Eigen::Index>(k)).normal;
-        const double pixels = N(FieldColumn::of(P::Dark), FieldColumn::of(P::Dark));
-        const double sum = N(FieldColumn::of(P::Dark), FieldColumn::residual()) -
-          N.row(FieldColumn::of(P::Dark)).head(FieldColumn::residual()).dot(change[k]);
+        const double pixels = N(FieldColumn::offset(), FieldColumn::offset());
+        const double sum = N(FieldColumn::offset(), FieldColumn::residual()) -
+          N.row(FieldColumn::offset()).head(FieldColumn::residual()).dot(change[k]);
         const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
         if (pixels > 0.0)
         {

@@ -139,7 +139,7 @@ TEST(GhostReflection, TheCorrectedImageHasIt)
   const TestPair pair = makePair(
     scene, [&](int k) { return withGhost(scene.pixels(scene.fine(k)), Planted); }, 52, 0.0, 0.0);
   msi::FieldModel model(2);
-  model[msi::ImageParameter::Light].setConstant(Planted);
+  model[msi::imageParameter("ghost_reflection", "strength")].setConstant(Planted);
   std::vector<float> corrected(pair.real.size());
   msi::CorrectionWorkspace workspace;
   msi::FieldCorrection(pair.pair(), model)(

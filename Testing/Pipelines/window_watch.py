@@ -1,4 +1,4 @@
-"""Writes what ParaView's window shows into the file MULTISPECTRAL_WINDOW_STATE, six times a second."""
+"""Writes what ParaView's window shows into the file MULTISPECTRAL_WINDOW_STATE, five times a second."""
 
 import json
 import os
@@ -111,12 +111,22 @@ def _corners(placement, frame):
     return [[int(frame[0] + x), int(frame[1] + frame[3] - y)] for x, y in map(placement.on_screen, placement.corners)]
 
 
-def _shown(kind):
+def _shown(kind, content):
     """The names of what the views of a kind show."""
     names = {source.SMProxy.GetGlobalID(): name for (name, _), source in simple.GetSources().items()}
-    return sorted({names.get(display.Input.SMProxy.GetGlobalID(), "") for view in simple.GetViews() if view.SMProxy.GetXMLName() == kind
-                   for display in view.Representations
+    return sorted({names.get(display.Input.SMProxy.GetGlobalID(), "") for view, displays in content
+                   if view.SMProxy.GetXMLName() == kind for display in displays
                    if getattr(display, "Input", None) is not None and getattr(display, "Visibility", 0)})
+
+
+_buttons = {}
+
+
+def _button(main, name):
+    """Of the panel Properties, which stays."""
+    if name not in _buttons:
+        _buttons[name] = main.findChild(QtWidgets.QAbstractButton, name)
+    return _buttons[name]
 
 
 def _plain(text):
@@ -137,27 +147,38 @@ def _labels(main, windows):
     return sorted({_plain(text) for text in found} - {""})
 
 
+_labels_of = []  # the dialogs, how often they were seen, the labels
+
+
+def _labels_now_and_then(main, windows):
+    """They take longer than all else together: anew where other windows are open, and every third second."""
+    open_now = [id(window) for window in windows]
+    if not _labels_of or _labels_of[0] != open_now or _labels_of[1] >= 15:
+        _labels_of[:] = [open_now, 0, _labels(main, windows)]
+    _labels_of[1] += 1
+    return _labels_of[2]
+
+
 def _state():
     application = QtWidgets.QApplication.instance()
     windows = [w for w in application.topLevelWidgets() if w.isVisible()]
     main = next((w for w in windows if isinstance(w, QtWidgets.QMainWindow)), None)
-    panel = main.findChild(QtWidgets.QDockWidget, "MultispectralSpectrum") if main else None
+    # One search: Qt goes through some thousand widgets each time.
+    widgets = main.findChildren(QtWidgets.QWidget) if main else []
+    known = {widget.objectName(): widget for widget in widgets}
+    panel = known.get("MultispectralSpectrum")
     if panel is None:
         return None
-    named = {}
-    for window in windows:
-        for widget in window.findChildren(QtWidgets.QWidget):
-            if widget.objectName().startswith("Multispectral") and widget.isVisible():
-                named[widget.objectName()] = _middle(widget)
-    toolbar = main.findChild(QtWidgets.QToolBar, "MultispectralToolbar")
+    everything = [*widgets, *(widget for window in windows if window is not main and isinstance(window, QtWidgets.QDialog)
+                              for widget in window.findChildren(QtWidgets.QWidget))]
+    named = {widget.objectName(): _middle(widget) for widget in everything
+             if widget.objectName().startswith("Multispectral") and widget.isVisible()}
+    toolbar = known["MultispectralToolbar"]
     for action in toolbar.actions():
         named[action.objectName()] = _middle(toolbar.widgetForAction(action))
-    button = main.findChild(QtWidgets.QAbstractButton, "Help")
-    if button is not None:
-        named["Help"] = _middle(button)
-    button = main.findChild(QtWidgets.QAbstractButton, "Accept")
-    if button is not None and button.isEnabled():
-        named["Apply"] = _middle(button)
+    named["Help"] = _middle(_button(main, "Help"))
+    if _button(main, "Accept").isEnabled():
+        named["Apply"] = _middle(_button(main, "Accept"))
     # Menus: those of the bar, and the entries of the one that is open.
     entries = []
     for action in main.menuBar().actions():
@@ -171,38 +192,41 @@ def _state():
                 named["Multispectral menu"] = [place.x(), place.y()]
                 if ours.menu().isVisible():
                     entries = [[a.text(), a.isSeparator(), not a.icon().isNull()] for a in ours.menu().actions()]
-    pages = main.findChild(QtWidgets.QDialog, "MultispectralHelp")
+    pages = known.get("MultispectralHelp")
+    content = [(view, list(view.Representations) if hasattr(view, "Representations") else []) for view in simple.GetViews()]
+    kinds = [view.SMProxy.GetXMLName() for view, _ in content]
     views = {}
-    for view in simple.GetRenderViews():
-        texts = [d.Input.Text for d in view.Representations if getattr(d, "Input", None) is not None and
+    for view, displays in content:
+        if view.SMProxy.GetXMLName() != "RenderView":
+            continue
+        texts = [d.Input.Text for d in displays if getattr(d, "Input", None) is not None and
                  d.Input.SMProxy.GetXMLName() == "TextSource"]
-        arrays = [list(d.ColorArrayName) + [d.MapScalars] for d in view.Representations
+        arrays = [list(d.ColorArrayName) + [d.MapScalars] for d in displays
                   if hasattr(d, "MapScalars") and getattr(d, "Visibility", 0)]
         views[view.SMProxy.GetGlobalIDAsString()] = {"texts": texts, "arrays": arrays, "places": _places(view)}
     # Where the views are on the screen, as their widgets stand: the upper left first.
-    frames = [w for w in main.findChildren(QtWidgets.QWidget)
+    frames = [w for w in widgets
               if w.metaObject().className() == "pqQVTKWidget" and w.isVisible()]
     frames = sorted([[w.mapToGlobal(QtCore.QPoint(0, 0)).x(), w.mapToGlobal(QtCore.QPoint(0, 0)).y(), w.width(), w.height()]
                      for w in frames], key=lambda f: (f[1] // 50, f[0]))
-    placement = main.findChild(QtWidgets.QDialog, "MultispectralChartDialog")
-    tree = main.findChild(QtWidgets.QDockWidget, "outputWidgetDock").findChild(QtWidgets.QTreeView)
+    placement = known.get("MultispectralChartDialog")
+    tree = known["outputWidgetDock"].findChild(QtWidgets.QTreeView)
     return {
-        "shown": _shown("RenderView"),
-        "shown in tables": _shown("SpreadSheetView"),
+        "shown": _shown("RenderView", content),
+        "shown in tables": _shown("SpreadSheetView", content),
         "buttons": {_plain(button.text()): _middle(button) for window in windows if isinstance(window, QtWidgets.QDialog)
                     for button in window.findChildren(QtWidgets.QAbstractButton) if button.isVisible() and button.text()},
         "bar": main.statusBar().currentMessage(),
-        "camera": {view.SMProxy.GetGlobalIDAsString(): [*view.CameraPosition, view.CameraParallelScale] for view in simple.GetRenderViews()},
         "messages": [w.text() for w in windows if isinstance(w, QtWidgets.QMessageBox)],
         "output": [tree.model().index(row, 0).data() for row in range(tree.model().rowCount())],
         "width": main.width(),
         "menu": entries,
-        "labels": _labels(main, windows),
+        "labels": _labels_now_and_then(main, windows),
         "first columns": [str(header.model().headerData(header.logicalIndex(0), QtCore.Qt.Horizontal)) for header in (
-            table.horizontalHeader() for table in main.findChildren(QtWidgets.QTableView)
-            if table.metaObject().className() == "pqSpreadSheetViewWidget" and table.isVisible()) if header.count() > 0],
-        "charts": sum(view.SMProxy.GetXMLName() == "XYChartView" for view in simple.GetViews()),
-        "tables": sum(view.SMProxy.GetXMLName() == "SpreadSheetView" for view in simple.GetViews()),
+            table.horizontalHeader() for table in widgets if isinstance(table, QtWidgets.QTableView)
+            and table.metaObject().className() == "pqSpreadSheetViewWidget" and table.isVisible()) if header.count() > 0],
+        "charts": kinds.count("XYChartView"),
+        "tables": kinds.count("SpreadSheetView"),
         "band": panel.band_text.text(),
         "panel": _panel(main),
         "corners": _corners(placement, frames[0]) if frames else [],
@@ -232,4 +256,4 @@ def _write():
 
 _timer = QtCore.QTimer()
 _timer.timeout.connect(_write)
-_timer.start(150)
+_timer.start(200)

@@ -21,23 +21,30 @@ _ordered = {}  # the columns that each table showed when they were put in order
 
 
 def adapt(window):
-    button = window.findChild(QtWidgets.QAbstractButton, "Accept")
-    if button is not None and not _listening:
-        _listening.append(button)
-        button.clicked.connect(lambda: QtCore.QTimer.singleShot(0, _try_again))
-    _take_images_out_of_tables()
-    for view in simple.GetRenderViews():
-        _replace_failed(view)
-        shown = [display for display in view.Representations if getattr(display, "Visibility", 0) and _is_image_of_ours(display)]
-        new = [display for display in shown if display.SMProxy.GetGlobalID() not in _seen]
-        if new:
-            _seen.update(display.SMProxy.GetGlobalID() for display in shown)
+    """Twice a second: what Python has to make of ParaView's objects, it makes once."""
+    if not _listening:
+        button = window.findChild(QtWidgets.QAbstractButton, "Accept")
+        if button is not None:
+            _listening.append(button)
+            button.clicked.connect(lambda: QtCore.QTimer.singleShot(0, _try_again))
+    content = [(view, list(view.Representations)) for view in simple.GetViews() if hasattr(view, "Representations")]
+    _take_images_out_of_tables(content)
+    for view, displays in content:
+        if view.SMProxy.GetXMLName() != "RenderView":
+            continue
+        if _replace_failed(view, displays):
+            displays = list(view.Representations)
+        shown = [display for display in displays if getattr(display, "Visibility", 0) and _is_image_of_ours(display)]
+        if any(_key(display) not in _seen for display in shown):
+            new = [display for display in shown if _key(display) not in _seen]
+            _seen.update(_key(display) for display in shown)
             _show_last(view, shown, new[-1])
             _fitted[_key(view)] = _camera(view)
         _fit_to_size(view)
-    for table in window.findChildren(QtWidgets.QTableView):
-        if table.metaObject().className() == "pqSpreadSheetViewWidget":
-            order_columns(table)
+    if any(view.SMProxy.GetXMLName() == "SpreadSheetView" for view, _ in content):
+        for table in window.findChildren(QtWidgets.QTableView):
+            if table.metaObject().className() == "pqSpreadSheetViewWidget":
+                order_columns(table)
 
 
 def _key(proxy):
@@ -61,19 +68,18 @@ def _is_image_of_ours(display):
     return _is_ours(display) and _type(display) == "vtkImageData" and not _is_empty(display)
 
 
-def _take_images_out_of_tables():
+def _take_images_out_of_tables(content):
     """Of several sources that are applied at once, ParaView shows all in the view of the last one: where that is a spreadsheet, images
     become tables of their pixels. Who shows an image in a spreadsheet later has seen it before. One look later, when all are applied."""
     for table, display in _misplaced:
         _move(display, table)
     _misplaced.clear()
-    for view in simple.GetViews():
-        if not hasattr(view, "Representations"):
-            continue
-        for display in list(view.Representations):
-            if getattr(display, "Input", None) is None:
+    for view, displays in content:
+        for display in displays:
+            source = getattr(display, "Input", None)
+            if source is None:
                 continue
-            shown = _key(display.Input), display.Input.Port
+            shown = _key(source), source.Port
             if shown in _shown:
                 continue
             _shown.add(shown)
@@ -93,11 +99,13 @@ def _move(display, table):
     simple.Show(display.Input, image)
 
 
-def _replace_failed(view):
+def _replace_failed(view, displays):
     """A filter that failed has a display without an array, which would stay empty when the filter succeeds later. Until then its input
-    is shown, which ParaView has hidden."""
-    for display in list(view.Representations):
-        if not _is_ours(display) or _type(display) != "vtkImageData":
+    is shown, which ParaView has hidden. Whether a display was replaced."""
+    replaced = False
+    for display in displays:
+        # Those that had an image keep it.
+        if _key(display) in _seen or not _is_ours(display) or _type(display) != "vtkImageData":
             continue
         if _is_empty(display):
             if _key(display) not in _failed and display.Visibility:
@@ -106,9 +114,10 @@ def _replace_failed(view):
                 _show_input_of(display, view)
         elif _key(display) in _failed:
             _failed.discard(_key(display))
-            source = display.Input
+            source, replaced = display.Input, True
             simple.Delete(display)
             simple.Show(source, view)
+    return replaced
 
 
 def _try_again():

@@ -189,6 +189,14 @@ def main():
     check_colors(display, "Reflectance", 1)
     one_channel_and_photograph()
 
+    # A folder without a white reference says why its colors are off.
+    for folder, wanted in ((images, False), (images / "white", True)):
+        scene = pipeline.create("SceneReader", FileName=str(folder))
+        pipeline.update(scene)
+        scene.UpdatePropertyInformation()
+        notes = str(scene.GetProperty("Notes").GetData())
+        check(f"the scene {folder.name} notes {notes}", notes.startswith("no white reference") == wanted)
+
     print("\n".join(faults) or "every first view is right")
     sys.stdout.flush()
     os._exit(1 if faults else 0)

@@ -460,7 +460,8 @@ def several_at_once(window):
     for path in (window.folder / "tile_400nm.tif", SAMPLES / "demo-fabric.csv"):
         ask_file(window, path)
     apply(window)
-    state = window.wait("the image and the table", lambda s: "tile_*nm.tif" in s["shown"] and "demo-fabric.csv" in s["shown in tables"])
+    state = window.wait("the image and the table", lambda s: "tile_*nm.tif" in s["shown"] and "demo-fabric.csv" in s["shown in tables"] and
+                        "tile_*nm.tif: 10 channels were read" in s["bar"])
     if "tile_*nm.tif" in state["shown in tables"]:
         raise Failed("an image is shown in a spreadsheet")
 

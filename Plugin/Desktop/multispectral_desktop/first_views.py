@@ -13,6 +13,8 @@ _LEADING = ("method", "rank", "sample", "label", "medium", "title", "effect", "f
 
 _seen = set()  # global ids of displays
 _shown = set()  # global id and port of each source that has had a display
+_LOOKS = 6  # at a spreadsheet that an image was taken from
+_emptied = {}  # by spreadsheet: how many are left
 _misplaced = []  # spreadsheets and the displays of images in them
 _failed = set()  # global ids of displays whose filter gave no image
 _listening = []  # to the button Apply
@@ -29,6 +31,7 @@ def adapt(window):
             button.clicked.connect(lambda: QtCore.QTimer.singleShot(0, _try_again))
     content = [(view, list(view.Representations)) for view in simple.GetViews() if hasattr(view, "Representations")]
     _take_images_out_of_tables(content)
+    _fill_tables(content)
     for view, displays in content:
         if view.SMProxy.GetXMLName() != "RenderView":
             continue
@@ -92,11 +95,23 @@ def _move(display, table):
     if image is None or _key(table) not in known or _key(display) not in [_key(other) for other in table.Representations]:
         return
     display.Visibility = 0
-    others = [other for other in table.Representations if _is_ours(other) and _type(other) == "vtkTable"]
-    if others and not any(other.Visibility for other in table.Representations):
-        others[-1].Visibility = 1
-    simple.Render(table)
     simple.Show(display.Input, image)
+    _emptied[_key(table)] = _LOOKS
+
+
+def _fill_tables(content):
+    """A spreadsheet that an image was taken from shows the table that was applied with it. ParaView may empty it once more while it
+    still applies."""
+    for table, displays in content:
+        if _emptied.get(_key(table), 0) == 0:
+            continue
+        _emptied[_key(table)] -= 1
+        tables = [display for display in displays if _is_ours(display) and _type(display) == "vtkTable"]
+        if tables and not any(display.Visibility for display in displays):
+            active = simple.GetActiveSource()
+            applied = [display for display in tables if active is not None and _key(display.Input) == _key(active)]
+            (applied or tables)[-1].Visibility = 1
+            simple.Render(table)
 
 
 def _replace_failed(view, displays):

@@ -221,7 +221,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     inFewSamples(data, best.predicted - data.simulated))
   {
     report.unconfirmed = true;
-    credit(report, observation, found, TableDecision::UnconfirmedShare * alone);
+    credit(report, observation, found, TableDecision::Unconfirmed * alone);
     report.unexplained = remainderOf(report.unexplained.share, where.axes);
     report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
   }

@@ -222,7 +222,7 @@ std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixX
       const auto at = static_cast<Eigen::Index>(b);
       const double precision = bound.held[static_cast<std::size_t>(channel)] != 0
         ? Held * (information(at, at) + 1.0)
-        : std::pow(ImageDecision::PriorSize * bound.term.typical, -2);
+        : std::pow(Decision::FreeSpread * bound.term.typical, -2);
       gradient[at] +=
         precision * (bound.wanted[channel] - Statistics.model.at(bound.term.parameter, channel));
       information(at, at) += precision;
@@ -326,7 +326,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
     {
       const Eigen::Index size = term.perChannel ? K : 1;
       normal.diagonal().segment(next, size).array() +=
-        std::pow(ImageDecision::PriorSize * term.typical, -2);
+        std::pow(Decision::FreeSpread * term.typical, -2);
       next += size;
     }
   }

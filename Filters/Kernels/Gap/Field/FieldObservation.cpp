@@ -277,7 +277,7 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
         const double value = model.at(term.parameter, k);
         numbers.push_back(
           { group, term.perChannel, ownMean, value - numberOf(term.parameter).neutral,
-            ImageDecision::PriorSize * term.typical, term.typical });
+            Decision::FreeSpread * term.typical, term.typical });
         if (numberOf(term.parameter).pull == ImagePull::Itself)
         {
           described->surprise +=

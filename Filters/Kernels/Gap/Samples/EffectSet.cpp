@@ -180,7 +180,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
           }
           free.push_back({ e, index, parameter.perChannel ? k : -1, group, parameter.neutral,
             parameter.lower, parameter.upper, parameter.typical,
-            (parameter.secondary ? TableDecision::SecondarySpread : TableDecision::FreeSpread) *
+            (parameter.secondary ? TableDecision::SecondarySpread : Decision::FreeSpread) *
               parameter.typical,
             name, parameter.unit });
         }
@@ -192,7 +192,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
   {
     const EffectParameter& gain = levelEffect().forms.front().parameters.front();
     free.push_back({ effects.size(), 0, -1, group, gain.neutral, gain.lower, gain.upper,
-      gain.typical, TableDecision::FreeSpread * gain.typical, "level", gain.unit });
+      gain.typical, Decision::FreeSpread * gain.typical, "level", gain.unit });
   }
   return free;
 }

@@ -62,7 +62,7 @@ bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShar
   }
   const double error = std::sqrt(std::fmax(square - sum * sum / samples, 0.0));
   const double noise = measuredOnly(data, data.variance).sum();
-  return sum > TableDecision::PredictableDeviations * error &&
+  return sum > TableDecision::SureDeviations * error &&
     sum > TableDecision::PredictablePart * noise;
 }
 

@@ -106,7 +106,7 @@ NoiseFinding findNoise(const GapData& data, const std::optional<ReadingNoise>& g
   finding.excess = std::sqrt(ratio);
   finding.excessDeviations = (ratio - 1.0) / std::sqrt(2.0 / finding.degrees);
   if (ratio > TableDecision::ExcessVariance &&
-    finding.excessDeviations > TableDecision::ExcessDeviations)
+    finding.excessDeviations > TableDecision::SureDeviations)
   {
     finding.fromRepeats = true;
     finding.reading = fitRepeats(data);

@@ -247,7 +247,7 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     report.unexplained.share *= 1.0 - part;
   }
   std::vector<std::pair<std::string, double>> beliefs = report.probabilities;
-  const double belief = noise.unrepeated ? TableDecision::UnrepeatedProbability : 1.0;
+  const double belief = noise.unrepeated ? TableDecision::Unconfirmed : 1.0;
   for (auto& [name, probability] : beliefs)
   {
     if (name == "unknown" && report.causes.empty())

@@ -125,14 +125,14 @@ Taps joined(double displacement, const std::vector<double>& blur, bool derivativ
   return taps;
 }
 
-double sum(const Taps& taps, const float* row, std::ptrdiff_t step) noexcept
+// result += sum over i of weight_i times the numbers from i on
+template <typename Result, typename Numbers>
+void addTaps(const Taps& taps, Result&& result, const Numbers& from)
 {
-  double result = 0.0;
   for (std::size_t i = 0; i < taps.weight.size(); ++i)
   {
-    result += taps.weight[i] * static_cast<double>(row[static_cast<std::ptrdiff_t>(i) * step]);
+    result += taps.weight[i] * from(static_cast<Eigen::Index>(i));
   }
-  return result;
 }
 }
 
@@ -147,79 +147,70 @@ AxisKernels::AxisKernels(double displacement, double variance)
 }
 
 FieldNeighbourhood::FieldNeighbourhood(const FieldData& data, const ImageWindow& window,
-  Eigen::Index channel, const AxisKernels& x, const AxisKernels& y, bool derivatives)
-  : value(window.width, window.height)
+  Eigen::Index channel, const AxisKernels& x, const AxisKernels& y)
+  : value(Eigen::ArrayXXd::Zero(window.width, window.height))
+  , right(value)
+  , down(value)
+  , blur(value)
 {
-  if (derivatives)
-  {
-    right.resize(window.width, window.height);
-    down.resize(window.width, window.height);
-    blur.resize(window.width, window.height);
-  }
   const ImageExtent& extent = data.pair.extent;
   const auto K = static_cast<std::size_t>(data.channels());
-  const int rows = window.height + static_cast<int>(y.value.weight.size()) - 1;
-  const int columns = window.width + static_cast<int>(x.value.weight.size()) - 1;
-  std::vector<float> line(static_cast<std::size_t>(columns));
-  Eigen::ArrayXXf along(derivatives ? 3 * window.width : window.width, rows);
-  for (int row = 0; row < rows; ++row)
+  const Eigen::Index width = window.width;
+  const Eigen::Index rows = window.height + static_cast<Eigen::Index>(y.value.weight.size()) - 1;
+  Eigen::ArrayXd line(width + static_cast<Eigen::Index>(x.value.weight.size()) - 1);
+  // Along the rows: the value, its derivatives by displacement and by blur.
+  const Taps* kernels[] = { &x.value, &x.shift, &x.blur };
+  std::array<Eigen::ArrayXXd, 3> along;
+  along.fill(Eigen::ArrayXXd::Zero(width, rows));
+  for (Eigen::Index row = 0; row < rows; ++row)
   {
-    const int v = std::clamp(window.y + y.value.first + row, 0, extent.height - 1);
-    for (int i = 0; i < columns; ++i)
+    const int v =
+      std::clamp(window.y + y.value.first + static_cast<int>(row), 0, extent.height - 1);
+    for (Eigen::Index i = 0; i < line.size(); ++i)
     {
-      const int u = std::clamp(window.x + x.value.first + i, 0, extent.width - 1);
-      line[static_cast<std::size_t>(i)] =
-        data.scene[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)];
+      const int u = std::clamp(window.x + x.value.first + static_cast<int>(i), 0, extent.width - 1);
+      line[i] = static_cast<double>(
+        data.scene[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)]);
     }
-    for (int i = 0; i < window.width; ++i)
+    for (std::size_t n = 0; n < along.size(); ++n)
     {
-      along(i, row) = static_cast<float>(sum(x.value, line.data() + i, 1));
-      if (derivatives)
-      {
-        along(window.width + i, row) = static_cast<float>(sum(x.shift, line.data() + i, 1));
-        along(2 * window.width + i, row) = static_cast<float>(sum(x.blur, line.data() + i, 1));
-      }
+      addTaps(
+        *kernels[n], along[n].col(row), [&](Eigen::Index i) { return line.segment(i, width); });
     }
   }
-  const std::ptrdiff_t step = along.rows();
-  for (int j = 0; j < window.height; ++j)
+  for (Eigen::Index j = 0; j < window.height; ++j)
   {
-    for (int i = 0; i < window.width; ++i)
-    {
-      const float* first = &along(i, j);
-      value(i, j) = sum(y.value, first, step);
-      if (derivatives)
-      {
-        down(i, j) = sum(y.shift, first, step);
-        right(i, j) = sum(y.value, first + window.width, step);
-        blur(i, j) = sum(y.blur, first, step) +
-          sum(y.value, first + 2 * static_cast<std::ptrdiff_t>(window.width), step);
-      }
-    }
+    const auto across = [&](std::size_t n)
+    { return [&, n](Eigen::Index i) { return along[n].col(j + i); }; };
+    addTaps(y.value, value.col(j), across(0));
+    addTaps(y.shift, down.col(j), across(0));
+    addTaps(y.value, right.col(j), across(1));
+    addTaps(y.blur, blur.col(j), across(0));
+    addTaps(y.value, blur.col(j), across(2));
   }
 }
 
 namespace
 {
 FieldNeighbourhood neighbourhood(const FieldData& data, const FieldModel& model,
-  const ImageWindow& window, Eigen::Index channel, const FieldDisplacement& where, bool derivatives)
+  const ImageWindow& window, Eigen::Index channel, const FieldDisplacement& where)
 {
   const double variance = model.blurVariance(channel);
   const FieldDisplacement::Place middle = where.atMiddle(window);
   return { data, window, channel, AxisKernels(middle.right, variance),
-    AxisKernels(middle.down, variance), derivatives || where.varies() };
+    AxisKernels(middle.down, variance) };
 }
 }
 
 BlockLight::BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-  const FieldBlock& block, Eigen::Index channel, bool derivatives)
+  const FieldBlock& block, Eigen::Index channel)
   : Data(data)
   , Block(block)
   , Steps(model.steps(ImageStage::Scene, ImageStage::Light, channel, true))
   , Active(model.steps(ImageStage::Scene, ImageStage::Light, channel))
   , Glare(glare[channel])
   , Where(data.pair, model, channel)
-  , Near(neighbourhood(data, model, block.window, channel, Where, derivatives))
+  , Near(neighbourhood(data, model, block.window, channel, Where))
   , Weights(model.tailWeights(channel))
 {
   const std::size_t pixels = block.window.pixels();
@@ -251,12 +242,9 @@ ImagePixel BlockLight::pixel(int number) const
   pixel.y = Data.pair.fieldY(y);
   pixel.fromMiddleX = Data.pair.offX(x);
   pixel.fromMiddleY = Data.pair.offY(y);
-  if (Near.blur.size() > 0)
-  {
-    pixel.right = Near.right(i, j);
-    pixel.down = Near.down(i, j);
-    pixel.blur = Near.blur(i, j);
-  }
+  pixel.right = Near.right(i, j);
+  pixel.down = Near.down(i, j);
+  pixel.blur = Near.blur(i, j);
   pixel.surround = Surround.data() + std::size_t{ TailPasses } * static_cast<std::size_t>(number);
   pixel.tailWeights = Weights.data();
   pixel.mean = Glare;

@@ -65,9 +65,8 @@ struct FieldNeighbourhood
 {
   Eigen::ArrayXXd value, right, down, blur; // width x height
 
-  // derivatives: false leaves right, down and blur empty.
   FieldNeighbourhood(const FieldData& data, const ImageWindow& window, Eigen::Index channel,
-    const AxisKernels& x, const AxisKernels& y, bool derivatives);
+    const AxisKernels& x, const AxisKernels& y);
 };
 
 // In one block and channel. Holds references.
@@ -75,7 +74,7 @@ class BlockLight
 {
 public:
   BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-    const FieldBlock& block, Eigen::Index channel, bool derivatives);
+    const FieldBlock& block, Eigen::Index channel);
 
   // What the steps are told, but for other channels and lines.
   ImagePixel pixel(int number) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace msi
 {
@@ -31,18 +32,24 @@ int columnWith(unsigned axes)
   return static_cast<int>(std::find(all.begin(), all.end(), axes) - all.begin());
 }
 
-// The light on the detector in every pixel of a block; 0 of a channel that is not there.
-std::vector<double> signalOf(const FieldData& data, const FieldModel& model,
-  const Eigen::ArrayXd& glare, const FieldBlock& block, Eigen::Index channel)
+using Light = std::shared_ptr<const BlockLight>;
+
+// Null of a channel that is not there.
+Light lightOf(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
+  const FieldBlock& block, Eigen::Index channel)
+{
+  return channel >= 0 && channel < data.channels()
+    ? std::make_shared<const BlockLight>(data, model, glare, block, channel)
+    : nullptr;
+}
+
+// In every pixel of a block; 0 where there is no light.
+std::vector<double> signalOf(const Light& light, const FieldBlock& block)
 {
   std::vector<double> signal(block.window.pixels(), 0.0);
-  if (channel >= 0 && channel < data.channels())
+  for (std::size_t i = 0; light && i < signal.size(); ++i)
   {
-    const BlockLight light(data, model, glare, block, channel, false);
-    for (std::size_t i = 0; i < signal.size(); ++i)
-    {
-      signal[i] = light.signal(static_cast<int>(i));
-    }
+    signal[i] = light->signal(static_cast<int>(i));
   }
   return signal;
 }
@@ -102,17 +109,27 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
   const ImageWindow& window = block.window;
   const auto K = static_cast<std::size_t>(data.channels());
   const auto k = static_cast<std::size_t>(channel);
-  const bool known = scratch.lastBlock == &block && scratch.lastChannel == channel - 1;
-  scratch.before = known ? scratch.signal : signalOf(data, model, glare, block, channel - 1);
-  scratch.next = signalOf(data, model, glare, block, channel + 1);
+  const auto lightIn = [&](Eigen::Index k) { return lightOf(data, model, glare, block, k); };
+  if (scratch.lastBlock == &block && scratch.lastChannel == channel - 1)
+  {
+    scratch.before = std::move(scratch.signal);
+    scratch.signal = std::move(scratch.next);
+    scratch.light = std::move(scratch.nextLight);
+  }
+  else
+  {
+    scratch.before = signalOf(lightIn(channel - 1), block);
+    scratch.light = lightIn(channel);
+    scratch.signal = signalOf(scratch.light, block);
+  }
+  scratch.nextLight = lightIn(channel + 1);
+  scratch.next = signalOf(scratch.nextLight, block);
   scratch.lastBlock = &block;
   scratch.lastChannel = channel;
-  const BlockLight light(data, model, glare, block, channel, true);
-  scratch.signal.resize(window.pixels());
+  const BlockLight& light = *scratch.light;
   scratch.pixel.clear();
   for (std::size_t i = 0; i < window.pixels(); ++i)
   {
-    scratch.signal[i] = light.signal(static_cast<int>(i));
     if (std::isfinite(block.real[i * K + k]))
     {
       scratch.pixel.push_back(static_cast<int>(i));
@@ -144,6 +161,27 @@ void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::A
       static_cast<double>(block.real[at * K + k]) - answer;
     scratch.level[n] = answer;
   }
+}
+
+std::vector<FieldResidual> fieldResiduals(
+  const FieldData& data, const FieldModel& model, const FieldLoop& loop)
+{
+  const Eigen::Index K = data.channels();
+  const Eigen::ArrayXd glare = sceneMean(data, model);
+  std::vector<FieldResidual> residuals(data.blocks.size() * static_cast<std::size_t>(K));
+  loop(static_cast<int>(data.blocks.size()),
+    [&](int b)
+    {
+      const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
+      FieldScratch scratch;
+      for (Eigen::Index k = 0; block.fold >= 0 && k < K; ++k)
+      {
+        fieldColumns(data, model, glare, block, k, scratch);
+        residuals[static_cast<std::size_t>(b * K + k)] = { scratch.pixel, scratch.level,
+          scratch.columns.col(FieldColumn::gain()), scratch.columns.col(FieldColumn::residual()) };
+      }
+    });
+  return residuals;
 }
 
 } // namespace msi

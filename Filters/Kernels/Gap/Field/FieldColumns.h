@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
 
 namespace msi
@@ -31,14 +32,18 @@ int offset();
 Eigen::VectorXd columnsChanged(
   ImageParameter parameter, const FieldModel& model, const FieldModel& about, Eigen::Index channel);
 
-// Memory of a thread.
+class BlockLight;
+
+// Memory of a thread, for one model.
 struct FieldScratch
 {
-  Eigen::MatrixXd columns; // usable pixels x FieldColumn::count()
-  Eigen::ArrayXd level;    // predicted, of each
-  std::vector<int> pixel;  // number in the block, of each
+  // Usable pixels x FieldColumn::count().
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> columns;
+  Eigen::ArrayXd level;   // predicted, of each
+  std::vector<int> pixel; // number in the block, of each
   // Of every pixel of the block: the signal behind stray light, and that of the channel before and of the next.
   std::vector<double> signal, before, next;
+  std::shared_ptr<const BlockLight> light, nextLight;
   const FieldBlock* lastBlock = nullptr;
   Eigen::Index lastChannel = -1;
 };
@@ -48,5 +53,16 @@ struct FieldScratch
 // factors over the field come after the neighbourhood.
 void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
   const FieldBlock& block, Eigen::Index channel, FieldScratch& scratch);
+
+// Usable pixels of a block in one channel: number in the block, prediction, its derivative by a relative gain, real - predicted.
+struct FieldResidual
+{
+  std::vector<int> pixel;
+  Eigen::ArrayXd level, gain, residual;
+};
+
+// Block after block, of each its channels; blocks of the test part have no pixels.
+std::vector<FieldResidual> fieldResiduals(
+  const FieldData& data, const FieldModel& model, const FieldLoop& loop);
 
 } // namespace msi

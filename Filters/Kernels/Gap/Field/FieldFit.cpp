@@ -40,9 +40,10 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
     for (std::size_t k = 0; fold >= 0 && k < K; ++k)
     {
       const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
-      Total[k] += sums.normal;
-      Fold[static_cast<std::size_t>(fold)][k] += sums.normal;
-      Energy += sums.normal(FieldColumn::residual(), FieldColumn::residual());
+      const Eigen::MatrixXd normal = sums.normal();
+      Total[k] += normal;
+      Fold[static_cast<std::size_t>(fold)][k] += normal;
+      Energy += normal(FieldColumn::residual(), FieldColumn::residual());
       Chance += sums.chance;
     }
   }
@@ -156,7 +157,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
       for (std::size_t k = 0; Data.blocks[b].fold == fold && k < K; ++k)
       {
         fit.blockEnergy[static_cast<Eigen::Index>(b)] +=
-          energyLeft(Statistics.at(b, static_cast<Eigen::Index>(k)).normal, change[k]);
+          energyLeft(Statistics.at(b, static_cast<Eigen::Index>(k)).normal(), change[k]);
       }
     }
   }
@@ -343,7 +344,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
     for (Eigen::Index k = 0; k < K; ++k)
     {
       g += columns[static_cast<std::size_t>(k)].transpose() *
-        Statistics.at(b, k).normal.col(FieldColumn::residual()).head(FieldColumn::residual());
+        Statistics.at(b, k).normal().col(FieldColumn::residual()).head(FieldColumn::residual());
     }
   }
   for (const auto& [number, g] : ofGroup)

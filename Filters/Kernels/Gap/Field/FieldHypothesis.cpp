@@ -120,7 +120,8 @@ std::vector<std::string> indistinctEffects(
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
         information += column.dot(
-          fitter.statistics().at(b, k).normal.topLeftCorner(column.size(), column.size()) * column);
+          fitter.statistics().at(b, k).normal().topLeftCorner(column.size(), column.size()) *
+          column);
       }
     }
     const bool missing = 1.0 / std::sqrt(std::fmax(information, 1e-30)) >

@@ -107,9 +107,10 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   }
   FieldHypothesis hypothesis = hypothesisOf(fit);
   FieldModel model = hypothesis.statistics->model;
+  const std::vector<FieldResidual> residuals = fieldResiduals(Data, model, Loop);
   const auto period = [&](bool rows)
   {
-    const FieldPeriod found = findPeriod(Data, model, rows, Loop);
+    const FieldPeriod found = findPeriod(Data, residuals, rows, Loop);
     PeriodError[found.period] = found.standardError;
     return found.period;
   };
@@ -121,10 +122,10 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   {
     model.columnPeriod = period(false);
   }
-  findProfiles(model, hypothesis.set, false);
+  findProfiles(model, residuals, hypothesis.set, false);
   if (!hasChoice(hypothesis.set, clips))
   {
-    model[clippingTerms()[1].parameter].setConstant(findClipLevel(Data, model, Loop));
+    model[clippingTerms()[1].parameter].setConstant(findClipLevel(residuals));
   }
   hypothesis.statistics =
     std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Weights, Loop));
@@ -133,12 +134,13 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
 }
 
 // Of lines whose profile is not in the set; those of others stay as they are.
-void FieldObservation::findProfiles(FieldModel& model, const FieldSet& set, bool keepTrend) const
+void FieldObservation::findProfiles(FieldModel& model, const std::vector<FieldResidual>& residuals,
+  const FieldSet& set, bool keepTrend) const
 {
   const auto find = [&](bool rows)
   {
     return std::make_shared<const FieldProfile>(
-      findProfile(Data, model, rows, keepTrend, Weights.limit, Loop));
+      findProfile(Data, residuals, rows, keepTrend, Weights.limit));
   };
   if (!hasProfile(set, true))
   {
@@ -222,12 +224,13 @@ FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview&
       const ImageParameter strength = profile->terms.front().parameter;
       FieldSet others = set;
       others.erase(std::remove(others.begin(), others.end(), profile), others.end());
+      FieldModel without = found;
+      without[strength].setZero();
+      const std::vector<FieldResidual> residuals = fieldResiduals(Data, without, Loop);
       for (const bool keepTrend : { false, true })
       {
         FieldModel model = found;
-        model[strength].setZero();
-        findProfiles(model, others, keepTrend);
-        model[strength] = found[strength];
+        findProfiles(model, residuals, others, keepTrend);
         FieldHypothesis other = refit(set, model);
         if (!keepTrend || other.fit.energy < hypothesis.fit.energy)
         {

@@ -47,7 +47,8 @@ private:
   const FieldHypothesis& started(const ObservedFit& fit) const;
   FieldHypothesis refit(const FieldSet& set, const FieldModel& start) const;
   FitPointer described(FieldHypothesis hypothesis) const;
-  void findProfiles(FieldModel& model, const FieldSet& set, bool keepTrend) const;
+  void findProfiles(FieldModel& model, const std::vector<FieldResidual>& residuals,
+    const FieldSet& set, bool keepTrend) const;
   FieldModel registered(const FieldModel& model, const FieldChoice& choice) const;
   // Whether the model has the start that it needs.
   static bool hasStart(const FieldModel& model, const FieldChoice& choice);

@@ -178,33 +178,16 @@ const std::vector<ImageTerm>& clippingTerms()
   return effectWith(EffectTrait::LimitsResponse).imageForms.front().terms;
 }
 
-double findClipLevel(const FieldData& data, const FieldModel& model, const FieldLoop& loop)
+double findClipLevel(const std::vector<FieldResidual>& residuals)
 {
   using Pixel = std::pair<double, double>; // model, real
-  FieldModel open = model;
-  open[clippingTerms()[0].parameter].setZero();
-  const Eigen::ArrayXd glare = sceneMean(data, open);
-  std::vector<std::vector<Pixel>> parts(data.blocks.size());
-  loop(static_cast<int>(data.blocks.size()),
-    [&](int b)
-    {
-      const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
-      FieldScratch scratch;
-      for (Eigen::Index k = 0; block.fold >= 0 && k < data.channels(); ++k)
-      {
-        fieldColumns(data, open, glare, block, k, scratch);
-        for (Eigen::Index n = 0; n < scratch.level.size(); ++n)
-        {
-          const double level = scratch.level[n];
-          parts[static_cast<std::size_t>(b)].emplace_back(
-            level, level + scratch.columns(n, FieldColumn::residual()));
-        }
-      }
-    });
   std::vector<Pixel> pixels;
-  for (const std::vector<Pixel>& part : parts)
+  for (const FieldResidual& part : residuals)
   {
-    pixels.insert(pixels.end(), part.begin(), part.end());
+    for (Eigen::Index n = 0; n < part.level.size(); ++n)
+    {
+      pixels.emplace_back(part.level[n], part.level[n] + part.residual[n]);
+    }
   }
   std::sort(pixels.begin(), pixels.end(), [](const Pixel& a, const Pixel& b) { return a > b; });
   // From the brightest down: the mean of the real values beyond a level is the level.

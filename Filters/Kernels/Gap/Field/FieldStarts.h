@@ -23,7 +23,8 @@ FieldStart registrationStart(const FieldData& data, const FieldLoop& loop);
 const std::vector<ImageTerm>& clippingTerms();
 
 // The level beyond which the real image stays at one value while the model goes on: that of the least squares of
-// real - min(model, level), among quantiles of the model; the neutral level where the image shows none.
-double findClipLevel(const FieldData& data, const FieldModel& model, const FieldLoop& loop);
+// real - min(model, level), among quantiles of the model; the neutral level where the image shows none. The residuals are those
+// of a model that does not clip.
+double findClipLevel(const std::vector<FieldResidual>& residuals);
 
 } // namespace msi

@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Numerics/InverseFactor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +108,13 @@ ReadingNoise lineThrough(const std::vector<double>& level, const std::vector<dou
   }
   return { std::sqrt(base + LeastNoise * LeastNoise), std::sqrt(slope) };
 }
+}
+
+Eigen::MatrixXd BlockSums::normal() const
+{
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count());
+  whole(there, there) = products;
+  return whole;
 }
 
 double energyLeft(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change)
@@ -239,20 +247,19 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       {
         scratch.columns.array().colwise() *= root;
       }
-      std::vector<Eigen::Index> there;
+      const Eigen::Array<bool, 1, Eigen::Dynamic> any =
+        (scratch.columns.array() != 0.0).colwise().any();
       for (Eigen::Index c = 0; c < FieldColumn::count(); ++c)
       {
-        if ((scratch.columns.col(c).array() != 0.0).any())
+        if (any[c])
         {
-          there.push_back(c);
+          sums.there.push_back(c);
         }
       }
-      const Eigen::MatrixXd columns = scratch.columns(Eigen::all, there);
-      Eigen::MatrixXd products = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-      products.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-      products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
-      sums.normal.setZero(FieldColumn::count(), FieldColumn::count());
-      sums.normal(there, there) = products;
+      const Eigen::MatrixXd columns = scratch.columns(Eigen::all, sums.there).transpose();
+      sums.products.setZero(columns.rows(), columns.rows());
+      addOuterProduct(sums.products, columns, columns);
+      sums.products.triangularView<Eigen::StrictlyUpper>() = sums.products.transpose();
     }
   };
   loop(static_cast<int>(data.blocks.size()), measure);

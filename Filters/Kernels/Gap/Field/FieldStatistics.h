@@ -14,8 +14,11 @@ namespace msi
 // The numbers of one block in one channel.
 struct BlockSums
 {
-  Eigen::MatrixXd
-    normal; // FieldColumn::count()^2, weighted columns' products; the last is the residual
+  // Weighted columns' products, FieldColumn::count()^2; the last is the residual.
+  Eigen::MatrixXd normal() const;
+  // Those of the columns that are not zero throughout: all blocks in full are more than memory is fast for.
+  std::vector<Eigen::Index> there;
+  Eigen::MatrixXd products;
   double pixels = 0.0; // usable
   double energy = 0.0; // sum of squared residuals, plain
   double noise = 0.0;  // what noise allows of it

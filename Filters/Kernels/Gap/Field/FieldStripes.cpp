@@ -1,6 +1,5 @@
 #include "Kernels/Gap/Field/FieldStripes.h"
 
-#include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <Eigen/Cholesky>
@@ -39,20 +38,18 @@ LineValues noLines(Eigen::Index lines, Eigen::Index channels)
   return { Eigen::ArrayXXd::Zero(lines, channels), Eigen::ArrayXXd::Zero(lines, channels) };
 }
 
-LineSums sumsOf(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-  const FieldBlock& block, bool alongRows, const Eigen::ArrayXd& limit)
+LineSums sumsOf(
+  const FieldData& data, const FieldResidual* channels, bool alongRows, const Eigen::ArrayXd& limit)
 {
   LineSums sums{ noLines(data.blockSize, data.channels()),
     noLines(data.blockSize, data.channels()) };
-  FieldScratch scratch;
   for (Eigen::Index k = 0; k < data.channels(); ++k)
   {
-    fieldColumns(data, model, glare, block, k, scratch);
-    const auto u = scratch.columns.col(FieldColumn::gain());
-    const auto r = scratch.columns.col(FieldColumn::residual());
+    const Eigen::ArrayXd& u = channels[k].gain;
+    const Eigen::ArrayXd& r = channels[k].residual;
     for (Eigen::Index n = 0; n < u.size(); ++n)
     {
-      const int pixel = scratch.pixel[static_cast<std::size_t>(n)];
+      const int pixel = channels[k].pixel[static_cast<std::size_t>(n)];
       const int line = alongRows ? pixel / data.blockSize : pixel % data.blockSize;
       const double size = std::fabs(r[n]);
       const double weight = limit.size() > 0 && size > limit[k] ? limit[k] / size : 1.0;
@@ -66,32 +63,23 @@ LineSums sumsOf(const FieldData& data, const FieldModel& model, const Eigen::Arr
 }
 
 // Of each fold. limit: residuals count up to this size, K; empty: in full.
-std::vector<LineSums> lineSums(const FieldData& data, const FieldModel& model, bool alongRows,
-  const Eigen::ArrayXd& limit, const FieldLoop& loop)
+std::vector<LineSums> lineSums(const FieldData& data, const std::vector<FieldResidual>& residuals,
+  bool alongRows, const Eigen::ArrayXd& limit)
 {
   const Eigen::Index lines = alongRows ? data.pair.extent.height : data.pair.extent.width;
-  const Eigen::ArrayXd glare = sceneMean(data, model);
-  std::vector<LineSums> parts(data.blocks.size());
-  loop(static_cast<int>(data.blocks.size()),
-    [&](int b)
-    {
-      const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
-      if (block.fold >= 0)
-      {
-        parts[static_cast<std::size_t>(b)] = sumsOf(data, model, glare, block, alongRows, limit);
-      }
-    });
+  const auto K = static_cast<std::size_t>(data.channels());
   std::vector<LineSums> folds(
     FieldFolds, { noLines(lines, data.channels()), noLines(lines, data.channels()) });
-  for (std::size_t b = 0; b < parts.size(); ++b)
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
   {
     const FieldBlock& block = data.blocks[b];
     if (block.fold >= 0)
     {
+      const LineSums sums = sumsOf(data, &residuals[b * K], alongRows, limit);
       const int first = alongRows ? block.window.y : block.window.x;
       LineSums& fold = folds[static_cast<std::size_t>(block.fold)];
-      join(fold.gain, parts[b].gain, first);
-      join(fold.offset, parts[b].offset, first);
+      join(fold.gain, sums.gain, first);
+      join(fold.offset, sums.offset, first);
     }
   }
   return folds;
@@ -151,10 +139,10 @@ Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t w
 }
 }
 
-FieldProfile findProfile(const FieldData& data, const FieldModel& model, bool alongRows,
-  bool keepTrend, const Eigen::ArrayXd& limit, const FieldLoop& loop)
+FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>& residuals,
+  bool alongRows, bool keepTrend, const Eigen::ArrayXd& limit)
 {
-  const std::vector<LineSums> folds = lineSums(data, model, alongRows, limit, loop);
+  const std::vector<LineSums> folds = lineSums(data, residuals, alongRows, limit);
   FieldProfile profile;
   for (std::size_t without = 0; without <= folds.size(); ++without)
   {
@@ -216,11 +204,11 @@ double gammaSurvival(double x, Eigen::Index channels)
 }
 }
 
-FieldPeriod findPeriod(
-  const FieldData& data, const FieldModel& model, bool alongRows, const FieldLoop& loop)
+FieldPeriod findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals,
+  bool alongRows, const FieldLoop& loop)
 {
   LineValues profile;
-  for (const LineSums& fold : lineSums(data, model, alongRows, Eigen::ArrayXd(), loop))
+  for (const LineSums& fold : lineSums(data, residuals, alongRows, Eigen::ArrayXd()))
   {
     if (profile.value.size() == 0)
     {

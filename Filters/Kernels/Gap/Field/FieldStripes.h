@@ -1,6 +1,7 @@
 // Stripes: what the lines of an image pair, rows or columns, have of their own.
 #pragma once
 
+#include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Gap/Field/FieldFit.h"
 
 #include <Eigen/Core>
@@ -10,11 +11,11 @@
 namespace msi
 {
 
-// Gain and offset of each line as the residual of the model shows them, without their mean and, but for keepTrend, without
+// Gain and offset of each line as the residuals of a model show them, without their mean and, but for keepTrend, without
 // the quadratic that may as well be light. The strongest fiftieth of the lines are cut to the next: a line that is defect
 // is no stripe.
-FieldProfile findProfile(const FieldData& data, const FieldModel& model, bool alongRows,
-  bool keepTrend, const Eigen::ArrayXd& limit, const FieldLoop& loop);
+FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>& residuals,
+  bool alongRows, bool keepTrend, const Eigen::ArrayXd& limit);
 
 struct FieldPeriod
 {
@@ -28,8 +29,8 @@ struct FieldPeriod
 //   training blocks, quadratic trend taken off; the channels' powers add. The largest power counts where noise
 //   of the same median power would reach it anywhere in the spectrum with a probability below 1e-3.
 // Range: 2 pixels to half the span.
-FieldPeriod findPeriod(
-  const FieldData& data, const FieldModel& model, bool alongRows, const FieldLoop& loop);
+FieldPeriod findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals,
+  bool alongRows, const FieldLoop& loop);
 
 inline constexpr Eigen::Index BandingHarmonics = 3;
 

@@ -68,7 +68,7 @@ std::vector<Eigen::MatrixXd> sumOfNormals(
   {
     for (std::size_t k = 0; (data.blocks[b].fold >= 0) == training && k < sum.size(); ++k)
     {
-      sum[k] += statistics.at(b, static_cast<Eigen::Index>(k)).normal;
+      sum[k] += statistics.at(b, static_cast<Eigen::Index>(k)).normal();
     }
   }
   return sum;
@@ -329,7 +329,7 @@ std::vector<GapAxis> fieldAxes(
     {
       for (std::size_t k = 0; data.blocks[b].fold < 0 && k < K; ++k)
       {
-        const Eigen::MatrixXd& N = plain.at(b, static_cast<Eigen::Index>(k)).normal;
+        const Eigen::MatrixXd& N = plain.at(b, static_cast<Eigen::Index>(k)).normal();
         const double pixels = N(FieldColumn::offset(), FieldColumn::offset());
         const double sum = N(FieldColumn::offset(), FieldColumn::residual()) -
           N.row(FieldColumn::offset()).head(FieldColumn::residual()).dot(change[k]);

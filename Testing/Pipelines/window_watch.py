@@ -47,14 +47,23 @@ def _load_chart():
     simple.Render(view)
 
 
+def _told(name):
+    """What the test has written for this step, once; None before."""
+    word = os.path.join(os.path.dirname(os.environ["MULTISPECTRAL_WINDOW_STATE"]), name)
+    if not os.path.exists(word):
+        return None
+    with open(word, encoding="utf-8") as file:
+        content = json.load(file)
+    os.remove(word)
+    return content
+
+
 def _show_panel():
     """On the test's word: a proxy with inputs and values, selected; nothing of it is applied."""
-    word = os.path.join(os.path.dirname(os.environ["MULTISPECTRAL_WINDOW_STATE"]), "show-panel")
-    if not os.path.exists(word):
+    told = _told("show-panel")
+    if told is None:
         return
-    with open(word, encoding="utf-8") as file:
-        proxy, inputs, values = json.load(file)
-    os.remove(word)
+    proxy, inputs, values = told
     sources = {key: simple.FindSource(name) for key, name in inputs.items()}
     for source in sources.values():
         source.UpdatePipeline()
@@ -64,12 +73,10 @@ def _show_panel():
 
 def _trigger_entry():
     """On the test's word: an entry of a menu's group Multispectral, as a click does it."""
-    word = os.path.join(os.path.dirname(os.environ["MULTISPECTRAL_WINDOW_STATE"]), "trigger-entry")
-    if not os.path.exists(word):
+    told = _told("trigger-entry")
+    if told is None:
         return
-    with open(word, encoding="utf-8") as file:
-        menu, entry, source = json.load(file)
-    os.remove(word)
+    menu, entry, source = told
     simple.SetActiveSource(simple.FindSource(source))
     application = QtWidgets.QApplication.instance()
     main = next(w for w in application.topLevelWidgets() if isinstance(w, QtWidgets.QMainWindow) and w.isVisible())

@@ -1,8 +1,8 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "Kernels/Numerics/InverseFactor.cpp"
+#define HWY_TARGET_INCLUDE "Kernels/Numerics/LowerTriangle.cpp"
 #include <hwy/foreach_target.h>
 
-#include "Kernels/Numerics/InverseFactor.h"
+#include "Kernels/Numerics/LowerTriangle.h"
 
 #include <hwy/highway.h>
 

@@ -1,5 +1,4 @@
-// The inverse of a Cholesky factor, and the products it takes, for matrices of a few hundred rows: where the fit of
-// hyperparameters spends its time.
+// Lower triangles of a few hundred rows: the inverse of a Cholesky factor, products, normal equations. Where fits spend their time.
 #pragma once
 
 #include <Eigen/Core>

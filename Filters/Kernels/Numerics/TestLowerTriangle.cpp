@@ -1,4 +1,4 @@
-#include "Kernels/Numerics/InverseFactor.h"
+#include "Kernels/Numerics/LowerTriangle.h"
 
 #include "Kernels/Numerics/NumericsTestData.h"
 

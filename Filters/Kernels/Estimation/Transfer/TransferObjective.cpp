@@ -1,6 +1,6 @@
 #include "Kernels/Estimation/Transfer/TransferObjective.h"
 
-#include "Kernels/Numerics/InverseFactor.h"
+#include "Kernels/Numerics/LowerTriangle.h"
 #include "Kernels/Numerics/ThinSvd.h"
 
 #include <Eigen/Cholesky>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace msi
@@ -32,16 +33,7 @@ int columnWith(unsigned axes)
   return static_cast<int>(std::find(all.begin(), all.end(), axes) - all.begin());
 }
 
-using Light = std::shared_ptr<const BlockLight>;
-
-// Null of a channel that is not there.
-Light lightOf(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-  const FieldBlock& block, Eigen::Index channel)
-{
-  return channel >= 0 && channel < data.channels()
-    ? std::make_shared<const BlockLight>(data, model, glare, block, channel)
-    : nullptr;
-}
+using Light = std::unique_ptr<const BlockLight>;
 
 // In every pixel of a block; 0 where there is no light.
 std::vector<double> signalOf(const Light& light, const FieldBlock& block)
@@ -103,63 +95,65 @@ Eigen::VectorXd columnsChanged(
   return column;
 }
 
-void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-  const FieldBlock& block, Eigen::Index channel, FieldScratch& scratch)
+void forColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
+  const FieldBlock& block, const std::function<void(Eigen::Index, ChannelColumns&)>& act)
 {
   const ImageWindow& window = block.window;
   const auto K = static_cast<std::size_t>(data.channels());
-  const auto k = static_cast<std::size_t>(channel);
-  const auto lightIn = [&](Eigen::Index k) { return lightOf(data, model, glare, block, k); };
-  if (scratch.lastBlock == &block && scratch.lastChannel == channel - 1)
+  const auto lightIn = [&](Eigen::Index channel)
   {
-    scratch.before = std::move(scratch.signal);
-    scratch.signal = std::move(scratch.next);
-    scratch.light = std::move(scratch.nextLight);
-  }
-  else
-  {
-    scratch.before = signalOf(lightIn(channel - 1), block);
-    scratch.light = lightIn(channel);
-    scratch.signal = signalOf(scratch.light, block);
-  }
-  scratch.nextLight = lightIn(channel + 1);
-  scratch.next = signalOf(scratch.nextLight, block);
-  scratch.lastBlock = &block;
-  scratch.lastChannel = channel;
-  const BlockLight& light = *scratch.light;
-  scratch.pixel.clear();
-  for (std::size_t i = 0; i < window.pixels(); ++i)
-  {
-    if (std::isfinite(block.real[i * K + k]))
-    {
-      scratch.pixel.push_back(static_cast<int>(i));
-    }
-  }
-  const FieldLines rows(model, true, channel, block.fold, window.y, window.height);
-  const FieldLines columns(model, false, channel, block.fold, window.x, window.width);
-  const auto count = static_cast<Eigen::Index>(scratch.pixel.size());
-  scratch.columns.resize(count, FieldColumn::count());
-  scratch.level.resize(count);
-  const ChannelSteps behind =
-    model.steps(ImageStage::Exposure, ImageStage::Detector, channel, true);
+    return channel < data.channels()
+      ? std::make_unique<const BlockLight>(data, model, glare, block, channel)
+      : nullptr;
+  };
+  // The light in this channel, and the signal of every pixel in it and in the channels beside it.
+  Light light = lightIn(0);
+  std::vector<double> before;
+  std::vector<double> signal = signalOf(light, block);
+  ChannelColumns found;
   StepDerivatives by;
-  for (Eigen::Index n = 0; n < count; ++n)
+  for (Eigen::Index channel = 0; channel < data.channels(); ++channel)
   {
-    const int i = scratch.pixel[static_cast<std::size_t>(n)];
-    const auto at = static_cast<std::size_t>(i);
-    ImagePixel pixel = light.pixel(i);
-    pixel.previous = channel > 0 ? &scratch.before[at] : nullptr;
-    pixel.next = channel + 1 < data.channels() ? &scratch.next[at] : nullptr;
-    pixel.row = rows[i / window.width];
-    pixel.column = columns[i % window.width];
-    pixel.self = light.signal(i, pixel, by);
-    const double answer = run(behind, pixel, nullptr, pixel.self, &by);
-    by.chain();
-    scratch.columns.row(n).head(FieldColumn::residual()) =
-      Eigen::Map<const Eigen::RowVectorXd>(by.values.data(), FieldColumn::residual());
-    scratch.columns(n, FieldColumn::residual()) =
-      static_cast<double>(block.real[at * K + k]) - answer;
-    scratch.level[n] = answer;
+    const auto k = static_cast<std::size_t>(channel);
+    Light nextLight = lightIn(channel + 1);
+    std::vector<double> next = signalOf(nextLight, block);
+    found.pixel.clear();
+    for (std::size_t i = 0; i < window.pixels(); ++i)
+    {
+      if (std::isfinite(block.real[i * K + k]))
+      {
+        found.pixel.push_back(static_cast<int>(i));
+      }
+    }
+    const FieldLines rows(model, true, channel, block.fold, window.y, window.height);
+    const FieldLines columns(model, false, channel, block.fold, window.x, window.width);
+    const auto count = static_cast<Eigen::Index>(found.pixel.size());
+    found.columns.resize(count, FieldColumn::count());
+    found.level.resize(count);
+    const ChannelSteps behind =
+      model.steps(ImageStage::Exposure, ImageStage::Detector, channel, true);
+    for (Eigen::Index n = 0; n < count; ++n)
+    {
+      const int i = found.pixel[static_cast<std::size_t>(n)];
+      const auto at = static_cast<std::size_t>(i);
+      ImagePixel pixel = light->pixel(i);
+      pixel.previous = channel > 0 ? &before[at] : nullptr;
+      pixel.next = channel + 1 < data.channels() ? &next[at] : nullptr;
+      pixel.row = rows[i / window.width];
+      pixel.column = columns[i % window.width];
+      pixel.self = light->signal(i, pixel, by);
+      const double answer = run(behind, pixel, nullptr, pixel.self, &by);
+      by.chain();
+      found.columns.row(n).head(FieldColumn::residual()) =
+        Eigen::Map<const Eigen::RowVectorXd>(by.values.data(), FieldColumn::residual());
+      found.columns(n, FieldColumn::residual()) =
+        static_cast<double>(block.real[at * K + k]) - answer;
+      found.level[n] = answer;
+    }
+    act(channel, found);
+    before = std::move(signal);
+    signal = std::move(next);
+    light = std::move(nextLight);
   }
 }
 
@@ -173,13 +167,16 @@ std::vector<FieldResidual> fieldResiduals(
     [&](int b)
     {
       const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
-      FieldScratch scratch;
-      for (Eigen::Index k = 0; block.fold >= 0 && k < K; ++k)
+      if (block.fold < 0)
       {
-        fieldColumns(data, model, glare, block, k, scratch);
-        residuals[static_cast<std::size_t>(b * K + k)] = { scratch.pixel, scratch.level,
-          scratch.columns.col(FieldColumn::gain()), scratch.columns.col(FieldColumn::residual()) };
+        return;
       }
+      forColumns(data, model, glare, block,
+        [&](Eigen::Index k, const ChannelColumns& found)
+        {
+          residuals[static_cast<std::size_t>(b * K + k)] = { found.pixel, found.level,
+            found.columns.col(FieldColumn::gain()), found.columns.col(FieldColumn::residual()) };
+        });
     });
   return residuals;
 }

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include <memory>
+#include <functional>
 #include <vector>
 
 namespace msi
@@ -32,27 +32,20 @@ int offset();
 Eigen::VectorXd columnsChanged(
   ImageParameter parameter, const FieldModel& model, const FieldModel& about, Eigen::Index channel);
 
-class BlockLight;
-
-// Memory of a thread, for one model.
-struct FieldScratch
+// Those of the usable pixels of a block in one channel.
+struct ChannelColumns
 {
-  // Usable pixels x FieldColumn::count().
+  // Pixels x FieldColumn::count().
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> columns;
   Eigen::ArrayXd level;   // predicted, of each
   std::vector<int> pixel; // number in the block, of each
-  // Of every pixel of the block: the signal behind stray light, and that of the channel before and of the next.
-  std::vector<double> signal, before, next;
-  std::shared_ptr<const BlockLight> light, nextLight;
-  const FieldBlock* lastBlock = nullptr;
-  Eigen::Index lastChannel = -1;
 };
 
-// Fills `scratch` for the usable pixels of a block in one channel.
+// Calls act(channel, columns) for each channel of a block in turn; act may change the columns.
 // Exact in the model but for one thing: the surround of the tail is that of the unmoved, unblurred image, and the
 // factors over the field come after the neighbourhood.
-void fieldColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-  const FieldBlock& block, Eigen::Index channel, FieldScratch& scratch);
+void forColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
+  const FieldBlock& block, const std::function<void(Eigen::Index, ChannelColumns&)>& act);
 
 // Usable pixels of a block in one channel: number in the block, prediction, its derivative by a relative gain, real - predicted.
 struct FieldResidual

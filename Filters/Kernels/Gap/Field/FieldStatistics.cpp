@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Numerics/InverseFactor.h"
+#include "Kernels/Numerics/LowerTriangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,14 +35,14 @@ double trimmedMean(std::vector<double> values)
 }
 
 // Mean squared differences over the pairs of usable pixels that lie `lag` apart.
-void addDifferences(const FieldScratch& scratch, const ImageWindow& window, BlockSums& sums)
+void addDifferences(const ChannelColumns& found, const ImageWindow& window, BlockSums& sums)
 {
   std::vector<int> at(window.pixels(), -1);
-  for (std::size_t n = 0; n < scratch.pixel.size(); ++n)
+  for (std::size_t n = 0; n < found.pixel.size(); ++n)
   {
-    at[static_cast<std::size_t>(scratch.pixel[n])] = static_cast<int>(n);
+    at[static_cast<std::size_t>(found.pixel[n])] = static_cast<int>(n);
   }
-  const auto residual = scratch.columns.col(FieldColumn::residual());
+  const auto residual = found.columns.col(FieldColumn::residual());
   double across = 0.0;
   double down = 0.0;
   double slope = 0.0;
@@ -62,13 +62,13 @@ void addDifferences(const FieldScratch& scratch, const ImageWindow& window, Bloc
     if (self >= 0 && right >= 0)
     {
       across += std::pow(residual[self] - residual[right], 2);
-      slope += std::pow(scratch.level[self] - scratch.level[right], 2);
+      slope += std::pow(found.level[self] - found.level[right], 2);
       pairsAcross += 1.0;
     }
     if (self >= 0 && below >= 0)
     {
       down += std::pow(residual[self] - residual[below], 2);
-      slope += std::pow(scratch.level[self] - scratch.level[below], 2);
+      slope += std::pow(found.level[self] - found.level[below], 2);
       pairsDown += 1.0;
     }
   }
@@ -216,25 +216,23 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   const auto measure = [&](int b)
   {
     const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
-    FieldScratch scratch;
-    for (std::size_t k = 0; k < K; ++k)
+    const auto add = [&](Eigen::Index channel, ChannelColumns& found)
     {
-      const auto channel = static_cast<Eigen::Index>(k);
-      fieldColumns(data, model, glare, block, channel, scratch);
+      const auto k = static_cast<std::size_t>(channel);
       BlockSums& sums = statistics.sums[static_cast<std::size_t>(b) * K + k];
-      const auto residual = scratch.columns.col(FieldColumn::residual());
-      sums.pixels = static_cast<double>(scratch.pixel.size());
+      const auto residual = found.columns.col(FieldColumn::residual());
+      sums.pixels = static_cast<double>(found.pixel.size());
       sums.energy = residual.squaredNorm();
       if (sums.pixels > 0.0)
       {
         sums.mean = residual.mean();
-        sums.level = scratch.level.mean();
-        addDifferences(scratch, block.window, sums);
+        sums.level = found.level.mean();
+        addDifferences(found, block.window, sums);
       }
-      Eigen::ArrayXd root(weights != nullptr ? scratch.columns.rows() : 0);
+      Eigen::ArrayXd root(weights != nullptr ? found.columns.rows() : 0);
       for (Eigen::Index n = 0; n < root.size(); ++n)
       {
-        const double variance = varianceOf(weights->noise[k], scratch.level[n]);
+        const double variance = varianceOf(weights->noise[k], found.level[n]);
         const double size = std::fabs(residual[n]);
         const double limit = weights->limit[channel];
         const double weight =
@@ -245,10 +243,10 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       }
       if (weights != nullptr)
       {
-        scratch.columns.array().colwise() *= root;
+        found.columns.array().colwise() *= root;
       }
       const Eigen::Array<bool, 1, Eigen::Dynamic> any =
-        (scratch.columns.array() != 0.0).colwise().any();
+        (found.columns.array() != 0.0).colwise().any();
       for (Eigen::Index c = 0; c < FieldColumn::count(); ++c)
       {
         if (any[c])
@@ -256,11 +254,12 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
           sums.there.push_back(c);
         }
       }
-      const Eigen::MatrixXd columns = scratch.columns(Eigen::all, sums.there).transpose();
+      const Eigen::MatrixXd columns = found.columns(Eigen::all, sums.there).transpose();
       sums.products.setZero(columns.rows(), columns.rows());
       addOuterProduct(sums.products, columns, columns);
       sums.products.triangularView<Eigen::StrictlyUpper>() = sums.products.transpose();
-    }
+    };
+    forColumns(data, model, glare, block, add);
   };
   loop(static_cast<int>(data.blocks.size()), measure);
   return statistics;

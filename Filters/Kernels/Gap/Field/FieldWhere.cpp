@@ -168,17 +168,20 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
   LabelMeans means;
   const auto K = static_cast<std::size_t>(data.channels());
   const Eigen::ArrayXd glare = sceneMean(data, statistics.model);
-  FieldScratch scratch;
   for (const FieldBlock& block : data.blocks)
   {
-    for (std::size_t k = 0; (block.fold >= 0) == training && k < K; ++k)
+    if ((block.fold >= 0) != training)
     {
-      fieldColumns(data, statistics.model, glare, block, static_cast<Eigen::Index>(k), scratch);
-      const Eigen::VectorXd left = scratch.columns.col(FieldColumn::residual()) -
-        scratch.columns.leftCols(FieldColumn::residual()) * change[k];
+      continue;
+    }
+    const auto add = [&](Eigen::Index channel, const ChannelColumns& found)
+    {
+      const auto k = static_cast<std::size_t>(channel);
+      const Eigen::VectorXd left = found.columns.col(FieldColumn::residual()) -
+        found.columns.leftCols(FieldColumn::residual()) * change[k];
       for (Eigen::Index n = 0; n < left.size(); ++n)
       {
-        const int pixel = scratch.pixel[static_cast<std::size_t>(n)];
+        const int pixel = found.pixel[static_cast<std::size_t>(n)];
         const int label =
           data.pair.labels[data.pair.index(block.window.x + pixel % block.window.width,
             block.window.y + pixel / block.window.width)];
@@ -191,9 +194,10 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
         sums[k][0] += left[n];
         sums[k][1] += 1.0;
         sums[k][2] +=
-          scratch.columns(n, FieldColumn::residual()) * scratch.columns(n, FieldColumn::residual());
+          found.columns(n, FieldColumn::residual()) * found.columns(n, FieldColumn::residual());
       }
-    }
+    };
+    forColumns(data, statistics.model, glare, block, add);
   }
   return means;
 }

@@ -420,15 +420,23 @@ def refused_folder(window):
     """A folder that no reader knows: ParaView's own readers of folders would end the program."""
     (window.folder / "no image" / "inside").mkdir(parents=True)
     before = window.state()["sources"]
-    window.key("ctrl+o")
-    window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
-    window.type(f"{window.folder / 'no image'}/")
-    window.key("Return")
-    time.sleep(1.0)
-    window.type("inside")
-    window.key("Tab")  # closes the proposals
-    window.click(window.state()["buttons"]["OK"])
-    said = window.wait("the refusal", lambda s: s["messages"])["messages"]
+    for pause in (1.0, 4.0, 12.0):  # the dialog empties its field when it has entered a folder, which takes long on a busy machine
+        window.key("ctrl+o")
+        window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
+        window.type(f"{window.folder / 'no image'}/")
+        window.key("Return")
+        time.sleep(pause)
+        window.type("inside")
+        window.key("Tab")  # closes the proposals
+        window.click(window.state()["buttons"]["OK"])
+        try:
+            said = window.wait("the refusal", lambda s: s["messages"], PATIENCE / 3)["messages"]
+            break
+        except Failed:
+            if pause == 12.0:
+                raise
+            window.key("Escape", "Escape")
+            window.wait("the dialog closed", lambda s: not s["dialogs"])
     window.picture("refused")
     window.key("Return")
     state = window.wait("the refusal closed", lambda s: not s["dialogs"])

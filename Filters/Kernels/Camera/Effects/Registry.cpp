@@ -74,6 +74,10 @@ void place(Effect& effect, const std::vector<PlacedStep>& steps)
 {
   const auto own = std::find_if(steps.begin(), steps.end(),
     [&effect](const PlacedStep& step) { return step.step == effect.onImage.step; });
+  if (own == steps.end() && !effect.definition.imageForms.empty())
+  {
+    throw std::logic_error(effect.definition.name + " has forms for images, but no step");
+  }
   for (ImageForm& form : effect.definition.imageForms)
   {
     for (ImageTerm& term : form.terms)

@@ -3,7 +3,7 @@
 import os
 import re
 
-from . import command, gap_pictures, pipeline, report
+from . import command, effect_sizes, gap_pictures, pipeline, report
 
 # The outputs of Sim To Real Gap; those that are kept as tables.
 PORTS = {"summary": 0, "where": 1, "causes": 2, "candidates": 3, "heat-map": 4, "trend": 5, "samples": 6,
@@ -161,8 +161,14 @@ def percent(share):
     return f"{100 * share:.0f} %" if share >= 0.005 else "under 1 %"
 
 
+def size_of(cause, rows):
+    """In words; rows: the table of causes."""
+    return effect_sizes.in_words([row for row in rows if row["rank"] == cause["rank"]])
+
+
 def cause_line(cause, gap):
-    text = f"{title_of(cause)}: {percent(cause['share'])} of the gap, probability {percent(cause['probability'])}"
+    size = size_of(cause, gap.records("causes"))
+    text = f"{title_of(cause)}{', ' if size else ''}{size}: {percent(cause['share'])} of the gap, probability {percent(cause['probability'])}"
     if cause["equivalent"]:
         text += f"; the data cannot distinguish it from {gap.words(cause['equivalent'])}"
     return text
@@ -179,9 +185,8 @@ def lead(gap):
         return "The simulated and the real camera agree within noise." if figures else ""
     found = []
     for cause in first_rows(rows):
-        parameters = [row for row in rows if row["rank"] == cause["rank"] and row["parameter"]]
-        value = f" {cause['value']:.3g}{'' if cause['unit'] in ('', '1') else ' ' + cause['unit']}" if len(parameters) == 1 else ""
-        found.append(f"{title_of(cause)}{value} ({percent(cause['share'])} of the gap)")
+        size = size_of(cause, rows)
+        found.append(f"{title_of(cause)}{': ' if size else ''}{size} ({percent(cause['share'])} of the gap)")
     causes = "; ".join(found) if found else "no known effect accounts for it"
     return (f"The simulated and the real camera differ by rms {figures['rms_before']:.4f} (response, 1 = white); after "
             f"correction, by {figures['rms_after']:.4f}. Cause{'s' if len(found) > 1 else ''}: {causes}.")
@@ -274,7 +279,8 @@ def where_sections(where, figures, drawn, folder, gap):
 def which_sections(causes, figures, drawn, folder, gap):
     parts = []
     for cause in first_rows(causes):
-        words = [cause["meaning"], f"As simulated: {cause['formula']}.",
+        size = size_of(cause, causes)
+        words = [cause["meaning"], *([f"Its size: {size}."] if size else []), f"As simulated: {cause['formula']}.",
                  f"Adding this effect to the simulation accounts for {percent(cause['share'])} of the gap; alone it would remove "
                  f"{100 * cause['shrink']:.0f} %.",
                  f"Probability that this effect is a cause, and not another or one that is not in the library: "
@@ -288,7 +294,8 @@ def which_sections(causes, figures, drawn, folder, gap):
                              "None." if figures["verdict"] == "no gap" else
                              "None of the known effects: naming one would be a guess.")]
     columns = ["parameter", "value", "standard_error", "unit", "parameter_meaning"]
-    rows = [[title_of(row), *(row[name] for name in columns)] for row in causes if row["parameter"]]
+    rows = [[title_of(row), *("ratio" if name == "unit" and row[name] == "1" else row[name] for name in columns)]
+            for row in causes if row["parameter"]]
     parts.append(report.table("Parameters of the causes", ["cause", "parameter", "value", "standard error", "unit", "meaning"],
                               rows))
     if "which.png" in drawn:

@@ -1,7 +1,8 @@
-"""Every method of estimation and every color difference is known wherever they are listed, in the registry's order.
+"""Every method of estimation, every color difference and every effect is known wherever they are listed, in the registry's order.
 
     check_methods.py ROOT
 """
+import importlib.util
 import pathlib
 import re
 import sys
@@ -54,6 +55,28 @@ def faults_of(root):
     for name, metric in differences:
         if f"`{name}`" not in page or f"`{metric} D65`" not in page:
             yield f"Documentation/Filters/CIEDE2000Evaluator.md: no row about the color difference {name}"
+
+    # Effects: their sizes in words.
+    page = (root / "Documentation/CameraEffects.md").read_text(encoding="utf-8")
+    sections = re.findall(r"^### (\w+)$(.*?)(?=^### |\Z)", page, re.MULTILINE | re.DOTALL)
+    words = load(root / "Plugin/Scripts/support/effect_sizes.py")
+    if not sections or {name for name, _ in sections} != set(words.WORDS):
+        yield "Plugin/Scripts/support/effect_sizes.py: WORDS are not the registry's effects"
+    for effect, section in sections:
+        for form, parameters in re.findall(r"^\| `(\w+)` \|.*?\| (`.*) \|$", section, re.MULTILINE):
+            for count in (1, 3) if "per channel" in parameters else (1,):
+                rows = [{"effect": effect, "form": form, "parameter": name, "value": 1.2345 + 0.02 * k}
+                        for name in re.findall(r"`(\w+)`(?: per channel)?: ", parameters) for k in range(count)]
+                text = words.in_words(rows)
+                if not re.search(r"\d", text) or re.search(r"[{}]|e[+-]\d", text):
+                    yield f"Plugin/Scripts/support/effect_sizes.py: the size of {effect}, {form} is told as '{text}'"
+
+
+def load(path):
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def main():

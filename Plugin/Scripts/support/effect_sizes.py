@@ -1,0 +1,151 @@
+"""How large an effect of the camera is, in words: of the parameters of Filters/Kernels/Camera/Effects, at places where a reader can
+picture it. A structure test compares the names."""
+
+import math
+
+_MIDDLE = 0.5  # of the range up to white
+
+
+def _plain(value, sign=""):
+    """Two digits, without an exponent."""
+    return f"{float(f'{value:.2g}'):{sign}g}"
+
+
+def _percent(value):
+    return f"{_plain(100 * abs(value))} %"
+
+
+def _more(value, than=""):
+    return f"{_percent(value)} {'more' if value >= 0 else 'less'} light{than}"
+
+
+def _brighter(value):
+    return f"{_percent(value)} {'brighter' if value >= 0 else 'darker'}"
+
+
+def _channels(values, unit):
+    """Of one number for each channel."""
+    low, high = min(values), max(values)
+    return f"by {_plain(low, '+')} to {_plain(high, '+')} {unit} from channel to channel"
+
+
+def _relative(values, words):
+    """A change of all channels in words, or the range of those of each."""
+    return words(values[0]) if len(values) == 1 else _channels([100 * value for value in values], "%")
+
+
+def _of(values, words):
+    """A part of the light, of all channels or of each."""
+    if len(values) == 1:
+        return words.format(_percent(values[0]))
+    return words.format(f"{_plain(100 * min(values))} to {_plain(100 * max(values))} % (by channel)")
+
+
+def _falloff(form, p):
+    edge = p["tangent"][0] if form == "cos4" else sum(p[name][0] for name in ("falloff", "fourth", "sixth") if name in p)
+    loss = 1.0 - (1.0 + edge ** 2) ** -2 if form == "cos4" else edge
+    return _more(-loss, " at the edge of the longer side than on the axis")
+
+
+def _gradient(_form, p):
+    # The samples' y and an image's y may run in different directions.
+    right, down = (p.get(name, [0.0])[0] for name in ("right", "down"))
+    return f"{_more(right)} at the right edge than in the middle, {_more(down)} where y is largest"
+
+
+def _nonlinearity(form, p):
+    if form == "gamma":
+        return f"exponent {p['exponent'][0]:.3g}"
+    if form == "compressive":
+        return f"{_brighter(1.0 / (1.0 + p['compression'][0]) - 1.0)} at white"
+    if form == "anchored":
+        return f"{_brighter((_MIDDLE - 1.0) * p['square'][0])} at half of white"
+    if form == "fitted":
+        return f"the response bends by {_percent(p['square'][0])} of white up to white"
+    return f"{_brighter(sum(p[name][0] for name in ('square', 'cube') if name in p))} at white"
+
+
+def _drift(form, p):
+    if form.startswith("offset"):
+        return f"{_percent(p['change'][0])} of white {'brighter' if p['change'][0] >= 0 else 'darker'} in the course of the session"
+    when = "at the start" if form.startswith("settling") else "in the course of the session"
+    return _relative(p["change"], _brighter) + " " + when
+
+
+def _lamp(form, p):
+    if form == "band":
+        return f"{_more(p['change'][0])} at {p['center'][0]:.0f} nm"
+    ends = math.exp(2.0 * (p["tilt"][0] + p.get("twist", [0.0])[0]))  # the even polynomial is the same at both
+    return f"{ends:.3g} times as much light at the longest wavelength as at the shortest, relative to the model"
+
+
+def _crosstalk(_form, p):
+    if "coupling" in p:
+        return f"{_percent(p['coupling'][0])} of the signal exchanged with each neighbouring channel"
+    return (f"{_percent(p['from_previous'][0])} of the signal from the channel before, {_percent(p['from_next'][0])} from the one "
+            "behind")
+
+
+def _noise(form, p):
+    if form == "added":
+        return f"a standard deviation of {_percent(p['added'][0])} of white in addition"
+    low, high = min(p["factor"]), max(p["factor"])
+    return f"{low:.3g} times the scatter" if low == high else f"{low:.3g} to {high:.3g} times the scatter, by channel"
+
+
+def _displacement(_form, p):
+    return f"up to {max(abs(v) for name in ('right', 'down') for v in p.get(name, [0.0])):.3g} pixels"
+
+
+def _banding(form, p):
+    across = "column to column" if form.startswith("column") else "row to row"
+    white = " of white" if form.endswith("offsets") else ""
+    return f"up to {_percent(max(p['amplitude'], key=abs))}{white} from {across}, {p['period'][0]:.3g} pixels a cycle"
+
+
+# By effect: from the form and its parameters, each a list with one number or one for each channel.
+WORDS = {
+    "specular_component": lambda f, p: f"{_more(p['pedestal'][0])} from the surface, relative to white",
+    "translucency": lambda f, p: _more(1.0 / (1.0 + p["loss"][0]) - 1.0, " from a white sample at 550 nm"),
+    "fluorescence": lambda f, p: _of(p["yield"], f"emission of {{}} at {p['peak'][0]:.0f} nm for full excitation"),
+    "interreflection": lambda f, p: (f"{_percent(p['probability'][0])} of the light strikes the surface once "
+                                     f"{'more' if p['probability'][0] >= 0 else 'less'} than in the spectrophotometer"),
+    "medium_gain": lambda f, p: _brighter(p["gain"][0] - 1.0),
+    "filter_bandwidth": lambda f, p: _relative([v - 1.0 for v in p["factor"]],
+                                               lambda v: f"passbands {_percent(v)} {'wider' if v >= 0 else 'narrower'}"),
+    "filter_shift": lambda f, p: (f"{abs(p['shift'][0]):.3g} nm towards {'longer' if p['shift'][0] >= 0 else 'shorter'} wavelengths"
+                                  if len(p["shift"]) == 1 else _channels(p["shift"], "nm")),
+    "filter_leak": lambda f, p: _of(p["fraction"], "{} of the light through the passband leaks beside it"),
+    "illuminant_drift": _lamp,
+    "illumination_gradient": _gradient,
+    "vignetting": _falloff,
+    "veiling_glare": lambda f, p: _of(p["fraction"], "{} of the scene's mean lies over the field"),
+    "local_stray_light": lambda f, p: _of(p["fraction"], "{} of the light falls on the surround"),
+    "exposure_gain": lambda f, p: "all channels " + _brighter(p["gain"][0] - 1.0),
+    "channel_gain": lambda f, p: _relative([v - 1.0 for v in p["gain"]], _brighter),
+    "channel_crosstalk": _crosstalk,
+    "session_drift": _drift,
+    "detector_nonlinearity": _nonlinearity,
+    "dark_offset": lambda f, p: (f"{_percent(p['offset'][0])} of white too {'bright' if p['offset'][0] >= 0 else 'dark'}"
+                                 if len(p["offset"]) == 1 else _channels([100 * v for v in p["offset"]], "% of white")),
+    "saturation": lambda f, p: f"responses end at {_percent(p['level'][0])} of white",
+    "excess_noise": _noise,
+    "misregistration": _displacement,
+    "defocus": lambda f, p: (f"a blur of {max(p['blur']):.2g} pixels (standard deviation)" if len(p["blur"]) == 1 else
+                             f"a blur of {min(p['blur']):.2g} to {max(p['blur']):.2g} pixels (standard deviation), by channel"),
+    "ghost_reflection": lambda f, p: _of(p["strength"], "{} of the light appears on the opposite side"),
+    "lag": lambda f, p: _of(p["retained"], "{} of the channel before stays"),
+    "banding": _banding,
+}
+
+
+def in_words(rows):
+    """rows: those of one cause in the table of causes; empty where it has no parameters."""
+    values = {}
+    for row in rows:
+        if row["parameter"]:
+            values.setdefault(row["parameter"].partition("[")[0], []).append(row["value"])
+    try:
+        return WORDS[rows[0]["effect"]](rows[0]["form"], values) if values else ""
+    except KeyError:  # a form whose parameters these words do not know: its table says more
+        return ""

@@ -382,6 +382,8 @@ void vtkMethodComparison::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Difference: " << this->Difference << "\n"
      << indent << "Illuminants: " << this->Illuminants << "\n"
      << indent << "OtherIlluminants: " << this->OtherIlluminants << "\n"
+     << indent << "IlluminantFile: " << this->IlluminantFile << "\n"
+     << indent << "ObserverFile: " << this->ObserverFile << "\n"
      << indent << "Observer: " << this->Observer << "\n";
 }
 
@@ -460,10 +462,10 @@ int vtkMethodComparison::RequestData(
       options.channelWavelengths = chart.channels.wavelengths;
 
       const auto& target = medium.samples.reflectance;
-      const msi::ViewingConditions conditions(
-        vtkTable::GetData(inputs[2]), vtkTable::GetData(inputs[3]), this->Observer);
-      const auto illuminants =
-        msi::namesIn(msi::withNames(this->Illuminants, this->OtherIlluminants));
+      const msi::ViewingConditions conditions(vtkTable::GetData(inputs[2]),
+        vtkTable::GetData(inputs[3]), this->Observer, { this->IlluminantFile, this->ObserverFile });
+      const auto illuminants = conditions.withFile(
+        msi::namesIn(msi::withNames(this->Illuminants, this->OtherIlluminants)));
       const msi::HeldOutJudge judge(
         *chart.bands.wavelengths, illuminants, conditions, this->Difference, target);
       const std::size_t judged = judge.metrics().size() - msi::IntervalCount;

@@ -117,6 +117,17 @@ public:
 
   ///@{
   /**
+   * Files with curves of your own (vtkCurveReader): illuminants, which are added to Illuminants; and an observer
+   * (x-bar, y-bar, z-bar), in the place of Observer. Empty (default): none.
+   */
+  vtkSetStdStringFromCharMacro(IlluminantFile);
+  vtkGetCharFromStdStringMacro(IlluminantFile);
+  vtkSetStdStringFromCharMacro(ObserverFile);
+  vtkGetCharFromStdStringMacro(ObserverFile);
+  ///@}
+
+  ///@{
+  /**
    * "CIE 1931 2 degree" (default) or "CIE 1964 10 degree".
    */
   vtkSetStdStringFromCharMacro(Observer);
@@ -148,6 +159,8 @@ private:
   std::string Difference = "ciede2000";
   std::string Illuminants = "D65, F2";
   std::string OtherIlluminants;
+  std::string IlluminantFile;
+  std::string ObserverFile;
   std::string Observer = "CIE 1931 2 degree";
 };
 

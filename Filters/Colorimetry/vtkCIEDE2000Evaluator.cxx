@@ -100,6 +100,8 @@ void vtkCIEDE2000Evaluator::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Metrics: " << this->Metrics << "\n"
      << indent << "Illuminants: " << this->Illuminants << "\n"
      << indent << "OtherIlluminants: " << this->OtherIlluminants << "\n"
+     << indent << "IlluminantFile: " << this->IlluminantFile << "\n"
+     << indent << "ObserverFile: " << this->ObserverFile << "\n"
      << indent << "Observer: " << this->Observer << "\n"
      << indent << "EstimateArray: " << this->EstimateArray << "\n"
      << indent << "ReferenceArray: " << this->ReferenceArray << "\n"
@@ -204,11 +206,12 @@ int vtkCIEDE2000Evaluator::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      const msi::ViewingConditions conditions(
-        vtkTable::GetData(inputs[2]), vtkTable::GetData(inputs[3]), this->Observer);
+      const msi::ViewingConditions conditions(vtkTable::GetData(inputs[2]),
+        vtkTable::GetData(inputs[3]), this->Observer, { this->IlluminantFile, this->ObserverFile });
       msi::AskedErrors asked;
       asked.metrics = msi::namesIn(this->Metrics);
-      asked.illuminants = msi::namesIn(msi::withNames(this->Illuminants, this->OtherIlluminants));
+      asked.illuminants = conditions.withFile(
+        msi::namesIn(msi::withNames(this->Illuminants, this->OtherIlluminants)));
       asked.factors = { this->KL, this->KC, this->KH };
       asked.rms = this->SpectralRms;
       const auto names = asked.names();

@@ -105,11 +105,35 @@ struct vtkSpectralToColor::Colorimetry
     {
       return conditions.illuminant(self.Illuminant);
     }
-    if (self.OtherIlluminant.empty())
+    const auto& file = conditions.namesOfFile();
+    if (self.OtherIlluminant.empty() && file.size() == 1)
+    {
+      return conditions.illuminant(file.front());
+    }
+    std::string names;
+    for (const auto& name : file)
+    {
+      names += (names.empty() ? "'" : ", '") + name + "'";
+    }
+    if (self.OtherIlluminant.empty() && file.empty())
     {
       throw std::invalid_argument(
-        "OtherIlluminant is empty; type an illuminant, such as D5300K for daylight of 5300 K or "
-        "BB3200K for a blackbody of 3200 K, or choose one from the list Illuminant");
+        "Other Illuminant is empty; type an illuminant, such as D5300K for daylight of 5300 K or "
+        "BB3200K for a blackbody of 3200 K, choose the file of a lamp as Illuminant File, or "
+        "choose "
+        "one from the list Illuminant");
+    }
+    if (self.OtherIlluminant.empty())
+    {
+      throw std::invalid_argument(self.IlluminantFile + ": the file holds " +
+        std::to_string(file.size()) + " illuminants, " + names +
+        "; expected the name of one; type it as Other Illuminant");
+    }
+    if (!file.empty() && std::find(file.begin(), file.end(), self.OtherIlluminant) == file.end())
+    {
+      throw std::invalid_argument("Other Illuminant is '" + self.OtherIlluminant +
+        "', but Illuminant File is " + self.IlluminantFile + " with " + names +
+        "; expected one of these names, or one of the two fields empty");
     }
     return conditions.illuminant(self.OtherIlluminant);
   }
@@ -141,6 +165,8 @@ void vtkSpectralToColor::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Illuminant: " << this->Illuminant << "\n"
      << indent << "OtherIlluminant: " << this->OtherIlluminant << "\n"
+     << indent << "IlluminantFile: " << this->IlluminantFile << "\n"
+     << indent << "ObserverFile: " << this->ObserverFile << "\n"
      << indent << "Observer: " << this->Observer << "\n"
      << indent << "SpectralArray: " << this->SpectralArray << "\n"
      << indent << "ComputeXYZ: " << this->ComputeXYZ << "\n"
@@ -192,8 +218,8 @@ int vtkSpectralToColor::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      const msi::ViewingConditions conditions(
-        vtkTable::GetData(inputs[1]), vtkTable::GetData(inputs[2]), this->Observer);
+      const msi::ViewingConditions conditions(vtkTable::GetData(inputs[1]),
+        vtkTable::GetData(inputs[2]), this->Observer, { this->IlluminantFile, this->ObserverFile });
       if (auto* table = vtkTable::GetData(inputs[0]))
       {
         this->ClippedCount = this->ColorTable(table, conditions, vtkTable::GetData(outputs, 0));

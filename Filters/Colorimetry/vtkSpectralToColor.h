@@ -58,6 +58,18 @@ public:
 
   ///@{
   /**
+   * Files with curves of your own (vtkCurveReader): illuminants, whose names OtherIlluminant may be; a file with one
+   * needs no name, where Illuminant is "other"; and an observer
+   * (x-bar, y-bar, z-bar), in the place of Observer. Empty (default): none.
+   */
+  vtkSetStdStringFromCharMacro(IlluminantFile);
+  vtkGetCharFromStdStringMacro(IlluminantFile);
+  vtkSetStdStringFromCharMacro(ObserverFile);
+  vtkGetCharFromStdStringMacro(ObserverFile);
+  ///@}
+
+  ///@{
+  /**
    * "CIE 1931 2 degree" (default) or "CIE 1964 10 degree".
    */
   vtkSetStdStringFromCharMacro(Observer);
@@ -143,6 +155,8 @@ private:
 
   std::string Illuminant = "D65";
   std::string OtherIlluminant;
+  std::string IlluminantFile;
+  std::string ObserverFile;
   std::string Observer = "CIE 1931 2 degree";
   std::string SpectralArray;
   std::string Quantities;

@@ -1,10 +1,12 @@
 #include "ViewingConditions.h"
 
+#include "CurveTable.h"
 #include "SampleColumns.h"
 
 #include "Kernels/Spectra/Counted.h"
 
 #include "vtkDataArray.h"
+#include "vtkNew.h"
 #include "vtkTable.h"
 
 #include <algorithm>
@@ -102,14 +104,26 @@ std::vector<Curve> curvesOf(vtkTable* table, const std::string& nameOfTable)
   return curves;
 }
 
-StandardObserver observerOf(vtkTable* table, const std::string& name)
+std::vector<Curve> curvesOfFile(const std::string& file)
 {
-  if (!table)
+  vtkNew<vtkTable> table;
+  readCurveTable({ file }, table);
+  return curvesOf(table, file);
+}
+
+StandardObserver observerOf(vtkTable* table, const std::string& file, const std::string& name)
+{
+  if (!table && file.empty())
   {
     return StandardObserver::named(name);
   }
-  const std::string nameOfTable = "the observer's table";
-  const auto curves = curvesOf(table, nameOfTable);
+  if (table && !file.empty())
+  {
+    throw std::invalid_argument("the observer is given as Observer Table and as Observer File (" +
+      file + "); expected one of them; clear the other");
+  }
+  const std::string nameOfTable = table ? "the observer's table" : file;
+  const auto curves = table ? curvesOf(table, nameOfTable) : curvesOfFile(file);
   const bool same = std::all_of(curves.begin(), curves.end(),
     [&](const Curve& curve) { return curve.wavelengths == curves.front().wavelengths; });
   if (curves.size() != 3 || !same)
@@ -124,22 +138,58 @@ StandardObserver observerOf(vtkTable* table, const std::string& name)
   {
     functions.row(i) = curves[static_cast<std::size_t>(i)].values.transpose();
   }
-  return StandardObserver("of the table", curves.front().wavelengths, std::move(functions));
+  return StandardObserver(
+    table ? "of the table" : "of the file", curves.front().wavelengths, std::move(functions));
 }
 }
 
-ViewingConditions::ViewingConditions(
-  vtkTable* illuminants, vtkTable* observer, const std::string& observerName)
-  : Observer(observerOf(observer, observerName))
+ViewingConditions::ViewingConditions(vtkTable* illuminants, vtkTable* observer,
+  const std::string& observerName, const ViewingFiles& files)
+  : Observer(observerOf(observer, files.observer, observerName))
 {
-  if (!illuminants)
+  const auto add = [this](Curve& curve) {
+    Own.emplace_back(std::move(curve.name), std::move(curve.wavelengths), std::move(curve.values));
+  };
+  if (illuminants)
+  {
+    for (auto& curve : curvesOf(illuminants, "the illuminants' table"))
+    {
+      add(curve);
+    }
+  }
+  if (files.illuminants.empty())
   {
     return;
   }
-  for (auto& curve : curvesOf(illuminants, "the illuminants' table"))
+  for (auto& curve : curvesOfFile(files.illuminants))
   {
-    Own.emplace_back(std::move(curve.name), std::move(curve.wavelengths), std::move(curve.values));
+    if (isOwn(curve.name))
+    {
+      throw std::invalid_argument(files.illuminants + ": the illuminant '" + curve.name +
+        "' is also in the illuminants' table; expected different names; rename the file or the "
+        "column");
+    }
+    NamesOfFile.push_back(curve.name);
+    add(curve);
   }
+}
+
+bool ViewingConditions::isOwn(const std::string& name) const
+{
+  return std::any_of(
+    Own.begin(), Own.end(), [&name](const Illuminant& own) { return own.name() == name; });
+}
+
+std::vector<std::string> ViewingConditions::withFile(std::vector<std::string> names) const
+{
+  for (const auto& name : NamesOfFile)
+  {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+    {
+      names.push_back(name);
+    }
+  }
+  return names;
 }
 
 Illuminant ViewingConditions::illuminant(const std::string& name) const
@@ -159,7 +209,7 @@ Illuminant ViewingConditions::illuminant(const std::string& name) const
     std::string message = error.what();
     for (const Illuminant& own : Own)
     {
-      message += (&own == &Own.front() ? "; the illuminants' table has '" : "', '") + own.name();
+      message += (&own == &Own.front() ? "; illuminants of your own are '" : "', '") + own.name();
     }
     throw std::invalid_argument(message + (Own.empty() ? "" : "'"));
   }

@@ -76,6 +76,35 @@ if own != ["gallery", "shop", *illuminants]:
 for name in own:
     if rows(simple.SpectralToColor(Input=chart, IlluminantTable=curves, Illuminant=name, OtherIlluminant="D5300K")) == 0:
         faults.append(f"Spectral To Color does not take {name}")
+
+
+def color_of_first(**properties):
+    source = simple.SpectralToColor(Input=chart, **properties)
+    source.UpdatePipeline()
+    table = servermanager.Fetch(source)
+    return [table.GetColumnByName(f"R_{name}").GetValue(0) for name in "XYZ"] if table.GetNumberOfRows() else []
+
+
+# A file as a property is the same as the same file through Curve Reader.
+lamp, observer, estimates = (os.path.join(sys.argv[1], name) for name in ("gallery lamp.csv", "eye.csv", "estimates.csv"))
+with open(lamp, "w", encoding="ascii") as file:
+    file.write("wavelength,power\n380,0.2\n450,0.6\n520,0.8\n600,1.0\n700,1.1\n780,1.1\n")
+with open(observer, "w", encoding="ascii") as file:
+    file.write("wavelength,x,y,z\n" + "".join(f"{nm},{1 + nm / 1000},1,{2 - nm / 1000}\n" for nm in range(380, 781, 5)))
+tables = {"IlluminantTable": simple.CurveReader(FileNames=[lamp]), "ObserverTable": simple.CurveReader(FileNames=[observer])}
+by_file = color_of_first(Illuminant="other", IlluminantFile=lamp, ObserverFile=observer)
+if not by_file or by_file != color_of_first(Illuminant="gallery-lamp", **tables) or by_file == color_of_first():
+    faults.append(f"Spectral To Color under the file of a lamp: {by_file}")
+with open(estimates, "w", encoding="ascii") as file:
+    known = range(400, 701, 10)
+    file.write(",".join(["sample", *(f"R{nm}" for nm in known), *(f"E{nm}" for nm in known)]) + "\n")
+    file.write(",".join(["1", *("0.5" for _ in known), *(f"{0.5 + (nm - 550) / 3000:.4f}" for nm in known)]) + "\n")
+judged = simple.CIEDE2000Evaluator(Input=simple.SampleTableReader(FileName=estimates), IlluminantFile=lamp, ObserverFile=observer)
+judged.UpdatePipeline()
+table = servermanager.Fetch(judged)
+names = [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())]
+if [name for name in names if name.startswith("dE00")] != ["dE00 D65", "dE00 F2", "dE00 gallery-lamp"]:
+    faults.append(f"CIEDE2000 Evaluator with the file of a lamp gives {names}")
 typed = simple.SpectralToColor(Input=chart, Illuminant="D5300")
 if "D5300" not in strings(typed, "Illuminant", "illuminants"):
     faults.append("a list without the typed D5300 would change it")

@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 namespace
@@ -190,7 +192,8 @@ TEST(SpectralToColor, TakesAnIlluminantThatTheListHasNot)
   color->SetInputData(grayImage({ 0.5 }));
   color->ComputeXYZOn();
   color->SetIlluminant("other");
-  EXPECT_NE(errorOf(color).find("OtherIlluminant is empty; type an illuminant"), std::string::npos);
+  EXPECT_NE(
+    errorOf(color).find("Other Illuminant is empty; type an illuminant"), std::string::npos);
   color->SetOtherIlluminant("D5300");
   ASSERT_EQ(errorOf(color), "");
   const auto other = valuesOf(imageOf(color), "XYZ");
@@ -237,6 +240,43 @@ TEST(SpectralToColor, TakesALampAndAnObserverFromTables)
       cell(vtkTable::SafeDownCast(own->GetOutputDataObject(0)), 0, column), expected, 1e-9)
       << column;
   }
+}
+
+TEST(SpectralToColor, TakesALampFromAFile)
+{
+  const auto folder = std::filesystem::path(::testing::TempDir());
+  const std::string one = (folder / "SpectralToColor one.csv").string();
+  const std::string two = (folder / "SpectralToColor two.csv").string();
+  std::ofstream(one) << "wavelength,power\n360,1\n830,1\n";
+  std::ofstream(two) << "wavelength,warm,even\n360,0,1\n830,2,1\n";
+  vtkNew<vtkSpectralToColor> color;
+  color->SetInputData(grayImage({ 0.5 }));
+  color->ComputeXYZOn();
+  color->SetIlluminant("E");
+  ASSERT_EQ(errorOf(color), "");
+  const auto even = valuesOf(imageOf(color), "XYZ");
+  color->SetIlluminant("other");
+  color->SetIlluminantFile(one.c_str());
+  ASSERT_EQ(errorOf(color), "");
+  EXPECT_EQ(valuesOf(imageOf(color), "XYZ"), even);
+  color->SetOtherIlluminant("D5300K");
+  EXPECT_EQ(errorOf(color),
+    "Other Illuminant is 'D5300K', but Illuminant File is " + one +
+      " with 'SpectralToColor-one'; expected one of these names, or one of the two fields empty");
+  color->SetIlluminantFile(two.c_str());
+  color->SetOtherIlluminant("");
+  EXPECT_EQ(errorOf(color),
+    two +
+      ": the file holds 2 illuminants, 'warm', 'even'; expected the name of one; type it as Other "
+      "Illuminant");
+  color->SetOtherIlluminant("even");
+  ASSERT_EQ(errorOf(color), "");
+  EXPECT_EQ(valuesOf(imageOf(color), "XYZ"), even);
+  color->SetObserverFile(two.c_str());
+  EXPECT_EQ(errorOf(color),
+    two +
+      " has 2 curves; expected three over the same wavelengths: x-bar, y-bar and z-bar, in this "
+      "order");
 }
 
 TEST(SpectralToColor, AddsQuantitiesAndTheGamutMask)

@@ -84,6 +84,10 @@ void vtkChannelRegistration::PrintSelf(ostream& os, vtkIndent indent)
 int vtkChannelRegistration::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkImageData" : "vtkTable");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1); // RequestData says what is missing
+  }
   return 1;
 }
 
@@ -105,6 +109,12 @@ int vtkChannelRegistration::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
+      if (!vtkTable::GetData(inputs[1]))
+      {
+        throw std::invalid_argument(
+          "no displacements are connected; apply Channel Displacement to this image, or to that of "
+          "a chart from the same camera, and choose its table as Displacements");
+      }
       const bool done = this->Resample(inputs, outputs);
       if (!done && second)
       {

@@ -218,6 +218,14 @@ TEST(ChannelRegistrationFilter, SaysWhatIsWrongWithTheTable)
     "row 2 of the table of displacements has x = nan; expected a number from -1000 to 1000");
 }
 
+TEST(ChannelRegistrationFilter, AsksForTheDisplacements)
+{
+  vtkNew<vtkChannelRegistration> registration;
+  registration->SetInputData(0, displacedImage());
+  EXPECT_EQ(
+    errorOf(registration).rfind("no displacements are connected; apply Channel Displ", 0), 0u);
+}
+
 TEST(ChannelRegistrationFilter, StopsWhenAsked)
 {
   vtkNew<vtkChannelRegistration> registration;

@@ -151,7 +151,17 @@ class Window:
         self.xdotool("mouseup", 1)
 
     def type(self, text):
-        self.xdotool("type", "--delay", "5", text)
+        """Into the field with the focus, in the place of what stands there; again where a busy window lost letters."""
+        for patience in (PATIENCE / 6, PATIENCE / 3, PATIENCE):
+            self.wait("a field to type into", lambda s: s["typed"] is not None)
+            self.xdotool("key", "ctrl+a")
+            self.xdotool("type", "--delay", "5", text)
+            try:
+                self.wait(f"'{text}' in the field", lambda s: s["typed"] == str(text), patience)
+                return
+            except Failed:
+                if patience == PATIENCE:
+                    raise
 
     def key(self, *names):
         self.xdotool("key", *names)
@@ -206,7 +216,6 @@ def ask_main_job(window, scene, light=None):
         window.type(path)
         window.key("Tab", "Tab")
     if light is not None:
-        window.key("ctrl+a")
         window.type(light)
     window.click(window.state()["named"]["MultispectralRun"])
 
@@ -275,7 +284,6 @@ def region_and_files(window):
     for name, file in (("Csv", "kept.csv"), ("Png", "kept.png")):
         window.click(window.state()["named"][f"Multispectral{name}"])
         window.wait("the dialog for a file", lambda s: s["dialogs"])
-        window.key("ctrl+a")
         window.type(window.folder / pathlib.Path(file).stem)  # its extension is added
         window.key("Return")
         window.wait("the dialog closed", lambda s: not s["dialogs"])
@@ -319,7 +327,6 @@ def chart(window):
     window.wait("the corner back", lambda s: s["corners"] and s["status"].startswith("24 patches") and "spots" not in s["status"])
     window.click(window.state()["named"]["MultispectralChartSave"])
     window.wait("the dialog for a file", lambda s: any("Save" in title for title in s["dialogs"]))
-    window.key("ctrl+a")
     window.type(window.folder / "chart")
     window.key("Return")
     window.wait("the table", lambda s: s["status"].startswith("Saved"))
@@ -461,6 +468,18 @@ def failed_filter(window):
     window.wait("the result in view", lambda s: s["shown"] == ["FlatFieldCorrection1"] and pictures(s) == before)
 
 
+def scene_without_white(window):
+    """Raw counts are shown, and the view says whose colors those are, as long as they are shown."""
+    window.click(window.state()["named"]["MultispectralOpenScene"])
+    window.wait("the dialog of Open scene", lambda s: len(s["dialogs"]) == 1)
+    window.type(window.folder / "raw counts")
+    window.key("Return")
+    window.wait("the remark", lambda s: "raw counts" in s["shown"] and len(s["remarks"]) == 1 and "no white frames" in s["remarks"][0])
+    window.picture("raw counts")
+    (window.folder / "trigger-entry").write_text(json.dumps(["Filters", "Flat Field Correction", "channel_*nm.tif"]), encoding="utf-8")
+    window.wait("another filter", lambda s: "Apply" in s["named"])
+
+
 def several_at_once(window):
     """Sources that are applied together go into the views that suit them, whichever is active."""
     for path in (SCENE / "white").glob("channel_[45]*.tif"):
@@ -515,8 +534,8 @@ def panels(window):
         raise Failed(f"the channels that are ticked are {channels}")
     window.picture("panel of channels")
 
-    shown(window.panel("SpectralToColor", {"Input": chart}), ["Illuminant"], ["OtherIlluminant"])
-    shown(window.panel("SpectralToColor", {"Input": chart}, Illuminant="other"), ["Illuminant", "OtherIlluminant"])
+    shown(window.panel("SpectralToColor", {"Input": chart}), ["Illuminant", "ObserverFile"], ["OtherIlluminant", "IlluminantFile"])
+    shown(window.panel("SpectralToColor", {"Input": chart}, Illuminant="other"), ["Illuminant", "OtherIlluminant", "IlluminantFile"])
     if (box := window.panel("SpectralToColor", {"Input": chart}, Illuminant="D5300")["Illuminant"])["text"] != "D5300":
         raise Failed(f"the panel changes the illuminant D5300 to {box['text']}")
     ticked = window.panel("CIEDE2000Evaluator", {"Input": chart})["Illuminants"]["offered"]
@@ -627,7 +646,8 @@ def main():
         fault = in_window(folder, (one_message, main_job, spectra), sys.argv[3:])
     else:
         fault = in_window(folder, (one_message, main_job, spectra, cancelled, region_and_files, help_page, menus, refused_folder, open_files,
-                                   several_at_once, panels, own_lamp, chart, page_names_what_is_there, reset, open_channels, failed_filter))
+                                   several_at_once, panels, own_lamp, chart, page_names_what_is_there, reset, open_channels, failed_filter,
+                                   scene_without_white))
     print(fault or "the window does as a user expects")
     sys.exit(1 if fault else 0)
 

@@ -223,6 +223,8 @@ def _state():
         "shown in tables": _shown("SpreadSheetView", content),
         "buttons": {_plain(button.text()): _middle(button) for window in windows if isinstance(window, QtWidgets.QDialog)
                     for button in window.findChildren(QtWidgets.QAbstractButton) if button.isVisible() and button.text()},
+        "remarks": _remarks(content),
+        "typed": _text_with_focus(),
         "bar": main.statusBar().currentMessage(),
         "messages": [w.text() for w in windows if isinstance(w, QtWidgets.QMessageBox)],
         "output": [tree.model().index(row, 0).data() for row in range(tree.model().rowCount())],
@@ -247,6 +249,21 @@ def _state():
         "pins": [{"name": p.name, "column": p.column, "row": p.row, "values": p.values, "errors": p.errors,
                   "count": p.count, "measured": p.measured is not None, "deviation": p.deviation is not None} for p in panel.pins],
         "live": panel.live is not None}
+
+
+def _remarks(content):
+    """Written over the pictures."""
+    from multispectral_desktop import memory  # which the start of the window has found
+    actors = [memory.of(view).get("remark actor") for view, _ in content]
+    return [actor.GetInput() for actor in actors if actor is not None and actor.GetVisibility()]
+
+
+def _text_with_focus():
+    """Of the field that takes what is typed; None where none does."""
+    field = QtWidgets.QApplication.focusWidget()
+    if isinstance(field, QtWidgets.QComboBox):
+        field = field.lineEdit()
+    return field.text() if isinstance(field, QtWidgets.QLineEdit) else None
 
 
 def _write():

@@ -4,31 +4,26 @@ begin with the columns whose names come first in the alphabet, a cube is seen al
 from PyQt5 import QtCore, QtWidgets
 from paraview import simple
 
-from . import pixel, view_choice
+from . import memory, pixel, view_choice
+from .memory import first, key
 
 # Columns that tell what a row is, and the result, in the order in which they are read.
 _LEADING = ("method", "rank", "sample", "label", "medium", "title", "effect", "form", "axis", "cell", "name", "value", "unit", "standard_error", "probability",
             "share", "shrink", "metric", "illuminant", "count", "mean", "median", "p95", "max", "channel", "wavelength",
             "dx", "dy", "agreement")
 
-_seen = set()  # global ids of displays
-_shown = set()  # global id and port of each source that has had a display
-_LOOKS = 6  # at a spreadsheet that an image was taken from
-_emptied = {}  # by spreadsheet: how many are left
-_misplaced = []  # spreadsheets and the displays of images in them
-_failed = set()  # global ids of displays whose filter gave no image
-_listening = []  # to the button Apply
-_fitted = {}  # by view: camera and size when its image filled it
-_ordered = {}  # the columns that each table showed when they were put in order
+_LOOKS = 6  # at a spreadsheet that an image was taken from, while it shows a table
+
+
+def listen(window):
+    """To the button Apply."""
+    button = window.findChild(QtWidgets.QAbstractButton, "Accept")
+    if button is not None:
+        button.clicked.connect(lambda: QtCore.QTimer.singleShot(0, _try_again))
 
 
 def adapt(window):
     """Twice a second: what Python has to make of ParaView's objects, it makes once."""
-    if not _listening:
-        button = window.findChild(QtWidgets.QAbstractButton, "Accept")
-        if button is not None:
-            _listening.append(button)
-            button.clicked.connect(lambda: QtCore.QTimer.singleShot(0, _try_again))
     content = [(view, list(view.Representations)) for view in simple.GetViews() if hasattr(view, "Representations")]
     _take_images_out_of_tables(content)
     _fill_tables(content)
@@ -38,20 +33,15 @@ def adapt(window):
         if _replace_failed(view, displays):
             displays = list(view.Representations)
         shown = [display for display in displays if getattr(display, "Visibility", 0) and _is_image_of_ours(display)]
-        if any(_key(display) not in _seen for display in shown):
-            new = [display for display in shown if _key(display) not in _seen]
-            _seen.update(_key(display) for display in shown)
+        new = [display for display in shown if first("seen", display)]
+        if new:
             _show_last(view, shown, new[-1])
-            _fitted[_key(view)] = _camera(view)
+            memory.of(view)["fitted"] = _camera(view)
         _fit_to_size(view)
     if any(view.SMProxy.GetXMLName() == "SpreadSheetView" for view, _ in content):
         for table in window.findChildren(QtWidgets.QTableView):
             if table.metaObject().className() == "pqSpreadSheetViewWidget":
                 order_columns(table)
-
-
-def _key(proxy):
-    return proxy.SMProxy.GetGlobalID()
 
 
 def _type(display):
@@ -74,42 +64,36 @@ def _is_image_of_ours(display):
 def _take_images_out_of_tables(content):
     """Of several sources that are applied at once, ParaView shows all in the view of the last one: where that is a spreadsheet, images
     become tables of their pixels. Who shows an image in a spreadsheet later has seen it before. One look later, when all are applied."""
-    for table, display in _misplaced:
-        _move(display, table)
-    _misplaced.clear()
     for view, displays in content:
         for display in displays:
             source = getattr(display, "Input", None)
-            if source is None:
-                continue
-            shown = _key(source), source.Port
-            if shown in _shown:
-                continue
-            _shown.add(shown)
-            if view.SMProxy.GetXMLName() == "SpreadSheetView" and _is_image_of_ours(display):
-                _misplaced.append((view, display))
+            if memory.of(display).pop("misplaced", False):
+                _move(display, view)
+            elif source is not None and first("shown", source, source.Port) and view.SMProxy.GetXMLName() == "SpreadSheetView":
+                memory.of(display)["misplaced"] = _is_image_of_ours(display)
 
 
 def _move(display, table):
-    image, known = view_choice.free_view("RenderView"), [_key(view) for view in simple.GetViews()]
-    if image is None or _key(table) not in known or _key(display) not in [_key(other) for other in table.Representations]:
-        return
-    display.Visibility = 0
-    simple.Show(display.Input, image)
-    _emptied[_key(table)] = _LOOKS
+    image = view_choice.free_view("RenderView")
+    if image is not None:
+        display.Visibility = 0
+        simple.Show(display.Input, image)
+        memory.of(table)["looks"] = _LOOKS
 
 
 def _fill_tables(content):
-    """A spreadsheet that an image was taken from shows the table that was applied with it. ParaView may empty it once more while it
-    still applies."""
+    """A spreadsheet that an image was taken from shows the table that was applied with it. ParaView may empty it again while it still
+    applies, however long that takes."""
     for table, displays in content:
-        if _emptied.get(_key(table), 0) == 0:
+        record = memory.of(table)
+        if record.get("looks", 0) == 0:
             continue
-        _emptied[_key(table)] -= 1
         tables = [display for display in displays if _is_ours(display) and _type(display) == "vtkTable"]
-        if tables and not any(display.Visibility for display in displays):
+        if any(display.Visibility for display in displays):
+            record["looks"] -= 1
+        elif tables:
             active = simple.GetActiveSource()
-            applied = [display for display in tables if active is not None and _key(display.Input) == _key(active)]
+            applied = [display for display in tables if active is not None and key(display.Input) == key(active)]
             (applied or tables)[-1].Visibility = 1
             simple.Render(table)
 
@@ -120,15 +104,14 @@ def _replace_failed(view, displays):
     replaced = False
     for display in displays:
         # Those that had an image keep it.
-        if _key(display) in _seen or not _is_ours(display) or _type(display) != "vtkImageData":
+        record = memory.of(display)
+        if "seen" in record or not _is_ours(display) or _type(display) != "vtkImageData":
             continue
         if _is_empty(display):
-            if _key(display) not in _failed and display.Visibility:
-                _failed.add(_key(display))
+            if display.Visibility and first("failed", display):
                 display.Visibility = 0
                 _show_input_of(display, view)
-        elif _key(display) in _failed:
-            _failed.discard(_key(display))
+        elif record.pop("failed", False):
             source, replaced = display.Input, True
             simple.Delete(display)
             simple.Show(source, view)
@@ -138,7 +121,7 @@ def _replace_failed(view, displays):
 def _try_again():
     """After Apply: ParaView does not run what no view shows."""
     source = simple.GetActiveSource()
-    if source is not None and any(_key(display) in _failed and _key(display.Input) == _key(source)
+    if source is not None and any("failed" in memory.of(display) and key(display.Input) == key(source)
                                   for view in simple.GetRenderViews() for display in view.Representations):
         source.UpdatePipeline()
 
@@ -147,7 +130,7 @@ def _show_input_of(display, view):
     source = getattr(display.Input, "Input", None)
     for other in view.Representations:
         known = getattr(other, "Input", None)
-        if source is not None and known is not None and (_key(known), known.Port) == (_key(source), source.Port):
+        if source is not None and known is not None and (key(known), known.Port) == (key(source), source.Port):
             other.Visibility = 1
             simple.Render(view)
 
@@ -177,16 +160,17 @@ def _camera(view):
 
 def _fit_to_size(view):
     """A view that became smaller shows its whole image, as long as the user has not moved it. Captions have their own place."""
-    before = _fitted.get(_key(view))
+    record = memory.of(view)
+    before = record.get("fitted")
     if before is None or view_choice.has_caption(view):
         return
     now = _camera(view)
     if now[0] != before[0]:
-        del _fitted[_key(view)]
+        del record["fitted"]
     elif now[1] != before[1]:
         simple.ResetCamera(view)
         simple.Render(view)
-        _fitted[_key(view)] = _camera(view)
+        record["fitted"] = _camera(view)
 
 
 def _is_cube(display):
@@ -222,9 +206,10 @@ def order_columns(table):
     """Once for each set of columns: the user may move them afterwards."""
     header, model = table.horizontalHeader(), table.model()
     names = tuple(str(model.headerData(i, QtCore.Qt.Horizontal)) for i in range(header.count())) if model is not None else ()
-    if not names or _ordered.get(table) == names:
+    record = memory.of(table)
+    if not names or record.get("ordered") == names:
         return
-    _ordered[table] = names
+    record["ordered"] = names
     for i in range(header.count()):  # the order of the columns of another table
         header.moveSection(header.visualIndex(i), i)
     place = 0

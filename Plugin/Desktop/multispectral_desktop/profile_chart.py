@@ -2,10 +2,11 @@
 
 from paraview import simple
 
+from .memory import first
+
 # The title of the vertical axis; that of a profile depends on its image.
 _TITLES = {"SpectralProfile": None, "CameraReader": "Sensitivity", "CameraModelFit": "Sensitivity (fitted)", "CurveReader": "Value"}
 _HIDDEN = ("deviation", "-s", "+s")
-_done = set()  # global ids of the charts' displays
 
 
 def adapt_views():
@@ -14,10 +15,8 @@ def adapt_views():
             continue
         for display in view.Representations:
             source = getattr(display, "Input", None)
-            key = display.SMProxy.GetGlobalID()
-            if source is not None and key not in _done and source.SMProxy.GetXMLName() in _TITLES and \
-                    source.GetDataInformation(source.Port).GetNumberOfRows() > 0:
-                _done.add(key)
+            if source is not None and source.SMProxy.GetXMLName() in _TITLES and \
+                    source.GetDataInformation(source.Port).GetNumberOfRows() > 0 and first("adapted", display):
                 _adapt(view, display, source)
 
 

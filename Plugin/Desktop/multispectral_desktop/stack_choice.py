@@ -2,13 +2,13 @@
 
 from paraview import simple
 
-_seen = set()  # global ids of readers: who then chooses one channel keeps it
+from .memory import first
 
 
 def adapt(source):
-    if source is None or source.SMProxy.GetXMLName() != "SpectralImageReader" or source.SMProxy.GetGlobalID() in _seen:
+    # Once: who then chooses one channel keeps it.
+    if source is None or source.SMProxy.GetXMLName() != "SpectralImageReader" or not first("opened", source):
         return
-    _seen.add(source.SMProxy.GetGlobalID())
     if len(source.FileNames) != 1:
         return
     source.WholeStack = 1

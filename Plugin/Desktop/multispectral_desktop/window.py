@@ -6,7 +6,7 @@ import traceback
 from PyQt5 import QtCore, QtWidgets
 from paraview import servermanager, simple
 
-from . import help, lights, main_job, menus, message_window, messages, reader_choice, selection, view_choice
+from . import first_views, help, lights, main_job, menus, message_window, messages, reader_choice, selection, view_choice
 from .chart_placement import Placement
 from .panel import SpectrumPanel
 
@@ -31,6 +31,7 @@ def install(window):
         action.setToolTip(tip)
         action.triggered.connect(lambda _checked, act=act: _guarded(window, act))
     window.addToolBar(toolbar)
+    first_views.listen(window)
     return (panel, toolbar, help.install(window), message_window.install(window), reader_choice.ReaderChoice(window),
             menus.Order(window), selection.install(window))
 

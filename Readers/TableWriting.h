@@ -30,7 +30,7 @@ unsigned long writeTable(vtkWriter* self, const std::string& fileName, Write&& w
   {
     if (fileName.empty())
     {
-      throw std::invalid_argument("no file is given; set FileName");
+      throw std::invalid_argument("no file is given; choose where to write as File Name");
     }
     write(vtkTable::SafeDownCast(self->GetInput()));
   }

@@ -35,7 +35,8 @@ int vtkCameraReader::RequestData(
     {
       if (this->FileName.empty())
       {
-        throw std::invalid_argument("no file is given; set FileName to a camera (.json or .csv)");
+        throw std::invalid_argument(
+          "no file is given; choose a camera (.json or .csv) as File Name");
       }
       const auto description = msi::readCameraDescription(this->FileName);
       msi::CameraTable camera{ description.camera, description.noise };

@@ -118,7 +118,7 @@ int vtkCaptureReader::RequestData(
       if (this->FileName.empty())
       {
         throw std::invalid_argument(
-          "no capture is given; set FileName to its folder or to the capture.json in it");
+          "no capture is given; choose its folder, or the capture.json in it, as File Name");
       }
       const msi::Capture capture = msi::readCapture(folderOf(this->FileName));
       msi::write(cameraOf(capture), vtkTable::GetData(outputs, 0));

@@ -48,7 +48,7 @@ void vtkLabelImageReader::Open()
   this->File.reset();
   if (this->FileName.empty())
   {
-    throw std::invalid_argument("no file is given; set FileName to a label image");
+    throw std::invalid_argument("no file is given; choose a label image as File Name");
   }
   this->File =
     std::make_unique<msi::LabelImageFile>(this->FileName, this->Stride[0], this->Stride[1]);

@@ -42,7 +42,7 @@ int vtkSampleTableReader::RequestData(
     {
       if (this->FileName.empty())
       {
-        throw std::invalid_argument("no file is given; set FileName to a table of samples");
+        throw std::invalid_argument("no file is given; choose a table of samples as File Name");
       }
       msi::SampleTableOptions options;
       options.unit = static_cast<msi::ReflectanceUnit>(this->ReflectanceUnit);

@@ -182,7 +182,7 @@ void vtkSpectralImageReader::Open()
   if (this->FileNames.empty())
   {
     throw std::invalid_argument(
-      "no file is given; set FileNames to one spectral image or to one file per channel");
+      "no file is given; choose one spectral image, or one file per channel, as File Names");
   }
   msi::SpectralImageOptions options;
   options.wavelengths = this->Wavelengths;

@@ -310,7 +310,7 @@ void vtkSpectralImageWriter::WriteBlocks()
 {
   if (this->FileName.empty())
   {
-    throw std::invalid_argument("no file is given; set FileName");
+    throw std::invalid_argument("no file is given; choose where to write as File Name");
   }
   int port = 0;
   auto* source =

@@ -285,10 +285,10 @@ void vtkFlatFieldCorrection::Judge(
   all.counts = counts;
   if (counts[Judgement::VALUES] > 0 && counts[Judgement::DEAD_VALUES] == counts[Judgement::VALUES])
   {
-    throw std::runtime_error(std::string(all.hasWhite ? "the white image" : "the WhiteLevel") +
+    throw std::runtime_error(std::string(all.hasWhite ? "the white image" : "the White Level") +
       " is above the " + (all.hasDark ? "dark image" : "dark level 0") +
       " in no pixel and no channel; expected the white to be brighter; " +
-      (all.hasWhite ? "are white and dark swapped?" : "set WhiteLevel, or connect a white image"));
+      (all.hasWhite ? "are white and dark swapped?" : "set White Level, or connect a white image"));
   }
   if (controller && controller->GetLocalProcessId() > 0)
   {
@@ -309,12 +309,12 @@ void vtkFlatFieldCorrection::Judge(
   {
     vtkWarningMacro(<< all.percent(Judgement::FAR_ABOVE_WHITE, Judgement::FINITE)
                     << " % of the raw values exceed the white " << Judgement::Unlikely
-                    << " times; are the images swapped, or exposed differently (ExposureTimes)?");
+                    << " times; are the images swapped, or exposed differently (Exposure Times)?");
   }
   if (all.hasDark && !all.hasWhite && this->WhiteLevel == 1.0)
   {
-    vtkWarningMacro(<< "no white image is connected and WhiteLevel is 1: the responses are not "
-                       "relative to white; connect a white image, or set WhiteLevel");
+    vtkWarningMacro(<< "no white image is connected and White Level is 1: the responses are not "
+                       "relative to white; connect a white image, or set White Level");
   }
 }
 
@@ -366,7 +366,7 @@ vtkFlatFieldCorrection::Judgement vtkFlatFieldCorrection::Correct(
     this->ExposureTimes.empty() && this->SaturationLevel <= 0.0)
   {
     throw std::invalid_argument("neither a white nor a dark image is connected, so the raw values "
-                                "would pass unchanged; connect a white image, or set WhiteLevel");
+                                "would pass unchanged; connect a white image, or set White Level");
   }
   const int channels = raw->GetNumberOfComponents();
   const auto factors = exposureFactors(this->ExposureTimes, this->WhiteExposureTimes, channels);

@@ -15,11 +15,30 @@
 
 #include <iterator>
 #include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkSMSpectralImageRepresentationProxy);
 
 namespace
 {
+// ParaView writes the ends of a legend as 2.4e+01. A format that a user has chosen stays.
+void writePlainNumbers(vtkSMProxy* legend)
+{
+  constexpr const char* Plain = "%.4g";
+  for (const auto& [name, format] :
+    { std::pair("LabelFormat", "%-#6.3g"), std::pair("RangeLabelFormat", "%-#6.1e") })
+  {
+    vtkSMPropertyHelper helper(legend, name, true);
+    const char* now = helper.GetNumberOfElements() > 0 ? helper.GetAsString() : "";
+    if (now == std::string(format))
+    {
+      helper.Set(Plain);
+      vtkSMPropertyHelper(legend, "AutomaticLabelFormat", true).Set(0);
+    }
+  }
+  legend->UpdateVTKObjects();
+}
+
 // A legend with the steps by which color differences are judged.
 void styleDifferenceLegend(vtkSMProxy* legend, const std::string& arrayName)
 {
@@ -138,11 +157,12 @@ bool vtkSMSpectralImageRepresentationProxy::SetScalarBarVisibility(vtkSMProxy* v
   {
     return false;
   }
-  if (visible && array && msi::isColorDifference(array->GetName()))
+  vtkNew<vtkSMTransferFunctionManager> manager;
+  auto* colors = visible && array ? vtkSMPropertyHelper(this, "LookupTable").GetAsProxy() : nullptr;
+  if (auto* legend = colors ? manager->GetScalarBarRepresentation(colors, view) : nullptr)
   {
-    vtkNew<vtkSMTransferFunctionManager> manager;
-    auto* colors = vtkSMPropertyHelper(this, "LookupTable").GetAsProxy();
-    if (auto* legend = colors ? manager->GetScalarBarRepresentation(colors, view) : nullptr)
+    writePlainNumbers(legend);
+    if (msi::isColorDifference(array->GetName()))
     {
       styleDifferenceLegend(legend, array->GetName());
     }

@@ -178,7 +178,7 @@ void vtkSceneReader::Open()
   this->Notes.clear();
   if (this->FileName.empty())
   {
-    throw std::invalid_argument("no scene is given; set FileName to the folder of its image");
+    throw std::invalid_argument("no scene is given; choose the folder of its image as File Name");
   }
   const auto scene = msi::findScene(folderOf(this->FileName));
   auto parts = std::make_unique<Pipeline>();

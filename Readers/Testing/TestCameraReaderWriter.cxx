@@ -131,7 +131,7 @@ TEST_F(CameraFiles, MalformedFilesAreOneLineEach)
   put("bench.csv", Curves);
   const auto jsonError = [this](const std::string& text)
   { return readingError(put("bench.json", text)); };
-  EXPECT_EQ(readingError(""), "no file is given; set FileName to a camera (.json or .csv)");
+  EXPECT_EQ(readingError(""), "no file is given; choose a camera (.json or .csv) as File Name");
   EXPECT_EQ(jsonError("{\"dark\": [1, 2, 3]}"),
     "bench.json:1:2: 'dark' has 3 values; expected one, or 2 as the curves have channels; correct "
     "the list");
@@ -164,7 +164,7 @@ TEST_F(CameraFiles, TheWriterRefusesWhatIsNoCameraAndLeavesNoFile)
       "'; expected a name that ends in .json");
   EXPECT_TRUE(fs::is_empty(Folder));
   Writer->SetFileName("");
-  EXPECT_EQ(writingError(), "no file is given; set FileName");
+  EXPECT_EQ(writingError(), "no file is given; choose where to write as File Name");
   EXPECT_NE(write(camera, "no-such-folder/camera.json"), "");
 }
 

@@ -359,8 +359,10 @@ std::string statusOf(
   if (fit.determined < bands)
   {
     status << "the chart determines " << fit.determined << " of " << bands
-           << " directions of the responsivity; the other " << bands - fit.determined
-           << " rest on the assumptions that it is not negative, "
+           << " directions of the responsivity; the other "
+           << (bands - fit.determined == 1 ? "one rests"
+                                           : std::to_string(bands - fit.determined) + " rest")
+           << " on the assumptions that it is not negative, "
            << (nominal ? "close to the nominal one" : "confined to a passband") << " and smooth";
     if (fit.determined > 1)
     {

@@ -70,7 +70,7 @@ TEST_F(Frames, RawAndWhiteSwapped)
   EXPECT_EQ(this->warning(),
     "100 % of the raw values exceed the white 1.5 times; are the images swapped, or exposed "
     "differently "
-    "(ExposureTimes)?");
+    "(Exposure Times)?");
 }
 
 TEST_F(Frames, Missing)
@@ -78,18 +78,18 @@ TEST_F(Frames, Missing)
   this->Correction->SetInputData(0, flat(0.5));
   EXPECT_EQ(this->error(),
     "neither a white nor a dark image is connected, so the raw values would pass unchanged; "
-    "connect a white image, or set WhiteLevel");
+    "connect a white image, or set White Level");
   this->Correction->SetWhiteLevel(2.0);
   EXPECT_EQ(this->warning(), "");
   this->Correction->SetWhiteLevel(1.0);
   this->Correction->SetInputData(2, flat(0.1));
   EXPECT_EQ(this->warning(),
-    "no white image is connected and WhiteLevel is 1: the responses are not relative to white; "
-    "connect a white image, or set WhiteLevel");
+    "no white image is connected and White Level is 1: the responses are not relative to white; "
+    "connect a white image, or set White Level");
   this->Correction->SetInputData(2, flat(100.0));
   EXPECT_EQ(this->error(),
-    "the WhiteLevel is above the dark image in no pixel and no channel; expected the white to be "
+    "the White Level is above the dark image in no pixel and no channel; expected the white to be "
     "brighter; set "
-    "WhiteLevel, or connect a white image");
+    "White Level, or connect a white image");
 }
 }

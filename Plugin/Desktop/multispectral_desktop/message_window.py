@@ -19,7 +19,10 @@ class Tidy(QtCore.QObject):
         self._timer = QtCore.QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._clean)
-        model.rowsInserted.connect(lambda *_: self._timer.start(0))
+        self._timer.setInterval(0)
+        # From Qt to Qt: ParaView holds a lock while it adds a row, maybe amid an exception of Python. A function of Python would fail
+        # there, and its own message wait for that lock for ever.
+        model.rowsInserted.connect(self._timer.start)
         self._known = 0
 
     def _clean(self):

@@ -18,6 +18,7 @@
 
 #include "Formats/FileKind.h"
 #include "Formats/ImageSelection.h"
+#include "Formats/Images/ArrayImage.h"
 #include "Formats/Images/StackFiles.h"
 #include "Formats/SpectralImageFile.h"
 #include "Formats/Storage/AvailableMemory.h"
@@ -107,6 +108,7 @@ void vtkSpectralImageReader::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Region: " << this->Region[0] << ", " << this->Region[1] << ", "
      << this->Region[2] << ", " << this->Region[3] << "\n"
      << indent << "Stride: " << this->Stride[0] << ", " << this->Stride[1] << "\n"
+     << indent << "Variables: " << this->Variables << "\n"
      << indent << "Notes: " << this->Notes << "\n";
 }
 
@@ -189,7 +191,14 @@ void vtkSpectralImageReader::Open()
   options.integers =
     this->ScaleIntegers ? msi::IntegerScaling::UnitRange : msi::IntegerScaling::Raw;
   options.variable = this->Variable;
-  auto file = msi::openSpectralImage(this->FilesToRead(), options);
+  const auto files = this->FilesToRead();
+  this->Variables.clear();
+  for (const auto& name :
+    files.size() == 1 ? msi::imageVariables(files.front()) : std::vector<std::string>{})
+  {
+    this->Variables += (this->Variables.empty() ? "" : "\n") + name;
+  }
+  auto file = msi::openSpectralImage(files, options);
   const int height = file->info().height;
   msi::ImageSelection selection;
   selection.bands = this->Bands;

@@ -88,6 +88,12 @@ public:
   vtkGetCharFromStdStringMacro(Variable);
   ///@}
 
+  /**
+   * What Variable may be, one name a line: the cubes and matrices of a MAT or HDF5 file. Also known where the file could not be
+   * opened because it holds several cubes.
+   */
+  vtkGetCharFromStdStringMacro(Variables);
+
   ///@{
   /**
    * The bands to read, counted from 1 in the order of the wavelengths: "1-16, 20". Empty (default): all.
@@ -189,6 +195,7 @@ private:
   int ArrayKind = FROM_FILE;
   bool ScaleIntegers = true;
   std::string Variable;
+  std::string Variables;
   std::string Bands;
   double WavelengthRange[2] = { 0.0, 0.0 };
   bool OnlyGoodBands = false;

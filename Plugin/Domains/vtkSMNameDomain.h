@@ -4,7 +4,8 @@
  *
  * The attribute "of" says which (OfferedNames.h), "with" one more. The required property "Input", which may be left out, takes a table whose
  * curves are offered too. Of "arrays": nothing, for the active scalars, and the point arrays of the input. What the property holds is
- * offered always: ParaView's lists would change it silently.
+ * offered always: ParaView's lists would change it silently. Of "listed": nothing, and the names in the required property "Names",
+ * one a line.
  */
 #ifndef vtkSMNameDomain_h
 #define vtkSMNameDomain_h

@@ -4,6 +4,7 @@
 #include "Formats/CameraDescription.h"
 #include "Formats/Curves.h"
 #include "Formats/FormatError.h"
+#include "Formats/Images/ArrayImage.h"
 #include "Formats/SampleTable.h"
 #include "Formats/SpectralImageFile.h"
 #include "Formats/Storage/WholeFile.h"
@@ -154,6 +155,24 @@ FileKind kindOfTable(const std::string& path, std::string text)
   return spectral || isTransform(table) ? FileKind::SampleTable : FileKind::Unknown;
 }
 
+// No image by itself: a table, or several arrays of which the user names one.
+FileKind kindOfArraysToChoose(const std::string& path)
+{
+  try
+  {
+    readSampleTable(path);
+    return FileKind::SampleTable;
+  }
+  catch (const std::exception&)
+  {
+    if (imageVariables(path).empty())
+    {
+      throw;
+    }
+    return FileKind::SpectralImage;
+  }
+}
+
 FileKind kindOfArrays(const std::string& path)
 {
   try
@@ -163,8 +182,7 @@ FileKind kindOfArrays(const std::string& path)
   }
   catch (const std::exception&)
   {
-    readSampleTable(path);
-    return FileKind::SampleTable;
+    return kindOfArraysToChoose(path);
   }
 }
 

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import struct
 import sys
 
 from paraview import servermanager, simple
@@ -108,6 +109,23 @@ if [name for name in names if name.startswith("dE00")] != ["dE00 D65", "dE00 F2"
 typed = simple.SpectralToColor(Input=chart, Illuminant="D5300")
 if "D5300" not in strings(typed, "Illuminant", "illuminants"):
     faults.append("a list without the typed D5300 would change it")
+# The variables of a MAT file (level 4) are offered, also where the file cannot be opened before one is chosen.
+mat = os.path.join(sys.argv[1], "two.mat")
+with open(mat, "wb") as file:
+    for name, height in ((b"first", 3), (b"second", 5)):
+        file.write(struct.pack("<5i", 0, height, 4, 0, len(name) + 1) + name + b"\0" + struct.pack(f"<{4 * height}d", *range(4 * height)))
+reader = simple.SpectralImageReader(FileNames=[mat])
+reader.UpdatePipelineInformation()
+reader.UpdatePropertyInformation()
+if strings(reader, "Variable", "names") != ["", "first", "second"] or reader.Variable != "":
+    faults.append(f"the reader offers the variables {strings(reader, 'Variable', 'names')} and starts with {reader.Variable}")
+found = factory.GetReaders(mat, session)
+if "SpectralImageReader" not in [found.GetString(i) for i in range(found.GetNumberOfStrings())]:
+    faults.append("File > Open does not take a MAT file of which a variable is to be chosen")
+reader.Variable = "second"
+reader.UpdatePipeline()
+if reader.GetDataInformation(0).GetNumberOfPoints() != 20:
+    faults.append("the reader does not read the variable that is chosen")
 errors = simple.CIEDE2000Evaluator(Input=chart)
 metrics, lights = (strings(errors, name, "names") for name in ("Metrics", "Illuminants"))
 if list(errors.Metrics) != ["ciede2000"] or list(errors.Illuminants) != ["D65", "F2"] or \

@@ -137,6 +137,8 @@ def _show_input_of(display, view):
 
 def _show_last(view, shown, last):
     """Two pictures in one place are one wrong picture, and a legend tells of the one below: the last one stays."""
+    if not getattr(last, "MapScalars", True):
+        last.SetScalarBarVisibility(view, False)  # which a display has that failed at first: a picture needs none
     after_cube, others = False, [display for display in shown if display is not last]
     for display in others:
         if _overlap(display, last):

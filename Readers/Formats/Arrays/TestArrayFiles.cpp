@@ -1,4 +1,5 @@
 #include "Formats/Arrays/TestMatFiles.h"
+#include "Formats/Images/ArrayImage.h"
 #include "Formats/SampleTable.h"
 #include "Formats/SpectralImageFile.h"
 #include "Support/formats/TestFiles.h"
@@ -147,6 +148,7 @@ TEST_P(ArrayFiles, ImageErrorsListTheArrays)
     "a.mat: holds several arrays of three axes: a (2 x 3 x 4), b (4 x 3 x 2); expected "
     "one "
     "array of rows, columns and bands; name the one to read");
+  EXPECT_EQ(msi::imageVariables(path("a.mat")), (Names{ "a", "b" }));
   msi::SpectralImageOptions options;
   options.variable = "c";
   EXPECT_EQ(imageError(options),

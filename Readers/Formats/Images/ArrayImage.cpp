@@ -271,4 +271,19 @@ std::unique_ptr<SpectralImageFile> openArrayImage(
   return ArrayImageOpener(std::move(file), options).open();
 }
 
+std::vector<std::string> imageVariables(const std::string& path)
+{
+  std::vector<std::string> names;
+  const auto file = openArrayFile(path);
+  for (const NamedArray& array : file ? file->arrays() : std::vector<NamedArray>{})
+  {
+    const std::size_t axes = longAxes(array).size();
+    if (!array.isText && axes >= 2 && axes <= 3)
+    {
+      names.push_back(array.name);
+    }
+  }
+  return names;
+}
+
 } // namespace msi

@@ -5,6 +5,8 @@
 #include "Formats/SpectralImageFile.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace msi
 {
@@ -16,5 +18,8 @@ namespace msi
 // Errors: FormatError listing the arrays where none or several fit.
 std::unique_ptr<SpectralImageFile> openArrayImage(
   std::unique_ptr<ArrayFile> file, const SpectralImageOptions& options);
+
+// The arrays that the option may name, in the order of the file; empty for files of other kinds. Errors: FormatError for damaged files.
+std::vector<std::string> imageVariables(const std::string& path);
 
 } // namespace msi

@@ -9,6 +9,7 @@ from PyQt5 import QtCore, QtGui, QtWidgets
 
 _REMARKS = ("returned failure for request", "Attempted to ShallowCopy from null")
 _OF_A_VIEW = "vtkPVGeometryFilter"  # asks again at each picture, so long as what failed is shown
+_LOOKED_AT = QtCore.Qt.UserRole + 77
 _SAME = 3.0  # seconds within which the same text tells of the same fault
 
 
@@ -23,11 +24,14 @@ class Tidy(QtCore.QObject):
         # From Qt to Qt: ParaView holds a lock while it adds a row, maybe amid an exception of Python. A function of Python would fail
         # there, and its own message wait for that lock for ever.
         model.rowsInserted.connect(self._timer.start)
-        self._known = 0
 
     def _clean(self):
-        now, row = time.monotonic(), min(self._known, self._model.rowCount())
+        now, row = time.monotonic(), 0
         while row < self._model.rowCount():
+            index = self._model.index(row, 0)
+            if index.data(_LOOKED_AT):
+                row += 1
+                continue
             text = self._text(row)
             last = self._seen.get(text)
             remark = any(part in text for part in _REMARKS) and (
@@ -37,8 +41,8 @@ class Tidy(QtCore.QObject):
             if remark or (last is not None and now - last < _SAME):
                 self._model.removeRow(row)
             else:
+                self._model.setData(index, True, _LOOKED_AT)  # a count of rows would not know when the user clears them
                 row += 1
-        self._known = self._model.rowCount()
 
     def _text(self, row):
         return str(self._model.index(row, 0).data()).strip()

@@ -110,6 +110,7 @@ def _replace_failed(view, displays):
         if _is_empty(display):
             if display.Visibility and first("failed", display):
                 display.Visibility = 0
+                record["inputs"] = _inputs(display.Input)
                 _show_input_of(display, view)
         elif record.pop("failed", False):
             source, replaced = display.Input, True
@@ -119,11 +120,24 @@ def _replace_failed(view, displays):
 
 
 def _try_again():
-    """After Apply: ParaView does not run what no view shows."""
-    source = simple.GetActiveSource()
-    if source is not None and any("failed" in memory.of(display) and key(display.Input) == key(source)
-                                  for view in simple.GetRenderViews() for display in view.Representations):
+    """After Apply: ParaView does not run what no view shows. Where an input was chosen, ParaView has selected that."""
+    active, again = simple.GetActiveSource(), {}
+    for view in simple.GetRenderViews():
+        for display in view.Representations:
+            record = memory.of(display)
+            if "failed" in record and (active is not None and key(display.Input) == key(active) or
+                                       record["inputs"] != _inputs(display.Input)):
+                record["inputs"] = _inputs(display.Input)
+                again[key(display.Input)] = display.Input
+    for source in again.values():
         source.UpdatePipeline()
+
+
+def _inputs(source):
+    """The global ids of all that a filter takes."""
+    properties = [source.SMProxy.GetProperty(name) for name in source.ListProperties()]
+    return [known.GetProxy(i).GetGlobalID() for known in properties if known is not None and known.IsA("vtkSMInputProperty")
+            for i in range(known.GetNumberOfProxies())]
 
 
 def _show_input_of(display, view):

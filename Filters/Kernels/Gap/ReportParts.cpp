@@ -58,7 +58,7 @@ void believe(GapReport& report, std::vector<std::pair<std::string, double>> prob
 std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes)
 {
   axes.erase(std::remove_if(axes.begin(), axes.end(),
-               [](const GapAxis& axis) { return !(axis.share > Decision::LeastAxis); }),
+               [](const GapAxis& axis) { return !(axis.share > Decision::FormPart); }),
     axes.end());
   std::stable_sort(
     axes.begin(), axes.end(), [](const GapAxis& a, const GapAxis& b) { return a.share > b.share; });
@@ -108,12 +108,21 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastP
       [](double sum, const GapCause& cause) { return sum + cause.share; });
   };
   const double all = sumOf(causes);
-  const auto first = std::stable_partition(causes.begin(), causes.end(),
-    [all, leastPerChannel](const GapCause& cause)
-    { return cause.share > (cause.perChannel ? leastPerChannel : Decision::LeastPart) * all; });
+  const auto isCause = [all, leastPerChannel](const GapCause& cause)
+  {
+    return cause.ofLinearFit
+      ? cause.share > Decision::PartlyShrink
+      : cause.share > (cause.perChannel ? leastPerChannel : Decision::LeastPart) * all;
+  };
+  const auto first = std::stable_partition(causes.begin(), causes.end(), isCause);
   report.uncredited.clear();
-  std::transform(first, causes.end(), std::back_inserter(report.uncredited),
-    [](const GapCause& cause) { return cause.effect; });
+  for (auto cause = first; cause != causes.end(); ++cause)
+  {
+    if (!cause->ofLinearFit) // which has a note of its own
+    {
+      report.uncredited.push_back(cause->effect);
+    }
+  }
   causes.erase(first, causes.end());
   report.causes = std::move(causes);
   report.unexplained.share = std::clamp(1.0 - sumOf(report.causes), 0.0, 1.0);

@@ -18,7 +18,8 @@ void requireKnown(const std::vector<std::string>& without);
 GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept;
 
 // Takes the causes into the report, and what none of them explains. Those that get less than Decision::LeastPart of what all get are no
-// causes, nor are numbers of single channels with less than leastPerChannel: their effects go to GapReport::uncredited.
+// causes, nor are numbers of single channels with less than leastPerChannel: their effects go to GapReport::uncredited. What a
+// linear fit leaves of a curve is one where it partly explains the gap (Decision::PartlyShrink); every camera fitted as linear has some.
 void creditCauses(
   GapReport& report, std::vector<GapCause> causes, double leastPerChannel = Decision::LeastPart);
 

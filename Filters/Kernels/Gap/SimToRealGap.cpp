@@ -95,7 +95,7 @@ void credit(
   const EffectSet& effects = static_cast<const SampleFit&>(*found.best).effects;
   report.correction = effects.simulated();
   report.whiteAfterEffects = effects.whiteAfterEffects();
-  creditCauses(report, foundCauses(observation, found, shrink), TableDecision::LeastPartPerChannel);
+  creditCauses(report, foundCauses(observation, found, shrink), Decision::SmallPart);
 }
 
 }
@@ -221,7 +221,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     inFewSamples(data, best.predicted - data.simulated))
   {
     report.unconfirmed = true;
-    credit(report, observation, found, TableDecision::Unconfirmed * alone);
+    credit(report, observation, found, Decision::Unconfirmed * alone);
     report.unexplained = remainderOf(report.unexplained.share, where.axes);
     report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
   }

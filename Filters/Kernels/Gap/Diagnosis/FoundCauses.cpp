@@ -40,7 +40,7 @@ std::vector<std::string> equivalentsAt(
   for (std::size_t v = 0; v < found.visited.size(); ++v)
   {
     const std::vector<std::size_t>& set = found.visited[v]->set;
-    if (set.size() != best.size() || found.score[v] < top - Decision::EquivalentLog)
+    if (set.size() != best.size() || found.score[v] < top - Decision::DecisiveOdds)
     {
       continue;
     }
@@ -128,6 +128,7 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
     cause.form = option.form;
     cause.medium = option.medium;
     cause.perChannel = option.perChannel;
+    cause.ofLinearFit = option.ofLinearFit;
     cause.share = sum > 0.0 ? shrink * share[p] / sum : 0.0;
     cause.shrink = reached[std::size_t(1) << p];
     cause.equivalent = equivalentsAt(data, found, p);

@@ -148,7 +148,7 @@ private:
           beam.push_back(fit);
         }
       }
-      if (beam.empty() || Score(*beam.front()) < Score(*best()) - Decision::Patience)
+      if (beam.empty() || Score(*beam.front()) < Score(*best()) - Decision::DecisiveOdds)
       {
         break;
       }

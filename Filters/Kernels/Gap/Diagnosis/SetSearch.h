@@ -13,8 +13,8 @@ namespace msi
 struct SetSearchLimits
 {
   int maximumEffects = 5;
-  int beamWidth = Decision::BeamWidth;
-  int optionsFitted = Decision::OptionsFitted;
+  int beamWidth = 3;      // sets of each size that are kept on the way
+  int optionsFitted = 10; // in full, for each of them; more of both only costs time
   bool exchange = true;
 };
 

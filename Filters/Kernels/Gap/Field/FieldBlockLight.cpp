@@ -203,10 +203,10 @@ FieldNeighbourhood neighbourhood(const FieldData& data, const FieldModel& model,
 }
 
 BlockLight::BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-  const FieldBlock& block, Eigen::Index channel)
+  const FieldBlock& block, Eigen::Index channel, const AskedSteps& asked)
   : Data(data)
   , Block(block)
-  , Steps(model.steps(ImageStage::Scene, ImageStage::Light, channel, true))
+  , Steps(model.steps(ImageStage::Scene, ImageStage::Light, channel, asked))
   , Active(model.steps(ImageStage::Scene, ImageStage::Light, channel))
   , Glare(glare[channel])
   , Where(data.pair, model, channel)

@@ -74,7 +74,7 @@ class BlockLight
 {
 public:
   BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-    const FieldBlock& block, Eigen::Index channel);
+    const FieldBlock& block, Eigen::Index channel, const AskedSteps& asked);
 
   // What the steps are told, but for other channels and lines.
   ImagePixel pixel(int number) const;

@@ -33,6 +33,19 @@ int columnWith(unsigned axes)
   return static_cast<int>(std::find(all.begin(), all.end(), axes) - all.begin());
 }
 
+// The step that has a column.
+AskedSteps stepWith(int column)
+{
+  AskedSteps asked(imageSteps().size(), 0);
+  std::size_t s = 0;
+  while (s + 1 < asked.size() && imageSteps()[s + 1].column <= static_cast<std::size_t>(column))
+  {
+    ++s;
+  }
+  asked[s] = 1;
+  return asked;
+}
+
 using Light = std::unique_ptr<const BlockLight>;
 
 // In every pixel of a block; 0 where there is no light.
@@ -96,14 +109,15 @@ Eigen::VectorXd columnsChanged(
 }
 
 void forColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-  const FieldBlock& block, const std::function<void(Eigen::Index, ChannelColumns&)>& act)
+  const FieldBlock& block, const AskedSteps& asked,
+  const std::function<void(Eigen::Index, ChannelColumns&)>& act)
 {
   const ImageWindow& window = block.window;
   const auto K = static_cast<std::size_t>(data.channels());
   const auto lightIn = [&](Eigen::Index channel)
   {
     return channel < data.channels()
-      ? std::make_unique<const BlockLight>(data, model, glare, block, channel)
+      ? std::make_unique<const BlockLight>(data, model, glare, block, channel, asked)
       : nullptr;
   };
   // The light in this channel, and the signal of every pixel in it and in the channels beside it.
@@ -111,12 +125,12 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
   std::vector<double> before;
   std::vector<double> signal = signalOf(light, block);
   ChannelColumns found;
-  StepDerivatives by;
   for (Eigen::Index channel = 0; channel < data.channels(); ++channel)
   {
     const auto k = static_cast<std::size_t>(channel);
     Light nextLight = lightIn(channel + 1);
     std::vector<double> next = signalOf(nextLight, block);
+    StepDerivatives by;
     found.pixel.clear();
     for (std::size_t i = 0; i < window.pixels(); ++i)
     {
@@ -131,7 +145,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     found.columns.resize(count, FieldColumn::count());
     found.level.resize(count);
     const ChannelSteps behind =
-      model.steps(ImageStage::Exposure, ImageStage::Detector, channel, true);
+      model.steps(ImageStage::Exposure, ImageStage::Detector, channel, asked);
     for (Eigen::Index n = 0; n < count; ++n)
     {
       const int i = found.pixel[static_cast<std::size_t>(n)];
@@ -162,6 +176,7 @@ std::vector<FieldResidual> fieldResiduals(
 {
   const Eigen::Index K = data.channels();
   const Eigen::ArrayXd glare = sceneMean(data, model);
+  const AskedSteps gain = stepWith(FieldColumn::gain());
   std::vector<FieldResidual> residuals(data.blocks.size() * static_cast<std::size_t>(K));
   loop(static_cast<int>(data.blocks.size()),
     [&](int b)
@@ -171,7 +186,7 @@ std::vector<FieldResidual> fieldResiduals(
       {
         return;
       }
-      forColumns(data, model, glare, block,
+      forColumns(data, model, glare, block, gain,
         [&](Eigen::Index k, const ChannelColumns& found)
         {
           residuals[static_cast<std::size_t>(b * K + k)] = { found.pixel, found.level,

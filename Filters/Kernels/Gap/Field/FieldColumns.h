@@ -41,11 +41,13 @@ struct ChannelColumns
   std::vector<int> pixel; // number in the block, of each
 };
 
-// Calls act(channel, columns) for each channel of a block in turn; act may change the columns.
+// Calls act(channel, columns) for each channel of a block in turn; act may change the columns. Columns of steps that change
+// nothing and are not asked for are 0.
 // Exact in the model but for one thing: the surround of the tail is that of the unmoved, unblurred image, and the
 // factors over the field come after the neighbourhood.
 void forColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
-  const FieldBlock& block, const std::function<void(Eigen::Index, ChannelColumns&)>& act);
+  const FieldBlock& block, const AskedSteps& asked,
+  const std::function<void(Eigen::Index, ChannelColumns&)>& act);
 
 // Usable pixels of a block in one channel: number in the block, prediction, its derivative by a relative gain, real - predicted.
 struct FieldResidual

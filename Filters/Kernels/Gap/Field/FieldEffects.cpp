@@ -158,6 +158,19 @@ bool compatible(const FieldSet& set, const FieldChoice& choice)
   return true;
 }
 
+AskedSteps stepsOf(const FieldSet& set)
+{
+  AskedSteps asked(imageSteps().size(), 0);
+  for (const FieldChoice* choice : set)
+  {
+    for (const ImageTerm& term : choice->terms)
+    {
+      asked[static_cast<std::size_t>(&stepOf(term.parameter) - imageSteps().data())] = 1;
+    }
+  }
+  return asked;
+}
+
 Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels)
 {
   Eigen::Index count = 0;

@@ -42,6 +42,7 @@ using FieldSet = std::vector<const FieldChoice*>;
 
 // Neither the same effect nor parameters in common.
 bool compatible(const FieldSet& set, const FieldChoice& choice);
+AskedSteps stepsOf(const FieldSet& set);
 Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels);
 
 // error: standard errors of the choice's terms, from `next` on (FieldFitter::standardErrors), which moves on.

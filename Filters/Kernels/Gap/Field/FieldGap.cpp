@@ -48,7 +48,8 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   const FieldStart& start, int maximumEffects, const FieldLoop& loop,
   const std::function<bool()>& stop)
 {
-  finding.weights = fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop));
+  finding.weights =
+    fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop, AskedSteps{}));
   const auto observe = [&]
   {
     finding.observation =
@@ -246,9 +247,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   report.where = fieldAxes(data, fieldStatistics(data, nominal, &finding.weights, loop), loop);
   const std::vector<GapAxis> rest = fieldAxes(data, finding.after(), loop);
   const double shrink = report.gap.shrink;
-  const bool noiseAlone =
-    report.gap.rmsAfter < ImageDecision::UnexplainedRms * report.gap.noiseFloor &&
-    blockMeanExcess(data, finding.after()) < ImageDecision::ExplainedBlocks;
+  const bool noiseAlone = report.gap.rmsAfter < Decision::BeyondNoise * report.gap.noiseFloor &&
+    blockMeanExcess(data, finding.after()) < Decision::EstimateFactor;
   double explained = 0.0;
   if (!finding.set().empty() && shrink > 0.0)
   {
@@ -264,9 +264,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   else
   {
     gap->model = finding.before().model;
-    const bool gapThere =
-      report.gap.rmsBefore > ImageDecision::UnexplainedRms * report.gap.noiseFloor ||
-      blockMeanExcess(data, finding.before()) > ImageDecision::UnexplainedBlocks;
+    const bool gapThere = report.gap.rmsBefore > Decision::BeyondNoise * report.gap.noiseFloor ||
+      blockMeanExcess(data, finding.before()) > Decision::EstimateFactor;
     report.verdict = gapThere ? GapVerdict::Unexplained : GapVerdict::NoGap;
     if (gapThere)
     {

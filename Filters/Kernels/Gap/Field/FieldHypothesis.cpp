@@ -24,12 +24,13 @@ FieldSet joined(FieldSet set, const FieldChoice& choice)
 FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
   const FieldModel& start, const FieldLoop& loop)
 {
+  const AskedSteps asked = stepsOf(set);
   FieldModel model = start;
   FieldHypothesis best;
   for (int iteration = 0; iteration < Iterations; ++iteration)
   {
     const auto statistics =
-      std::make_shared<FieldStatistics>(fieldStatistics(data, model, &weights, loop));
+      std::make_shared<FieldStatistics>(fieldStatistics(data, model, &weights, loop, asked));
     FieldFit fit = FieldFitter(data, *statistics).fit(set);
     const double step = fit.step;
     const FieldModel next = fit.next;
@@ -124,8 +125,8 @@ std::vector<std::string> indistinctEffects(
           column);
       }
     }
-    const bool missing = 1.0 / std::sqrt(std::fmax(information, 1e-30)) >
-      ImageDecision::Indistinct * choice.terms.front().typical;
+    const bool missing = Decision::SureDeviations / std::sqrt(std::fmax(information, 1e-30)) >
+      choice.terms.front().typical;
     const std::string& name = choice.effect->name;
     if (missing && std::find(found.begin(), found.end(), name) == found.end())
     {

@@ -73,8 +73,13 @@ bool FieldModel::isNeutral(const PlacedStep& step) const
   return true;
 }
 
+AskedSteps everyStep()
+{
+  return AskedSteps(imageSteps().size(), 1);
+}
+
 ChannelSteps FieldModel::steps(
-  ImageStage first, ImageStage last, Eigen::Index channel, bool all) const
+  ImageStage first, ImageStage last, Eigen::Index channel, const AskedSteps& asked) const
 {
   const std::vector<PlacedStep>& known = imageSteps();
   ChannelSteps steps;
@@ -89,7 +94,8 @@ ChannelSteps FieldModel::steps(
       neutral = neutral &&
         (step.numbers[n].pull != ImagePull::Neutral || own[n] == step.numbers[n].neutral);
     }
-    if (step.stage >= first && step.stage <= last && (all || !neutral))
+    if (step.stage >= first && step.stage <= last &&
+      (!neutral || (!asked.empty() && asked[s] != 0)))
     {
       steps.push_back({ &known[s], own, s, light });
     }

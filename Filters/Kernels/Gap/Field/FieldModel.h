@@ -51,6 +51,10 @@ struct ChannelStep
 };
 using ChannelSteps = std::vector<ChannelStep>;
 
+// Of all steps, those whose derivatives are asked for where they change nothing; elsewhere they are always given.
+using AskedSteps = std::vector<char>;
+AskedSteps everyStep();
+
 // The signal behind these steps. others: light from elsewhere, of each step that brings it.
 double run(const ChannelSteps& steps, ImagePixel& pixel, const double* others, double signal,
   StepDerivatives* derivatives = nullptr);
@@ -79,9 +83,9 @@ struct FieldModel
   bool isNeutral(ImageParameter parameter) const;
   bool isNeutral(const PlacedStep& step) const; // but for numbers that change nothing alone
 
-  // The steps of these stages; without those that change nothing, or all. They refer to the model.
+  // The steps of these stages that change something or are asked for. They refer to the model.
   ChannelSteps steps(
-    ImageStage first, ImageStage last, Eigen::Index channel, bool all = false) const;
+    ImageStage first, ImageStage last, Eigen::Index channel, const AskedSteps& asked = {}) const;
 
   ImageDisplacement displacement(Eigen::Index channel) const;
   double blurVariance(Eigen::Index channel) const;

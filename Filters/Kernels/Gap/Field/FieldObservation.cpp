@@ -185,7 +185,7 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
     if (choice.step().step->displacement != nullptr && !Start.shift.isZero())
     {
       const FieldModel moved = registered(model, choice);
-      const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop);
+      const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop, stepsOf(set));
       const double other = FieldFitter(Data, there).fit(set, {}, FieldDetail::Sum).energy;
       if (other < energy)
       {
@@ -264,10 +264,7 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
   {
     described->set.push_back(static_cast<std::size_t>(choice - Choices.data()));
   }
-  // What bends the curve does not clip.
-  const bool bends = hasChoice(hypothesis.set, clips) &&
-    model.at(clippingTerms().front().parameter, 0) < ImageDecision::LeastClip;
-  described->energy = bends ? std::numeric_limits<double>::infinity() : hypothesis.fit.energy;
+  described->energy = hypothesis.fit.energy;
   std::vector<FreeNumber> numbers;
   std::size_t group = 0;
   for (const FieldChoice* choice : hypothesis.set)

@@ -199,15 +199,15 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
       pixels += sums.pixels;
     }
     const double variance = energy / std::fmax(pixels, 1.0);
-    weights.limit[k] = ImageDecision::HuberDeviations * std::sqrt(variance);
-    weights.tolerance[k] = ImageDecision::TolerancePart * ImageDecision::TolerancePart *
-      std::fmax(variance - noise / std::fmax(pixels, 1.0), 0.0);
+    weights.limit[k] = Decision::OutlierDeviations * std::sqrt(variance);
+    weights.tolerance[k] =
+      Decision::FormPart * std::fmax(variance - noise / std::fmax(pixels, 1.0), 0.0);
   }
   return weights;
 }
 
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
-  const FieldWeights* weights, const FieldLoop& loop)
+  const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked)
 {
   FieldStatistics statistics{ model, data.channels(), {} };
   const auto K = static_cast<std::size_t>(data.channels());
@@ -259,7 +259,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       addOuterProduct(sums.products, columns, columns);
       sums.products.triangularView<Eigen::StrictlyUpper>() = sums.products.transpose();
     };
-    forColumns(data, model, glare, block, add);
+    forColumns(data, model, glare, block, asked, add);
   };
   loop(static_cast<int>(data.blocks.size()), measure);
   return statistics;

@@ -56,9 +56,9 @@ struct FieldStatistics
 // Squared residual after a change of the columns.
 double energyLeft(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change);
 
-// weights: null: all pixels the same.
+// weights: null: all pixels the same. asked: for which steps, beside those that change something, there are columns.
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
-  const FieldWeights* weights, const FieldLoop& loop);
+  const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked = everyStep());
 
 // Weights that go by a model's residual.
 FieldWeights fieldWeights(const FieldStatistics& statistics);

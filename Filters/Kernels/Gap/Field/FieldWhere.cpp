@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace msi
@@ -162,18 +163,20 @@ double energyAfter(
 // Mean residual and pixels of each label and channel.
 using LabelMeans = std::map<int, std::vector<std::array<double, 3>>>; // sum, pixels, energy
 
-LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
-  const std::vector<Eigen::VectorXd>& change, bool training)
+LabelMeans labelMeans(const FieldData& data, const FieldModel& model,
+  const std::vector<Eigen::VectorXd>& change, bool training, const FieldLoop& loop)
 {
-  LabelMeans means;
   const auto K = static_cast<std::size_t>(data.channels());
-  const Eigen::ArrayXd glare = sceneMean(data, statistics.model);
-  for (const FieldBlock& block : data.blocks)
+  const Eigen::ArrayXd glare = sceneMean(data, model);
+  std::vector<LabelMeans> ofBlocks(data.blocks.size());
+  const auto measure = [&](int b)
   {
+    const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
     if ((block.fold >= 0) != training)
     {
-      continue;
+      return;
     }
+    LabelMeans& means = ofBlocks[static_cast<std::size_t>(b)];
     const auto add = [&](Eigen::Index channel, const ChannelColumns& found)
     {
       const auto k = static_cast<std::size_t>(channel);
@@ -197,9 +200,24 @@ LabelMeans labelMeans(const FieldData& data, const FieldStatistics& statistics,
           found.columns(n, FieldColumn::residual()) * found.columns(n, FieldColumn::residual());
       }
     };
-    forColumns(data, statistics.model, glare, block, add);
+    forColumns(data, model, glare, block, everyStep(), add);
+  };
+  loop(static_cast<int>(data.blocks.size()), measure);
+  LabelMeans all;
+  for (const LabelMeans& means : ofBlocks)
+  {
+    for (const auto& [label, sums] : means)
+    {
+      auto& sum = all[label];
+      sum.resize(K, { 0.0, 0.0, 0.0 });
+      for (std::size_t k = 0; k < K; ++k)
+      {
+        std::transform(
+          sums[k].begin(), sums[k].end(), sum[k].begin(), sum[k].begin(), std::plus<>());
+      }
+    }
   }
-  return means;
+  return all;
 }
 
 std::vector<GapCell> stripeCells(double period, const std::string& lines)
@@ -278,7 +296,7 @@ std::vector<GapAxis> fieldAxes(
   };
   explain(ChannelBit | LevelBit);
   explain(subsets - 1);
-  if (explained[ChannelBit | LevelBit] > Decision::ContrastPart * explained[subsets - 1])
+  if (explained[ChannelBit | LevelBit] > (1.0 - Decision::SmallPart) * explained[subsets - 1])
   {
     centerPosition(training, test);
   }
@@ -306,8 +324,8 @@ std::vector<GapAxis> fieldAxes(
   // What goes with labels, or with blocks, of what is left.
   if (data.pair.labels != nullptr)
   {
-    const LabelMeans means = labelMeans(data, statistics, change, true);
-    const LabelMeans others = labelMeans(data, statistics, change, false);
+    const LabelMeans means = labelMeans(data, statistics.model, change, true, loop);
+    const LabelMeans others = labelMeans(data, statistics.model, change, false, loop);
     double gained = 0.0;
     GapCells cells;
     for (const auto& [label, sums] : others)

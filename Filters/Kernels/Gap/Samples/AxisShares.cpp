@@ -300,7 +300,7 @@ AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap, bool w
 {
   SubsetValues found = valuesOfSubsets(data, gap, false);
   // The bits of channel and level, the first two axes.
-  if (found.value[3] >= Decision::ContrastPart * found.value.back())
+  if (found.value[3] >= (1.0 - Decision::SmallPart) * found.value.back())
   {
     found = valuesOfSubsets(data, gap, true);
   }

@@ -41,7 +41,7 @@ Eigen::ArrayXd huber(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& weigh
   {
     return Eigen::ArrayXd::Ones(whitened.size());
   }
-  const double cut = TableDecision::HuberCut * std::fmax(robustDeviation(std::move(size)), 1.0);
+  const double cut = Decision::OutlierDeviations * std::fmax(robustDeviation(std::move(size)), 1.0);
   return (whitened.abs() > cut).select((cut / whitened.abs().cwiseMax(1e-300)).sqrt(), 1.0);
 }
 

@@ -180,9 +180,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
           }
           free.push_back({ e, index, parameter.perChannel ? k : -1, group, parameter.neutral,
             parameter.lower, parameter.upper, parameter.typical,
-            (parameter.secondary ? TableDecision::SecondarySpread : Decision::FreeSpread) *
-              parameter.typical,
-            name, parameter.unit });
+            Decision::FreeSpread * parameter.typical, name, parameter.unit });
         }
       }
       ++group;

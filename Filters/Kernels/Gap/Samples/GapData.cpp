@@ -135,8 +135,7 @@ void setWeights(GapData& data)
   const Eigen::ArrayXXd gap =
     (data.count.array() > 0.0).select(data.observed - data.simulated, 0.0).array();
   const double energy = gap.square().sum() / static_cast<double>(data.elements);
-  const double tolerance =
-    TableDecision::FormTolerance * TableDecision::FormTolerance * energy + 1e-14;
+  const double tolerance = Decision::FormPart * energy + 1e-14;
   data.weight = measured / (data.variance.array() + tolerance);
 }
 

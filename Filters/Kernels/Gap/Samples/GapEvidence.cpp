@@ -10,6 +10,17 @@
 namespace msi
 {
 
+namespace
+{
+constexpr std::size_t FewSamples = 3;
+
+// Energy explained over energy left where the gap shrinks by Decision::SmallPart.
+double leastOverLeft()
+{
+  return std::pow(1.0 - Decision::SmallPart, -2) - 1.0;
+}
+}
+
 Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
 {
   return (data.count.array() > 0.0).select(values, 0.0);
@@ -62,21 +73,20 @@ bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShar
   }
   const double error = std::sqrt(std::fmax(square - sum * sum / samples, 0.0));
   const double noise = measuredOnly(data, data.variance).sum();
-  return sum > TableDecision::SureDeviations * error &&
-    sum > TableDecision::PredictablePart * noise;
+  return sum > Decision::SureDeviations * error && sum > Decision::SmallPart * noise;
 }
 
 bool beyondNoise(const GapFigures& gap, double integration)
 {
   return gap.rmsBefore >
-    TableDecision::UnpredictableFactor * std::sqrt(gap.noiseFloor * gap.noiseFloor + integration);
+    Decision::BeyondNoise * std::sqrt(gap.noiseFloor * gap.noiseFloor + integration);
 }
 
 double negligibleEnergy(
   const GapData& data, const Eigen::MatrixXd& after, const Eigen::MatrixXd& integration)
 {
-  return std::fmax(TableDecision::Integrations * measuredOnly(data, integration).sum(),
-    TableDecision::NegligiblePart * after.squaredNorm());
+  return std::fmax(Decision::EstimateFactor * measuredOnly(data, integration).sum(),
+    leastOverLeft() * after.squaredNorm());
 }
 
 bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
@@ -84,15 +94,15 @@ bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen:
 {
   const double left = after.squaredNorm();
   const double explained = before.squaredNorm() - left;
-  const Eigen::MatrixXd allowed = TableDecision::Integrations * measuredOnly(data, integration);
+  const Eigen::MatrixXd allowed = Decision::EstimateFactor * measuredOnly(data, integration);
   double beyond = 0.0;
   for (Eigen::Index j = 0; j < data.samples(); ++j)
   {
     const double taken = before.col(j).squaredNorm() - after.col(j).squaredNorm();
     beyond += std::fmax(taken - allowed.col(j).sum(), 0.0);
   }
-  return explained > TableDecision::NegligiblePart * left &&
-    (explained > allowed.sum() || beyond > TableDecision::MostOfIt * explained);
+  return explained > leastOverLeft() * left &&
+    (explained > allowed.sum() || beyond > 0.5 * explained);
 }
 
 bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)
@@ -100,16 +110,13 @@ bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)
   const Eigen::VectorXd energy = measuredOnly(data, change).colwise().squaredNorm();
   std::vector<double> sorted(energy.data(), energy.data() + energy.size());
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
-  const auto usable = std::count(data.usable.begin(), data.usable.end(), 1);
-  const auto few = std::min<std::size_t>(sorted.size(),
-    std::max<std::size_t>(
-      3, static_cast<std::size_t>(TableDecision::FewSamples * static_cast<double>(usable))));
+  const auto few = std::min(sorted.size(), FewSamples);
   double sum = 0.0;
   for (std::size_t i = 0; i < few; ++i)
   {
     sum += sorted[i];
   }
-  return sum > TableDecision::NearlyAll * energy.sum();
+  return sum > (1.0 - Decision::SmallPart) * energy.sum();
 }
 
 } // namespace msi

@@ -105,8 +105,7 @@ NoiseFinding findNoise(const GapData& data, const std::optional<ReadingNoise>& g
   ratio /= finding.degrees;
   finding.excess = std::sqrt(ratio);
   finding.excessDeviations = (ratio - 1.0) / std::sqrt(2.0 / finding.degrees);
-  if (ratio > TableDecision::ExcessVariance &&
-    finding.excessDeviations > TableDecision::SureDeviations)
+  if (finding.excess > Decision::BeyondNoise && finding.excessDeviations > Decision::SureDeviations)
   {
     finding.fromRepeats = true;
     finding.reading = fitRepeats(data);
@@ -257,9 +256,8 @@ void setUnknownNoise(GapData& data)
     if (!differences.empty())
     {
       // Of noise, six times its variance.
-      variance[k] = std::fmin(variance[k],
-        std::pow(robustDeviation(differences), 2) / 6.0 +
-          std::pow(TableDecision::SampleScatter, 2));
+      variance[k] = std::fmin(
+        variance[k], std::pow(robustDeviation(differences), 2) / 6.0 + std::pow(SampleScatter, 2));
     }
   }
   data.variance.colwise() = (variance.array() + 1e-12).matrix();

@@ -12,6 +12,7 @@ namespace msi
 
 namespace
 {
+constexpr double ClippedReadings = 0.02; // of all at the largest value
 
 template <typename... Parts>
 std::string text(const Parts&... parts)
@@ -145,13 +146,13 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
       "What the causes do shows in a few samples only, and the others cannot confirm it: "
       "more samples like these would.");
   }
-  const auto behindLine = [](const GapCause& cause)
+  const auto behindLine = [](const CameraEffect& used)
   {
-    const EffectDefinition* effect = findEffect(cause.effect);
-    const EffectForm* form = effect == nullptr ? nullptr : findForm(*effect, cause.form);
+    const EffectDefinition* effect = findEffect(used.name);
+    const EffectForm* form = effect == nullptr ? nullptr : findForm(*effect, used.form);
     return form != nullptr && form->has(FormTrait::BesideLine);
   };
-  if (std::any_of(report.causes.begin(), report.causes.end(), behindLine))
+  if (std::any_of(report.correction.begin(), report.correction.end(), behindLine))
   {
     notes.push_back(
       "The nominal camera seems to be a linear fit to responses that are curved: fit it "
@@ -168,8 +169,7 @@ void noteSaturation(std::vector<std::string>& notes, const GapData& data)
   {
     equal += data.count(i) > 0.0 && data.observed(i) >= top - 1e-6 * std::fabs(top) ? 1 : 0;
   }
-  if (static_cast<double>(equal) >
-    TableDecision::EqualReadings * static_cast<double>(data.elements))
+  if (static_cast<double>(equal) > ClippedReadings * static_cast<double>(data.elements))
   {
     notes.push_back(text(equal, " readings share the largest value ", top,
       ": they look clipped and say little about any other effect."));
@@ -247,7 +247,7 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     report.unexplained.share *= 1.0 - part;
   }
   std::vector<std::pair<std::string, double>> beliefs = report.probabilities;
-  const double belief = noise.unrepeated ? TableDecision::Unconfirmed : 1.0;
+  const double belief = noise.unrepeated ? Decision::Unconfirmed : 1.0;
   for (auto& [name, probability] : beliefs)
   {
     if (name == "unknown" && report.causes.empty())

@@ -14,9 +14,6 @@ namespace
 {
 constexpr FitEffort NoStep{ 0, 1.0 };
 
-// Deviations by which a fit must be better for its secondary parameters to be free.
-constexpr double SecondaryDeviations = 4.0;
-
 const SampleFit& sampleFit(const ObservedFit& fit)
 {
   return static_cast<const SampleFit&>(fit);
@@ -39,7 +36,8 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, cons
         (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter
             ? Decision::EffectImprobability
             : 0.0) +
-        (onlyMedium ? Decision::EffectImprobability : 0.0) });
+        (onlyMedium ? Decision::EffectImprobability : 0.0),
+      choice.form->has(FormTrait::BesideLine) });
   }
   return options;
 }
@@ -56,7 +54,7 @@ EffectFit withSecondary(const EffectFitter& fitter, EffectFit fit, std::size_t p
   EffectSet freed = fit.set;
   freed.secondaryFree[position] = 1;
   EffectFit other = fitter.fit(std::move(freed), SearchFit.unwantedAbove(fit.energy));
-  return other.energy + SecondaryDeviations * other.dispersion < fit.energy ? other : fit;
+  return other.energy + Decision::SureDeviations * other.dispersion < fit.energy ? other : fit;
 }
 
 std::vector<FreeNumber> numbersOf(const EffectFit& fit)

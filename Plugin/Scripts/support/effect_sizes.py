@@ -1,5 +1,5 @@
 """How large an effect of the camera is, in words: of the parameters of Filters/Kernels/Camera/Effects, at places where a reader can
-picture it. A structure test compares the names."""
+picture it. An effect without words is told by its numbers alone."""
 
 import math
 

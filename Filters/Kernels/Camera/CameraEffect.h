@@ -109,7 +109,7 @@ struct EffectDefinition
 const std::vector<EffectDefinition>& effectLibrary();
 
 // nullptr where the name is not known. An empty form is the default form.
-const EffectDefinition* findEffect(std::string_view name) noexcept;
+const EffectDefinition* findEffect(std::string_view name);
 const EffectForm* findForm(const EffectDefinition& effect, std::string_view form) noexcept;
 // Errors: std::invalid_argument for an unknown effect or form, listing those known.
 const EffectDefinition& requireEffect(std::string_view name);

@@ -173,7 +173,7 @@ const Effect& registered(const EffectDefinition& definition)
   return effectRegistry()[position];
 }
 
-const EffectDefinition* findEffect(std::string_view name) noexcept
+const EffectDefinition* findEffect(std::string_view name)
 {
   const auto& library = effectLibrary();
   const auto found = std::find_if(library.begin(), library.end(),

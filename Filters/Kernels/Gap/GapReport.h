@@ -80,7 +80,6 @@ struct GapCause
   std::vector<GapParameter> parameters;
   double probability = 0.0; // of this effect, and not another or an unknown one, being a cause
   bool perChannel = false;  // a number for every channel
-  bool ofLinearFit = false; // what a camera that was fitted as linear leaves of a detector's curve
 };
 
 struct GapCandidate

@@ -3,7 +3,6 @@
 #include "Kernels/Camera/CameraEffect.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -100,6 +99,13 @@ GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept
                                                            : GapVerdict::Unexplained;
 }
 
+bool isOfLinearFit(const std::string& effect, const std::string& form)
+{
+  const EffectDefinition* known = findEffect(effect);
+  const EffectForm* found = known == nullptr ? nullptr : findForm(*known, form);
+  return found != nullptr && found->has(FormTrait::BesideLine);
+}
+
 void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastPerChannel)
 {
   const auto sumOf = [](const std::vector<GapCause>& some)
@@ -110,7 +116,7 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastP
   const double all = sumOf(causes);
   const auto isCause = [all, leastPerChannel](const GapCause& cause)
   {
-    return cause.ofLinearFit
+    return isOfLinearFit(cause.effect, cause.form)
       ? cause.share > Decision::PartlyShrink
       : cause.share > (cause.perChannel ? leastPerChannel : Decision::LeastPart) * all;
   };
@@ -118,7 +124,7 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastP
   report.uncredited.clear();
   for (auto cause = first; cause != causes.end(); ++cause)
   {
-    if (!cause->ofLinearFit) // which has a note of its own
+    if (!isOfLinearFit(cause->effect, cause->form)) // which has a note of its own
     {
       report.uncredited.push_back(cause->effect);
     }

@@ -17,6 +17,9 @@ void requireKnown(const std::vector<std::string>& without);
 // Of a gap with causes. noiseAlone: nothing but noise is left.
 GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept;
 
+// What a camera that was fitted as linear leaves of a detector's curve.
+bool isOfLinearFit(const std::string& effect, const std::string& form);
+
 // Takes the causes into the report, and what none of them explains. Those that get less than Decision::LeastPart of what all get are no
 // causes, nor are numbers of single channels with less than leastPerChannel: their effects go to GapReport::uncredited. What a
 // linear fit leaves of a curve is one where it partly explains the gap (Decision::PartlyShrink); every camera fitted as linear has some.

@@ -232,7 +232,7 @@ def uncredited_lines(figures, gap):
     if share <= left + 0.02:
         return [f"Left over: {100 * share:.0f} % of the gap{place}."]
     return [f"No cause accounts for {100 * share:.0f} % of the gap: {100 * left:.0f} % remains after the correction{place}; the "
-            "rest is removed by effects that are too small to be called causes."]
+            "rest is removed by effects that do not count as causes: \"What these data cannot decide, and why\" tells of them."]
 
 
 def verdict_section(figures, causes, gap):

@@ -1,4 +1,5 @@
-"""Every method of estimation, every color difference and every effect is known wherever they are listed, in the registry's order.
+"""Every method of estimation and every color difference is known wherever they are listed, in the registry's order; the sizes of effects are
+told in plain words.
 
     check_methods.py ROOT
 """

@@ -1,5 +1,5 @@
 // The numbers by which the diagnosis decides, of tables and of image pairs. Documentation/Decisions/one-diagnosis.md has the
-// reasons, and what happens when each is halved or doubled.
+// reasons, and what happened when some were halved and doubled.
 #pragma once
 
 namespace msi::Decision
@@ -17,8 +17,8 @@ inline constexpr double BeliefNumbers = 25.0;
 // Standard deviation of a number of an effect before the data speak, in typical sizes.
 inline constexpr double FreeSpread = 10.0;
 
-// Part of the gap's energy that the forms of effects, approximations of physics, leave at the least. Less is not weighed in a
-// fit, and an axis with less is not named.
+// Part of the gap's energy that the forms of effects, approximations of physics, leave at the least. A fit does not
+// count on less, and an axis with less is not named.
 inline constexpr double FormPart = 0.004;
 
 // Residuals beyond this many standard deviations count less in a fit.
@@ -31,7 +31,7 @@ inline constexpr double EffectImprobability = 3.0;
 // And of each form of it, the more the later it stands in the library's list: the plain ones come first.
 inline constexpr double FormImprobability = 1.0;
 
-// Logarithm of odds beyond which a set is out of the question: the search does not go on from it, no effect of it is equivalent.
+// Logarithm of odds beyond which a set is out of the question: the search does not go on from it, its effects are not equivalent.
 inline constexpr double DecisiveOdds = 6.0;
 
 // How sure?

@@ -128,7 +128,6 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
     cause.form = option.form;
     cause.medium = option.medium;
     cause.perChannel = option.perChannel;
-    cause.ofLinearFit = option.ofLinearFit;
     cause.share = sum > 0.0 ? shrink * share[p] / sum : 0.0;
     cause.shrink = reached[std::size_t(1) << p];
     cause.equivalent = equivalentsAt(data, found, p);

@@ -23,7 +23,6 @@ struct GapOption
   std::string medium;
   bool perChannel = false;    // a number for every channel
   double improbability = 0.0; // minus the logarithm of its probability before the data speak
-  bool ofLinearFit = false;   // GapCause::ofLinearFit
 
   // The same effect on the same medium, whatever the form.
   bool sameCause(const GapOption& other) const noexcept

@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Diagnosis/SetSearch.h"
 
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+
 #include <algorithm>
 #include <set>
 #include <utility>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "Kernels/Gap/Diagnosis/Criterion.h"
-#include "Kernels/Gap/Diagnosis/Decisions.h"
 
 #include <functional>
 #include <vector>
@@ -14,7 +13,7 @@ struct SetSearchLimits
 {
   int maximumEffects = 5;
   int beamWidth = 3;      // sets of each size that are kept on the way
-  int optionsFitted = 10; // in full, for each of them; more of both only costs time
+  int optionsFitted = 10; // in full, for each of them
   bool exchange = true;
 };
 

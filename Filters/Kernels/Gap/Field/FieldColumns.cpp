@@ -36,13 +36,12 @@ int columnWith(unsigned axes)
 // The step that has a column.
 AskedSteps stepWith(int column)
 {
-  AskedSteps asked(imageSteps().size(), 0);
-  std::size_t s = 0;
-  while (s + 1 < asked.size() && imageSteps()[s + 1].column <= static_cast<std::size_t>(column))
+  AskedSteps asked;
+  for (const PlacedStep& step : imageSteps())
   {
-    ++s;
+    const auto first = static_cast<int>(step.column);
+    asked.push_back(column >= first && column < first + static_cast<int>(step.step->width()));
   }
-  asked[s] = 1;
   return asked;
 }
 

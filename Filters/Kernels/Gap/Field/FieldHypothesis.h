@@ -14,7 +14,7 @@ namespace msi
 struct FieldHypothesis
 {
   FieldSet set;
-  std::shared_ptr<const FieldStatistics> statistics; // with the columns of the set
+  std::shared_ptr<const FieldStatistics> statistics; // with the columns of the set, or all
   FieldFit fit;
 };
 

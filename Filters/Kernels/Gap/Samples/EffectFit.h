@@ -41,8 +41,8 @@ struct EffectFit
   Eigen::MatrixXd informationOfData() const; // information without its prior
 };
 
-// Gauss-Newton with Levenberg damping, bounds by projection, Huber weights at five times the median
-// residual. Each parameter has a normal prior about neutral (FreeParameter::spread), so that what the data does not
+// Gauss-Newton with Levenberg damping, bounds by projection, Huber weights beyond
+// Decision::OutlierDeviations. Each parameter has a normal prior about neutral (FreeParameter::spread), so that what the data does not
 // determine stays neutral.
 //
 // Cross-validation: the estimate without a fold is one Gauss-Newton step from the estimate with it, exact

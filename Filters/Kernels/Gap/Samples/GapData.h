@@ -35,8 +35,8 @@ struct GapData
 // Errors: as diagnoseGap.
 GapData prepareGapData(const GapCapture& capture, const GapOptions& options);
 
-// Weights 1 / (variance + (formTolerance x rms gap)^2): the library's forms are approximations of the
-// physics, and beyond that part of the gap no element is trusted more than another.
+// Weights 1 / (variance + Decision::FormPart x mean square of the gap): the library's forms are approximations of the
+// physics, and below that part of the gap no element is trusted more than another.
 void setWeights(GapData& data);
 
 // Balanced folds over the usable samples, media kept in proportion; the same for the same seed.

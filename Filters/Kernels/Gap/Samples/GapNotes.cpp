@@ -12,7 +12,7 @@ namespace msi
 
 namespace
 {
-constexpr double ClippedReadings = 0.02; // of all at the largest value
+constexpr double ClippedReadings = 0.01; // of all at the largest value
 
 template <typename... Parts>
 std::string text(const Parts&... parts)
@@ -146,13 +146,8 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
       "What the causes do shows in a few samples only, and the others cannot confirm it: "
       "more samples like these would.");
   }
-  const auto behindLine = [](const CameraEffect& used)
-  {
-    const EffectDefinition* effect = findEffect(used.name);
-    const EffectForm* form = effect == nullptr ? nullptr : findForm(*effect, used.form);
-    return form != nullptr && form->has(FormTrait::BesideLine);
-  };
-  if (std::any_of(report.correction.begin(), report.correction.end(), behindLine))
+  if (std::any_of(report.correction.begin(), report.correction.end(),
+        [](const CameraEffect& used) { return isOfLinearFit(used.name, used.form); }))
   {
     notes.push_back(
       "The nominal camera seems to be a linear fit to responses that are curved: fit it "

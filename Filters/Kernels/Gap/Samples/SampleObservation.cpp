@@ -36,8 +36,7 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, cons
         (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter
             ? Decision::EffectImprobability
             : 0.0) +
-        (onlyMedium ? Decision::EffectImprobability : 0.0),
-      choice.form->has(FormTrait::BesideLine) });
+        (onlyMedium ? Decision::EffectImprobability : 0.0) });
   }
   return options;
 }

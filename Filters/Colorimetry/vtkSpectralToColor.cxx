@@ -106,36 +106,28 @@ struct vtkSpectralToColor::Colorimetry
       return conditions.illuminant(self.Illuminant);
     }
     const auto& file = conditions.namesOfFile();
-    if (self.OtherIlluminant.empty() && file.size() == 1)
+    const auto& name = self.OtherIlluminant;
+    if (name.empty() && file.size() == 1)
     {
       return conditions.illuminant(file.front());
     }
-    std::string names;
-    for (const auto& name : file)
+    if (name.empty())
     {
-      names += (names.empty() ? "'" : ", '") + name + "'";
+      throw std::invalid_argument(file.empty()
+          ? "Other Illuminant is empty; type an illuminant, such as D5300K for daylight of 5300 K "
+            "or BB3200K for a blackbody of 3200 K, choose the file of a lamp as Illuminant File, "
+            "or choose one from the list Illuminant"
+          : self.IlluminantFile + ": the file holds " + std::to_string(file.size()) +
+            " illuminants, " + msi::quotedNames(file) +
+            "; expected the name of one; type it as Other Illuminant");
     }
-    if (self.OtherIlluminant.empty() && file.empty())
+    if (!file.empty() && std::find(file.begin(), file.end(), name) == file.end())
     {
-      throw std::invalid_argument(
-        "Other Illuminant is empty; type an illuminant, such as D5300K for daylight of 5300 K or "
-        "BB3200K for a blackbody of 3200 K, choose the file of a lamp as Illuminant File, or "
-        "choose "
-        "one from the list Illuminant");
-    }
-    if (self.OtherIlluminant.empty())
-    {
-      throw std::invalid_argument(self.IlluminantFile + ": the file holds " +
-        std::to_string(file.size()) + " illuminants, " + names +
-        "; expected the name of one; type it as Other Illuminant");
-    }
-    if (!file.empty() && std::find(file.begin(), file.end(), self.OtherIlluminant) == file.end())
-    {
-      throw std::invalid_argument("Other Illuminant is '" + self.OtherIlluminant +
-        "', but Illuminant File is " + self.IlluminantFile + " with " + names +
+      throw std::invalid_argument("Other Illuminant is '" + name + "', but Illuminant File is " +
+        self.IlluminantFile + " with " + msi::quotedNames(file) +
         "; expected one of these names, or one of the two fields empty");
     }
-    return conditions.illuminant(self.OtherIlluminant);
+    return conditions.illuminant(name);
   }
 
   static void requireDefined(const msi::ColorQuantity& quantity, const msi::Illuminant& illuminant,

@@ -53,6 +53,16 @@ std::string withNames(const std::string& list, const std::string& more)
   return result;
 }
 
+std::string quotedNames(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (const auto& name : names)
+  {
+    text += (text.empty() ? "'" : ", '") + name + "'";
+  }
+  return text;
+}
+
 std::vector<ErrorName> errorNames(
   const std::vector<std::string>& illuminants, const std::vector<std::string>& colorMetrics)
 {

@@ -15,6 +15,9 @@ std::vector<std::string> namesIn(const std::string& list);
 // The list with more names, which commas separate and which may hold spaces.
 std::string withNames(const std::string& list, const std::string& more);
 
+// 'a', 'b', 'c'
+std::string quotedNames(const std::vector<std::string>& names);
+
 // What an error is called: a metric of spectra ("rms", "gfc") or of colors ("dE00"), with the illuminant of the latter.
 struct ErrorName
 {

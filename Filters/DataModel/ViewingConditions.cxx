@@ -1,6 +1,7 @@
 #include "ViewingConditions.h"
 
 #include "CurveTable.h"
+#include "NameList.h"
 #include "SampleColumns.h"
 
 #include "Kernels/Spectra/Counted.h"
@@ -163,7 +164,7 @@ ViewingConditions::ViewingConditions(vtkTable* illuminants, vtkTable* observer,
   }
   for (auto& curve : curvesOfFile(files.illuminants))
   {
-    if (isOwn(curve.name))
+    if (findOwn(curve.name))
     {
       throw std::invalid_argument(files.illuminants + ": the illuminant '" + curve.name +
         "' is also in the illuminants' table; expected different names; rename the file or the "
@@ -174,10 +175,11 @@ ViewingConditions::ViewingConditions(vtkTable* illuminants, vtkTable* observer,
   }
 }
 
-bool ViewingConditions::isOwn(const std::string& name) const
+const Illuminant* ViewingConditions::findOwn(const std::string& name) const
 {
-  return std::any_of(
+  const auto found = std::find_if(
     Own.begin(), Own.end(), [&name](const Illuminant& own) { return own.name() == name; });
+  return found == Own.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> ViewingConditions::withFile(std::vector<std::string> names) const
@@ -194,11 +196,9 @@ std::vector<std::string> ViewingConditions::withFile(std::vector<std::string> na
 
 Illuminant ViewingConditions::illuminant(const std::string& name) const
 {
-  const auto found = std::find_if(
-    Own.begin(), Own.end(), [&name](const Illuminant& own) { return own.name() == name; });
-  if (found != Own.end())
+  if (const Illuminant* own = findOwn(name))
   {
-    return *found;
+    return *own;
   }
   try
   {
@@ -206,12 +206,13 @@ Illuminant ViewingConditions::illuminant(const std::string& name) const
   }
   catch (const std::invalid_argument& error)
   {
-    std::string message = error.what();
+    std::vector<std::string> names;
     for (const Illuminant& own : Own)
     {
-      message += (&own == &Own.front() ? "; illuminants of your own are '" : "', '") + own.name();
+      names.push_back(own.name());
     }
-    throw std::invalid_argument(message + (Own.empty() ? "" : "'"));
+    throw std::invalid_argument(error.what() +
+      (names.empty() ? std::string() : "; illuminants of your own are " + quotedNames(names)));
   }
 }
 

@@ -42,7 +42,7 @@ public:
   Illuminant illuminant(const std::string& name) const;
 
 private:
-  bool isOwn(const std::string& name) const;
+  const Illuminant* findOwn(const std::string& name) const; // null where there is none
 
   std::vector<Illuminant> Own;
   std::vector<std::string> NamesOfFile;

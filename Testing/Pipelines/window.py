@@ -184,9 +184,16 @@ class Window:
         self.wait(f"the panel of {proxy}", lambda s: len(s["sources"]) == before + 1 and s["panel"])
         return self.state()["panel"]
 
+    def log_text(self):
+        return (self.folder / "paraview.log").read_text(encoding="utf-8", errors="replace")
+
+    def pass_over_faults(self):
+        """Those so far were to be."""
+        self.faults_end = len(self.log_text())
+
     def errors(self):
         """Of the steps that are no fault."""
-        text = (self.folder / "paraview.log").read_text(encoding="utf-8", errors="replace")[self.faults_end:]
+        text = self.log_text()[self.faults_end:]
         return [line for line in text.splitlines() if "ERR|" in line or "Traceback" in line or "WARN|" in line]
 
 
@@ -205,7 +212,8 @@ def one_message(window):
     state = window.wait("the message closed", lambda s: not s["messages"])
     if state["sources"] or state["output"]:
         raise Failed(f"raw counts leave {state['sources']} and the messages {state['output']}")
-    window.clicks, window.faults_end = 0, len((window.folder / "paraview.log").read_text(encoding="utf-8", errors="replace"))
+    window.clicks = 0
+    window.pass_over_faults()
 
 
 def ask_main_job(window, scene, light=None):
@@ -378,12 +386,17 @@ def pictures(state):
     return sorted(str(view["arrays"]) for view in state["views"].values())
 
 
-def ask_file(window, path):
-    """File > Open, up to the panel of the file's reader."""
+def type_into_open(window, path):
+    """File > Open, up to Enter."""
     window.key("ctrl+o")
     window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
     window.type(path)
     window.key("Return")
+
+
+def ask_file(window, path):
+    """File > Open, up to the panel of the file's reader."""
+    type_into_open(window, path)
     # A question that is answered by itself may be seen for a moment.
     name = re.sub(r"\d+(?=nm\.tif$)", "*", path.name)  # a channel comes with the others
     state = window.wait(f"the reader of {name}", lambda s: any(key.startswith(name) for key in s["sources"]) and not s["dialogs"])
@@ -427,23 +440,12 @@ def refused_folder(window):
     """A folder that no reader knows: ParaView's own readers of folders would end the program."""
     (window.folder / "no image" / "inside").mkdir(parents=True)
     before = window.state()["sources"]
-    for pause in (1.0, 4.0, 12.0):  # the dialog empties its field when it has entered a folder, which takes long on a busy machine
-        window.key("ctrl+o")
-        window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
-        window.type(f"{window.folder / 'no image'}/")
-        window.key("Return")
-        time.sleep(pause)
-        window.type("inside")
-        window.key("Tab")  # closes the proposals
-        window.click(window.state()["buttons"]["OK"])
-        try:
-            said = window.wait("the refusal", lambda s: s["messages"], PATIENCE / 3)["messages"]
-            break
-        except Failed:
-            if pause == 12.0:
-                raise
-            window.key("Escape", "Escape")
-            window.wait("the dialog closed", lambda s: not s["dialogs"])
+    type_into_open(window, f"{window.folder / 'no image'}/")
+    window.wait("the folder entered", lambda s: s["typed"] == "")
+    window.type("inside")
+    window.key("Tab")  # closes the proposals
+    window.click(window.state()["buttons"]["OK"])
+    said = window.wait("the refusal", lambda s: s["messages"])["messages"]
     window.picture("refused")
     window.key("Return")
     state = window.wait("the refusal closed", lambda s: not s["dialogs"])
@@ -456,14 +458,11 @@ def unknown_file(window):
     itself when that is told."""
     path = window.folder / "unknown.kind"
     path.write_bytes(bytes(range(256)) * 20)
-    window.key("ctrl+o")
-    window.wait("the dialog of File > Open", lambda s: any("Open File" in title for title in s["dialogs"]))
-    window.type(path)
-    window.key("Return")
+    type_into_open(window, path)
     window.wait("the question which reader", lambda s: any("Open Data With" in title for title in s["dialogs"]), WORK)
     window.key("Escape")
     window.wait("the question closed", lambda s: not s["dialogs"])
-    window.faults_end = len((window.folder / "paraview.log").read_text(encoding="utf-8", errors="replace"))
+    window.pass_over_faults()
 
 
 def failed_filter(window):
@@ -475,7 +474,7 @@ def failed_filter(window):
     state = window.wait("the input in view", lambda s: len(s["output"]) == 1 and s["shown"] == ["channel_*nm.tif"])
     if "connect a white image" not in state["output"][0]:
         raise Failed(f"Flat Field Correction alone says {state['output']}")
-    window.faults_end = len((window.folder / "paraview.log").read_text(encoding="utf-8", errors="replace"))
+    window.pass_over_faults()
     window.click(window.wait("the panel", lambda s: "White" in s["panel"])["panel"]["White"]["middle"])
     time.sleep(0.5)
     window.key("Down", "Return")

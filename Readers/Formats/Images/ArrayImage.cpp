@@ -38,14 +38,20 @@ std::vector<std::size_t> longAxes(const NamedArray& array)
   return axes;
 }
 
+// A cube, or one band.
+bool mayBeImage(const NamedArray& array)
+{
+  const std::size_t axes = longAxes(array).size();
+  return axes == 2 || axes == 3;
+}
+
 // Where several arrays have three axes, that with one as long as the wavelengths.
 std::size_t chooseArray(const ArrayFile& file, const std::string& variable, std::size_t wavelengths)
 {
   if (!variable.empty())
   {
     const std::size_t index = file.require(variable);
-    const std::size_t axes = longAxes(file.arrays()[index]).size();
-    if (axes < 2 || axes > 3)
+    if (!mayBeImage(file.arrays()[index]))
     {
       throw FormatError(file.path(),
         "'" + variable + "' is " + file.shapeText(file.arrays()[index]),
@@ -277,8 +283,7 @@ std::vector<std::string> imageVariables(const std::string& path)
   const auto file = openArrayFile(path);
   for (const NamedArray& array : file ? file->arrays() : std::vector<NamedArray>{})
   {
-    const std::size_t axes = longAxes(array).size();
-    if (!array.isText && axes >= 2 && axes <= 3)
+    if (!array.isText && mayBeImage(array))
     {
       names.push_back(array.name);
     }

@@ -101,6 +101,7 @@ struct CurveOfImage
   enum Number : std::size_t
   {
     Square,
+    Anchored,
     Exponent,
     Compression
   };
@@ -122,21 +123,25 @@ struct CurveOfImage
     }
     const double divisor = 1.0 + numbers[Compression] * power;
     const double bent = power / divisor;
-    const double outer = (1.0 + 2.0 * numbers[Square] * bent) / (divisor * divisor);
+    const double square = numbers[Square] + numbers[Anchored];
+    const double linear = 1.0 - numbers[Anchored];
+    const double inner = linear + 2.0 * square * bent;
+    const double outer = inner / (divisor * divisor);
     if (by != nullptr)
     {
       by[Square] = bent * bent;
+      by[Anchored] = bent * bent - bent;
       by[Exponent] = outer * byExponent;
-      by[Compression] = -bent * bent * (1.0 + 2.0 * numbers[Square] * bent);
+      by[Compression] = -bent * bent * inner;
     }
-    signal = bent + numbers[Square] * bent * bent;
+    signal = bent * (linear + square * bent);
     return outer * slope;
   }
 
   static const ImageStep& step()
   {
-    static const ImageStep made{ ImageStage::Detector, { { 0.0, ImageAxis::Level }, { 1.0 }, {} },
-      bend };
+    static const ImageStep made{ ImageStage::Detector,
+      { { 0.0, ImageAxis::Level }, {}, { 1.0 }, {} }, bend };
     return made;
   }
 };
@@ -168,6 +173,7 @@ Effect detectorNonlinearity()
         {}, FormTrait::BesideLine } },
     "exposure series of one patch", EffectTrait::None,
     { { "quadratic", { imageTerm(CurveOfImage::Square, square) } },
+      { "anchored", { imageTerm(CurveOfImage::Anchored, square) } },
       { "gamma", { imageTerm(CurveOfImage::Exponent, exponent) } },
       { "compressive", { imageTerm(CurveOfImage::Compression, compression) } } } };
   effect.makeBlock = makeBlockOperator<DetectorNonlinearity>;

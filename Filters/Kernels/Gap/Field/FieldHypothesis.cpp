@@ -11,7 +11,8 @@ namespace msi
 
 namespace
 {
-constexpr int Iterations = 4;
+constexpr int Iterations = 6;
+constexpr double Rising = 1.001;   // of the energy, by the prior alone
 constexpr double SmallStep = 0.02; // typical sizes
 }
 
@@ -27,22 +28,24 @@ FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, con
   const AskedSteps asked = stepsOf(set);
   FieldModel model = start;
   FieldHypothesis best;
+  double least = 0.0;
   for (int iteration = 0; iteration < Iterations; ++iteration)
   {
     const auto statistics =
       std::make_shared<FieldStatistics>(fieldStatistics(data, model, &weights, loop, asked));
-    FieldFit fit = FieldFitter(data, *statistics).fit(set);
-    const double step = fit.step;
-    const FieldModel next = fit.next;
-    if (!best.statistics || fit.energy < best.fit.energy || step < SmallStep)
+    const FieldFitter fitter(data, *statistics);
+    if (best.statistics && !(fitter.energy() < least * Rising))
     {
-      best = { set, statistics, std::move(fit) };
+      model.goHalfwayTo(best.statistics->model); // the step was too long
+      continue;
     }
-    if (step < SmallStep)
+    least = fitter.energy();
+    best = { set, statistics, fitter.fit(set) };
+    if (best.fit.step < SmallStep)
     {
       break;
     }
-    model = next;
+    model = best.fit.next;
   }
   return best;
 }

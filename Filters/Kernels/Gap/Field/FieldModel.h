@@ -83,6 +83,8 @@ struct FieldModel
   bool isNeutral(ImageParameter parameter) const;
   bool isNeutral(const PlacedStep& step) const; // but for numbers that change nothing alone
 
+  void goHalfwayTo(const FieldModel& other) { Values = 0.5 * (Values + other.Values); }
+
   // The steps of these stages that change something or are asked for. They refer to the model.
   ChannelSteps steps(
     ImageStage first, ImageStage last, Eigen::Index channel, const AskedSteps& asked = {}) const;

@@ -40,6 +40,16 @@ TEST(FieldGap, GlareGoesWithTheMeanOfTheScene)
   expectParameter(report, "veiling_glare", "fraction", 0.04, 0.001);
 }
 
+// A curve that leaves black and white as they are is one effect, not a curve and an exposure.
+TEST(FieldGap, CurveThatKeepsWhite)
+{
+  const TestScene scene(46);
+  const TestPair pair = changed(scene, 56,
+    [](double u, int, int, int, double) { return std::log1p(0.4 * u) / std::log1p(0.4); });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "detector_nonlinearity", "level");
+}
+
 TEST(FieldGap, OffsetsOfChannelsMayBeGlare)
 {
   const TestScene scene(4);

@@ -13,7 +13,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.join(os.environ["MULTISPECTRAL_ROOT"], "Plugin", "Scripts"))
 sys.path.insert(0, os.path.join(os.environ["MULTISPECTRAL_ROOT"], "Plugin", "Desktop"))
-from multispectral_desktop import messages, profile_chart  # noqa: E402
+from multispectral_desktop import captions, messages, pixel, profile_chart  # noqa: E402
 from support import pipeline  # noqa: E402
 
 root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
@@ -74,6 +74,37 @@ def one_channel_and_photograph():
             photo.UpdatePipeline()
     check(f"a photograph warns by {said.warnings}", len(said.warnings) == 1 and "ordinary color picture" in said.warnings[0])
     check("a photograph is shown in other colors", (picture(photo) == colors[::-1].reshape(-1, 3)).all())
+
+
+def pixel_of_two_scenes(chart):
+    """A pixel is compared with its own scene's patches, whichever scene was opened last; what is said of it follows what changes."""
+    fit, place, found = pipeline.create("ReflectanceCalibration", Input=chart), (21.0, 160.0), []
+    for _ in range(2):
+        scene = pipeline.create("SceneReader", FileName=str(images))
+        estimate = pipeline.create("ReflectanceEstimation", Input=scene[0], ReflectanceTransform=fit[0])
+        patches = pipeline.create("PatchReferenceImage", Input=scene[1], PatchTable=scene[2])
+        pipeline.update(estimate, patches)
+        found.append((estimate, patches))
+    for estimate, patches in found:
+        known = pixel._companions(estimate)[1]
+        check("a pixel is compared with another scene's patches", known is not None and known.SMProxy is patches.SMProxy)
+        check("a pixel of a patch is not measured", pixel._of_point(estimate, 0, place).measured is not None)
+    estimate, patches = found[0]
+    errors = pipeline.create("CIEDE2000Evaluator", Input=estimate, Reference=patches)
+    pipeline.update(errors)
+    before, caption = pixel._of_point(estimate, 0, place), captions.of(errors, "dE00 D65")
+    check(f"the caption is {caption}, the errors of the pixel {before.errors}", before.errors.keys() == {"dE00 D65", "dE00 F2"} and
+          caption == "Errors: mean \u0394E00 3.36 (D65)")
+    fit.Method = "Ridge"
+    pipeline.update(estimate)
+    check("errors of an earlier estimate are told of the new one", pixel.again(before).errors == {} and
+          pixel.again(before).values != before.values)
+    pipeline.update(errors)
+    check("the caption tells of an earlier map", pixel.again(before).errors.keys() == before.errors.keys() and
+          captions.of(errors, "dE00 D65") != caption and captions.of(errors, "dE00 F2").endswith(" (F2)"))
+    errors.Observer = "CIE 1964 10 degree"
+    pipeline.update(errors)
+    check("the caption does not name the observer", captions.of(errors, "dE00 D65").endswith(" (D65, 10\u00b0)"))
 
 
 def main():
@@ -188,6 +219,7 @@ def main():
     check(f"a cube is shown as {display.Representation}", display.Representation == "Surface")
     check_colors(display, "Reflectance", 1)
     one_channel_and_photograph()
+    pixel_of_two_scenes(chart)
 
     # A folder without a white reference says why its colors are off.
     for folder, wanted in ((images, False), (images / "white", True)):

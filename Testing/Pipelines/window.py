@@ -277,6 +277,34 @@ def spectra(window):
             f"({pin['column']}, {pin['row']}) measured: {pin['measured']}" for pin in pins))
 
 
+def select(window, name, property_of_panel):
+    """A source; returns the middle of the field of one of its properties."""
+    (window.folder / "select").write_text(json.dumps(name), encoding="utf-8")
+    window.wait(f"the panel of {name}", lambda s: property_of_panel in s["panel"] and not (window.folder / "select").exists())
+    window.settle()
+    return window.state()["panel"][property_of_panel]["middle"]
+
+
+def what_follows(window):
+    """Without the correction, the kept spectra, their errors and the caption of the map are those of the chart alone."""
+    before = window.state()["pins"]
+    window.click(select(window, "demo-fabric: corrected, fit", "Method"))
+    time.sleep(0.5)
+    window.key("Home", "Return")
+    window.wait("another method", lambda s: s["panel"].get("Method", {}).get("text") == "Direct" and "Apply" in s["named"])
+    apply(window)
+    window.wait("two equal captions", lambda s: len(texts := [
+        text for view in s["views"].values() for text in view["texts"] if "mean" in text]) == 2 and len(set(texts)) == 1)
+    pins = window.wait("spectra of the new image", lambda s: s["pins"] and s["pins"][0]["values"] != before[0]["values"])["pins"]
+    if any(old["name"] == pin["name"] and old["errors"] and old["errors"] == pin["errors"] for old, pin in zip(before, pins)) or \
+            len(pins) != len(before):
+        raise Failed("errors of spectra stay when their image has changed")
+    window.click(select(window, "demo-fabric: errors, chart alone", "Metrics"))
+    left, top, _, _ = window.state()["frames"][2]
+    window.click([left + 10, top + 10])
+    window.wait("no bands of a map of errors", lambda s: not s["bands"])
+
+
 def region_and_files(window):
     """The mean of a rectangle that is dragged; the kept spectra as files; a band and back to the colors."""
     state = window.state()
@@ -560,19 +588,46 @@ def panels(window):
         raise Failed(f"the illuminants are {box}")
 
 
-def reset(window):
-    """Edit > Reset Session takes the spectra of what is deleted along."""
-    if not window.state()["pins"]:
-        raise Failed("there are no spectra that could stay")
-    window.key("ctrl+r")
-    window.wait("the question", lambda s: "Delete All?" in s["dialogs"])
+def file_dialog(window, entry, path):
+    (window.folder / "trigger-file").write_text(json.dumps(entry), encoding="utf-8")
+    window.wait(f"the dialog of {entry}", lambda s: any(f"{entry} File" in title for title in s["dialogs"]))
+    window.type(path)
     window.key("Return")
-    window.wait("no spectra", lambda s: not s["sources"] and not s["pins"] and not s["live"])
+
+
+def reset(window):
+    """Edit > Reset Session takes the spectra of what is deleted along; a state file brings the views back as they were."""
+    def views(state):
+        return sorted((str(view["arrays"]), str(view["texts"])) for view in state["views"].values())
+
+    before = window.state()
+    if not before["pins"]:
+        raise Failed("there are no spectra that could stay")
+    file_dialog(window, "Save State", window.folder / "all.pvsm")
+    window.wait("the state file", lambda s: not s["dialogs"])
+    for load in (True, False):
+        window.key("ctrl+r")
+        window.wait("the question", lambda s: "Delete All?" in s["dialogs"])
+        window.key("Return")
+        window.wait("no spectra", lambda s: not s["sources"] and not s["pins"] and not s["live"])
+        if load:
+            file_dialog(window, "Load State", window.folder / "all.pvsm")
+            window.wait("the options", lambda s: "Load State Options" in s["dialogs"])
+            window.key("Return")
+            # ParaView reads keys while it reads a state; it has done when it shows a layout.
+            window.wait("the state file read", lambda s: s["sources"] == before["sources"] and s["frames"], WORK)
+            window.settle()
+            window.settle()  # the window looks twice a second at what is new
+            if views(window.state()) != views(before):
+                raise Failed(f"a state file becomes {views(window.state())}, it was {views(before)}")
+            window.picture("state file")
 
 
 def open_channels(window):
+    """Channels without a scene: the view says whose colors those are."""
     ask_file(window, SCENE / "channel_400nm.tif")
     apply(window)
+    window.wait("the remark on raw channels", lambda s: len(s["remarks"]) == 1 and "as stored" in s["remarks"][0])
 
 
 def page_names_what_is_there(window):
@@ -661,8 +716,8 @@ def main():
     elif "server" in sys.argv[2:3]:
         fault = in_window(folder, (one_message, main_job, spectra), sys.argv[3:])
     else:
-        fault = in_window(folder, (one_message, main_job, spectra, cancelled, region_and_files, help_page, menus, refused_folder, open_files,
-                                   several_at_once, panels, own_lamp, chart, page_names_what_is_there, reset, open_channels, failed_filter,
+        fault = in_window(folder, (one_message, main_job, spectra, cancelled, region_and_files, help_page, what_follows, menus, refused_folder,
+                                   open_files, several_at_once, panels, own_lamp, chart, page_names_what_is_there, reset, open_channels, failed_filter,
                                    scene_without_white, unknown_file))
     print(fault or "the window does as a user expects")
     sys.exit(1 if fault else 0)

@@ -92,6 +92,22 @@ def _trigger_entry():
                         QtCore.QTimer.singleShot(0, action.trigger)
 
 
+def _trigger_file():
+    """On the test's word: an entry of the menu File."""
+    told = _told("trigger-file")
+    main = next((w for w in QtWidgets.QApplication.instance().topLevelWidgets() if isinstance(w, QtWidgets.QMainWindow)), None)
+    for title in main.menuBar().actions() if told else ():
+        if title.text().replace("&", "") == "File":
+            QtCore.QTimer.singleShot(0, next(a for a in title.menu().actions() if _plain(a.text()) == told).trigger)
+
+
+def _select():
+    """On the test's word: a source, as a click in the Pipeline Browser does it."""
+    told = _told("select")
+    if told is not None:
+        simple.SetActiveSource(simple.FindSource(told))
+
+
 def _panel(main):
     """What the panel Properties asks of the selected source: name, middle of the field, and what stands in it or is offered."""
     found = {}
@@ -237,6 +253,7 @@ def _state():
         "charts": kinds.count("XYChartView"),
         "tables": kinds.count("SpreadSheetView"),
         "band": panel.band_text.text(),
+        "bands": panel.band.isEnabled(),
         "panel": _panel(main),
         "corners": _corners(placement, frames[0]) if frames else [],
         "status": placement.status.text() if placement is not None else "",
@@ -270,6 +287,8 @@ def _write():
     _load_chart()
     _show_panel()
     _trigger_entry()
+    _select()
+    _trigger_file()
     state = _state()
     if state is not None:
         path = os.environ["MULTISPECTRAL_WINDOW_STATE"]

@@ -22,6 +22,15 @@ def listen(window):
         button.clicked.connect(lambda: QtCore.QTimer.singleShot(0, _try_again))
 
 
+def keep():
+    """After a state file was read: its views are as a user has left them."""
+    for view in simple.GetViews():
+        for display in getattr(view, "Representations", ()):
+            memory.of(display).update(seen=True, adapted=True)
+            if getattr(display, "Input", None) is not None:
+                first("shown", display.Input, display.Input.Port)
+
+
 def adapt(window):
     """Twice a second: what Python has to make of ParaView's objects, it makes once."""
     content = [(view, list(view.Representations)) for view in simple.GetViews() if hasattr(view, "Representations")]

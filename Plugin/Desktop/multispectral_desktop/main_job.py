@@ -1,12 +1,11 @@
 """The main job as a pipeline: a scene, estimated with the chart alone and corrected by swatches, before and after side by
 side, with maps of the error where the scene has measured patches."""
 
-import math
 import os
 
-from paraview import servermanager, simple
+from paraview import simple
 
-from . import lights, messages
+from . import captions, lights, messages
 from .messages import Missing
 
 METHOD = "Transfer"
@@ -112,18 +111,6 @@ def _row(name, scene, title, fit, second, reference, conditions):
     return title, estimate, errors
 
 
-def mean_difference(errors, light):
-    """The mean CIEDE2000 under a light over all pixels with a reference, or None."""
-    summary = servermanager.Fetch(errors, idx=1)
-    names = [summary.GetColumnName(i) for i in range(summary.GetNumberOfColumns())]
-    metric, illuminant, mean = (summary.GetColumnByName(n) if n in names else None
-                                for n in ("metric", "illuminant", "mean"))
-    for row in range(summary.GetNumberOfRows()):
-        if metric.GetValue(row) == "dE00" and illuminant.GetValue(row) == light:
-            return mean.GetValue(row)
-    return None
-
-
 def _show(name, rows, conditions):
     """A view for each estimate and, below it, for its errors; all turn and zoom together."""
     layout = simple.CreateLayout(name=f"{name}: result")
@@ -139,12 +126,10 @@ def _show(name, rows, conditions):
             cells = [top, top + 1]
         views.append(_view(layout, cells[0], estimate, title[0].upper() + title[1:]))
         if errors is not None:
-            mean = mean_difference(errors, conditions.light)
-            text = "Errors" + ("" if mean is None or math.isnan(mean) else f": mean \u0394E00 {mean:.2f} ({conditions.text})")
-            view = _view(layout, cells[1], errors, text)
+            view = _view(layout, cells[1], errors, captions.of(errors, f"dE00 {conditions.light}"))
             display = simple.GetDisplayProperties(errors, view)
             display.SetScalarBarVisibility(view, True)
-            _place_legend(errors, view)
+            captions.place_legend(display.ColorArrayName[1], view)
             views.append(view)
     for other in views[1:]:
         simple.AddCameraLink(views[0], other, f"{name}: camera {other.SMProxy.GetGlobalIDAsString()}")
@@ -153,15 +138,6 @@ def _show(name, rows, conditions):
     for view in views:
         simple.Render(view)
     return views
-
-
-def _place_legend(errors, view):
-    """Beside the image, as high as the view allows."""
-    array = simple.GetDisplayProperties(errors, view).ColorArrayName[1]
-    legend = simple.GetScalarBar(simple.GetColorTransferFunction(array), view)
-    legend.WindowLocation = "Any Location"
-    legend.Position = [0.84, 0.1]
-    legend.ScalarBarLength = 0.7
 
 
 def _view(layout, cell, source, title):

@@ -4,11 +4,13 @@ about stays in its view."""
 from paraview import simple
 from vtkmodules.vtkRenderingCore import vtkTextActor
 
-from . import memory, view_choice
+from . import memory, pixel, view_choice
 
 _SECONDS = 30
-# The beginning of a note, and what is written over the picture as long as it is shown.
-_REMARKS = {"no white reference": "Colors of the camera and its lamp: the scene has no white frames"}
+_NO_WHITE = "no white reference"  # the beginning of a note
+# By reader: what is written over the picture of its responses.
+_REMARKS = {"SceneReader": "Colors of the camera and its lamp: the scene has no white frames",
+            "SpectralImageReader": "Colors of the responses as stored: not divided by a white reference"}
 _FONT_SIZE = 16
 
 
@@ -33,14 +35,25 @@ def _has_data(source):
 
 def remarks(view):
     """On what it shows."""
-    said = []
-    for display in view.Representations:
-        source = getattr(display, "Input", None)
-        notes = source.SMProxy.GetProperty("Notes") if source is not None and getattr(display, "Visibility", 0) else None
-        if notes is not None and source.Port == 0 and view_choice.is_ours(source):
-            text = str(notes.GetElement(0) or "")
-            said += [remark for start, remark in _REMARKS.items() if text.startswith(start)]
-    return "\n".join(dict.fromkeys(said))
+    displays = [display for display in view.Representations if getattr(display, "Visibility", 0) and getattr(display, "Input", None)]
+    return "\n".join(dict.fromkeys(filter(None, map(_remark, displays))))
+
+
+def _remark(display):
+    """On the colors of responses that nothing divides by a white reference; None where there is nothing to say."""
+    source = display.Input
+    if list(getattr(display, "ColorArrayName", ()))[1:] != ["sRGB"] or "Responses" not in pixel.arrays(source, source.Port):
+        return None
+    while source.SMProxy.GetXMLName() not in _REMARKS:
+        before = getattr(source, "Input", None)
+        if source.SMProxy.GetXMLName() == "FlatFieldCorrection" or not hasattr(before, "SMProxy"):
+            return None
+        source = before
+    fields = source.GetDataInformation(source.Port).DataInformation.GetFieldDataInformation()
+    notes = str(source.SMProxy.GetProperty("Notes").GetElement(0) or "")
+    is_raw = notes.startswith(_NO_WHITE) if source.SMProxy.GetXMLName() == "SceneReader" else \
+        fields.GetArrayInformation("Wavelength") is not None  # which a picture for the screen does not have
+    return _REMARKS[source.SMProxy.GetXMLName()] if is_raw and "Responses" in pixel.arrays(source, source.Port) else None
 
 
 def _write_remarks(view):

@@ -4,9 +4,9 @@ import csv
 import os
 
 from PyQt5 import QtCore, QtGui, QtWidgets
-from paraview import simple
+from paraview import servermanager, simple
 
-from . import first_views, notes, pixel, profile_chart
+from . import captions, changes, first_views, notes, pixel, profile_chart
 from .chart import Curve, SpectrumChart
 from .marks import Marks, rectangle
 
@@ -14,6 +14,7 @@ from .marks import Marks, rectangle
 _COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#999999", "#F0E442")
 _LIVE = "#000000"
 _MOST_MOTION = 3  # pixels between press and release that still are a click
+_PICTURES = ("sRGB", "Display P3", "False Color")
 _TITLES = {"Reflectance": "Reflectance factor", "Responses": "Response (1 = white)"}
 
 
@@ -22,6 +23,8 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         super().__init__("Spectrum", parent)
         self.setObjectName("MultispectralSpectrum")
         self.live, self.pins, self._watched, self._pressed = None, [], {}, None
+        self._kept = []  # of which pins are those that their images have at present
+        self._changes = changes.Changes()
         self._marks, self._marked, self._marked_grids = Marks(), {}, {}
         self.chart = SpectrumChart()
         self.text = QtWidgets.QLabel("Move the cursor over an image; click to keep a spectrum.")
@@ -68,6 +71,9 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         self._timer.start(500)
 
     def _watch_views(self):
+        manager = servermanager.ProxyManager().SMProxyManager
+        if manager is None or manager.GetInLoadXMLState():  # a state file that is half read
+            return
         for view in simple.GetRenderViews():
             interactor = view.GetInteractor()
             if interactor is not None and self._watched.get(view.SMProxy.GetGlobalID()) is not interactor:
@@ -79,13 +85,25 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         profile_chart.adapt_views()
         first_views.adapt(self.window())
         notes.adapt(self.window())
+        changed = self._changes.any()
+        if changed:
+            self._read_again()
+        captions.adapt(changed)
         self._forget_deleted()
         if self.pins and self._marked and self._grids() != self._marked_grids:
             self._mark(next(iter(self._marked.values())))
 
+    def _read_again(self):
+        """The kept spectra, of images that may have changed."""
+        self.pins = [pin for pin in map(pixel.again, self._kept) if pin is not None]
+        self.live = self.live and pixel.again(self.live)
+        self._draw()
+
     def _forget_deleted(self):
         """The spectra of a source that is there no more, as after Edit > Reset Session."""
         known = {source.SMProxy.GetGlobalID() for source in simple.GetSources().values()}
+        pixel.forget(known)
+        self._kept = [pin for pin in self._kept if pin.source in known]
         kept = [pin for pin in self.pins if pin.source in known]
         live = self.live if self.live is None or self.live.source in known else None
         if len(kept) < len(self.pins) or live is not self.live:
@@ -132,6 +150,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             found = pixel.region(view, pressed, position)
         if found is not None:
             self.pins.append(found)
+            self._kept.append(found)
             self.live = None
             self._draw()
         if found is not None or self.region.isChecked():
@@ -161,7 +180,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         return _COLORS[i % len(_COLORS)]
 
     def clear(self):
-        self.pins = []
+        self.pins, self._kept = [], []
         self._draw()
         for view in list(self._marked.values())[:1]:
             self._mark(view)
@@ -188,6 +207,8 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         if view is None or not hasattr(view, "Representations"):
             return None
         for source, port, display in pixel.visible_images(view):
+            if list(getattr(display, "ColorArrayName", ()))[1:] not in [[known] for known in (*pixel.SPECTRA, *_PICTURES)]:
+                continue  # a map of errors, whose legend would stay beside the band; a spreadsheet
             information = source.GetDataInformation(port).DataInformation.GetPointDataInformation()
             for name in pixel.SPECTRA:
                 array = information.GetArrayInformation(name)
@@ -203,7 +224,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             return
         source, port, display, name, count = shown
         number = 0
-        if list(getattr(display, "ColorArrayName", [])) == ["POINTS", name]:  # which a spreadsheet does not have
+        if display.ColorArrayName[1] == name:
             colors = simple.GetColorTransferFunction(name)
             number = colors.VectorComponent + 1 if colors.VectorMode == "Component" else 0
         if (self.band.maximum(), self.band.value()) != (count, number):
@@ -229,7 +250,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             return
         source, port, display, name, _ = shown
         if number == 0:
-            pictures = [picture for picture in ("sRGB", "False Color") if source.GetDataInformation(port).DataInformation
+            pictures = [picture for picture in _PICTURES if source.GetDataInformation(port).DataInformation
                         .GetPointDataInformation().GetArrayInformation(picture) is not None]
             if pictures:
                 simple.ColorBy(display, ("POINTS", pictures[0]))

@@ -9,10 +9,10 @@ SPECTRA = ("Reflectance", "Responses")
 
 # values: the spectrum; deviation: its standard uncertainty, or None; measured: the reference at the pixel, or None;
 # errors: {"dE00 D65": 1.2, ..}; region: None for one pixel, else two opposite corners, of whose pixels values are the mean and
-# deviation is the standard deviation; count: the pixels of the region; source: its number among ParaView's; grid: of the image, as
-# grid_of says
-Pixel = collections.namedtuple("Pixel", "name column row point kind wavelengths values deviation measured errors source grid region count",
-                               defaults=(None, 1))
+# deviation is the standard deviation; count: the pixels of the region; source: its number among ParaView's, and port; grid: of the
+# image, as grid_of says
+Pixel = collections.namedtuple(
+    "Pixel", "name column row point kind wavelengths values deviation measured errors source port grid region count", defaults=(None, 1))
 
 
 def world_point(view, x, y):
@@ -74,16 +74,6 @@ def wavelengths_of(data, array):
     return None
 
 
-def _companions(data):
-    """The references and error maps of the pipeline that have the pixels of this image."""
-    for (name, _), source in simple.GetSources().items():
-        xml = source.SMProxy.GetXMLName()
-        if xml in ("PatchReferenceImage", "CIEDE2000Evaluator"):
-            other = data_of(source, 0)
-            if other is not None and other.GetDimensions() == data.GetDimensions():
-                yield source, xml, other
-
-
 def _judges(evaluator, source):
     """Whether an evaluator judges the output of this source, itself or by filters that keep the spectra."""
     seen = evaluator.Input
@@ -94,6 +84,33 @@ def _judges(evaluator, source):
     return evaluator.SMProxy is source.SMProxy
 
 
+def _root(source):
+    """The number of the reader that an image comes from."""
+    while hasattr(getattr(source, "Input", None), "SMProxy"):
+        source = source.Input
+    return source.SMProxy.GetGlobalID()
+
+
+def _of_kind(xml):
+    return [source for source in simple.GetSources().values() if source.SMProxy.GetXMLName() == xml]
+
+
+def _companions(source):
+    """The error maps of an image, and its measured reflectance or None: what an error map compares it with, else the patches of its
+    own scene. Another scene's image may have the same size."""
+    evaluators = [evaluator for evaluator in _of_kind("CIEDE2000Evaluator") if _judges(evaluator, source)]
+    references = [evaluator.Reference for evaluator in evaluators if evaluator.Reference is not None]
+    references += [patches for patches in _of_kind("PatchReferenceImage") if _root(patches) == _root(source)]
+    return evaluators, next(iter(references), None)
+
+
+def _is_up_to_date(source, data):
+    """Not where what it judges has changed since, and no view has asked for it."""
+    executive = source.SMProxy.GetClientSideObject().GetExecutive()
+    executive.UpdatePipelineMTime()
+    return executive.GetPipelineMTime() <= data.GetUpdateTime()
+
+
 def at(view, x, y):
     """The pixel of the first spectral image under a place of the view, or None."""
     point = world_point(view, x, y)
@@ -102,11 +119,23 @@ def at(view, x, y):
     for source, port, _ in visible_images(view):
         if source.SMProxy.GetXMLName() == "CIEDE2000Evaluator" and getattr(source, "Input", None) is not None:
             source, port = source.Input, source.Input.Port  # over an error map: the spectrum that it judges
-        data = data_of(source, port)
-        found = _local(source, port, data, point) if data is not None else _remote(source, port, point)
+        found = _of_point(source, port, point)
         if found is not None:
             return found
     return None
+
+
+def _of_point(source, port, point):
+    data = data_of(source, port)
+    return _local(source, port, data, point) if data is not None else _remote(source, port, point)
+
+
+def again(pin):
+    """The same place as its image is now, or None where it has no spectrum there any more."""
+    source = next((source for source in simple.GetSources().values() if source.SMProxy.GetGlobalID() == pin.source), None)
+    if source is None:
+        return None
+    return _of_point(source, pin.port, pin.point) if pin.region is None else _mean(source, pin.port, pin.region)
 
 
 def _local(source, port, data, point):
@@ -120,21 +149,25 @@ def _local(source, port, data, point):
     deviation = list(uncertainty.GetTuple(number)) if uncertainty is not None and \
         uncertainty.GetNumberOfComponents() == len(values) else None
     measured, errors = None, {}
-    for other, xml, content in _companions(data):
+    evaluators, reference = _companions(source)
+    content = data_of(reference, reference.Port) if reference is not None else None
+    known = content.GetPointData().GetArray("Reflectance") if content is not None else None
+    if known is not None and array.GetName() == "Reflectance" and content.GetDimensions() == data.GetDimensions():
+        spectrum = list(known.GetTuple(number))
+        if any(math.isfinite(value) for value in spectrum):
+            measured = wavelengths_of(content, known) or wavelengths, spectrum
+    for evaluator in evaluators:
+        content = data_of(evaluator, 0)
+        if content is None or content.GetDimensions() != data.GetDimensions() or not _is_up_to_date(evaluator, content):
+            continue
         arrays = content.GetPointData()
-        if xml == "PatchReferenceImage" and array.GetName() == "Reflectance":
-            reference = arrays.GetArray("Reflectance")
-            spectrum = list(reference.GetTuple(number)) if reference is not None else []
-            if any(math.isfinite(value) for value in spectrum):
-                measured = wavelengths_of(content, reference) or wavelengths, spectrum
-        elif xml == "CIEDE2000Evaluator" and _judges(other, source):
-            for i in range(arrays.GetNumberOfArrays()):
-                name = arrays.GetArrayName(i)
-                if name.startswith("dE") and math.isfinite(arrays.GetArray(i).GetTuple1(number)):
-                    errors[name] = arrays.GetArray(i).GetTuple1(number)
+        for i in range(arrays.GetNumberOfArrays()):
+            name = arrays.GetArrayName(i)
+            if name.startswith("dE") and math.isfinite(arrays.GetArray(i).GetTuple1(number)):
+                errors.setdefault(name, arrays.GetArray(i).GetTuple1(number))
     top = data.GetExtent()[3] - row  # as images count rows: from the top
     return Pixel(name_of(source), column, top, point, array.GetName(), wavelengths, values, deviation, measured, errors,
-                 source.SMProxy.GetGlobalID(), grid_of(source, port))
+                 source.SMProxy.GetGlobalID(), port, grid_of(source, port))
 
 
 def region(view, start, end):
@@ -163,16 +196,15 @@ def _mean(source, port, ends):
     if profile is None:
         return None
     measured = None
-    for (_, _), other in simple.GetSources().items():
-        if other.SMProxy.GetXMLName() == "PatchReferenceImage" and profile.kind == "Reflectance" and \
-                grid(other, 0)[0] == extent:
-            reference = _profile(other, 0, Points=[], Region=[low[0], high[0], low[1], high[1]])
-            if reference is not None and reference.count == profile.count:  # all of its pixels were measured
-                measured = reference.across, reference.values
+    _, reference = _companions(source)
+    if reference is not None and profile.kind == "Reflectance" and grid(reference, reference.Port)[0] == extent:
+        known = _profile(reference, reference.Port, "Reflectance", Points=[], Region=[low[0], high[0], low[1], high[1]])
+        if known is not None and known.count == profile.count:  # all of its pixels were measured
+            measured = known.across, known.values
     place = [(low[i] + high[i]) / 2 for i in range(2)]
     column, up = (math.floor((place[i] - origin[i]) / spacing[i] + 0.5) for i in range(2))
     return Pixel(name_of(source), column, extent[3] - up, place, profile.kind, profile.across, profile.values,
-                 profile.deviation, measured, {}, source.SMProxy.GetGlobalID(), grid_of(source, port), (low, high), profile.count)
+                 profile.deviation, measured, {}, source.SMProxy.GetGlobalID(), port, grid_of(source, port), (low, high), profile.count)
 
 
 def grid(source, port):
@@ -197,10 +229,18 @@ def visible_grids(view):
 
 
 _profiles = {}
+
+
+def forget(known):
+    """The profiles of all sources but these: they would keep a deleted source alive, and take an undone one for it."""
+    for key in [key for key in _profiles if key[0] not in known]:
+        del _profiles[key]
+
+
 _Profile = collections.namedtuple("_Profile", "kind across values deviation count")
 
 
-def _arrays(source, port):
+def arrays(source, port):
     """The names of the point arrays behind a port."""
     arrays = source.GetDataInformation(port).DataInformation.GetPointDataInformation()
     return [arrays.GetArrayInformation(i).GetName() for i in range(arrays.GetNumberOfArrays())]
@@ -208,7 +248,7 @@ def _arrays(source, port):
 
 def _profile(source, port, array=None, **places):
     """What the filter Spectral Profile gives of a place: one row per wavelength; None where there is no spectrum."""
-    kind = array or next((name for name in SPECTRA if name in _arrays(source, port)), None)
+    kind = array or next((name for name in SPECTRA if name in arrays(source, port)), None)
     if kind is None:
         return None
     key = source.SMProxy.GetGlobalID(), port, kind
@@ -244,21 +284,20 @@ def _remote(source, port, point):
     profile = _profile(source, port, **here)
     if profile is None:
         return None
-    deviation = _profile(source, port, "Uncertainty", **here) if "Uncertainty" in _arrays(source, port) else None
+    deviation = _profile(source, port, "Uncertainty", **here) if "Uncertainty" in arrays(source, port) else None
     measured, errors = None, {}
-    for (_, _), other in simple.GetSources().items():
-        xml = other.SMProxy.GetXMLName()
-        if xml == "PatchReferenceImage" and profile.kind == "Reflectance" and grid(other, 0)[0] == extent:
-            reference = _profile(other, 0, **here)
-            if reference is not None and any(map(math.isfinite, reference.values)):
-                measured = reference.across, reference.values
-        elif xml == "CIEDE2000Evaluator" and _judges(other, source):
-            for name in _arrays(other, 0):
-                error = _profile(other, 0, name, **here) if name.startswith("dE") else None
-                if error is not None and math.isfinite(error.values[0]):
-                    errors[name] = error.values[0]
+    evaluators, reference = _companions(source)
+    if reference is not None and profile.kind == "Reflectance" and grid(reference, reference.Port)[0] == extent:
+        known = _profile(reference, reference.Port, "Reflectance", **here)
+        if known is not None and any(map(math.isfinite, known.values)):
+            measured = known.across, known.values
+    for evaluator in evaluators:
+        for name in arrays(evaluator, 0):
+            error = _profile(evaluator, 0, name, **here) if name.startswith("dE") and name not in errors else None
+            if error is not None and math.isfinite(error.values[0]):
+                errors[name] = error.values[0]
     return Pixel(name_of(source), column, extent[3] - row, list(point), profile.kind, profile.across, profile.values,
-                 deviation and deviation.values, measured, errors, source.SMProxy.GetGlobalID(), grid_of(source, port))
+                 deviation and deviation.values, measured, errors, source.SMProxy.GetGlobalID(), port, grid_of(source, port))
 
 
 def name_of(source):

@@ -3,17 +3,31 @@
 from PyQt5 import QtCore, QtWidgets
 from paraview import servermanager, simple
 
-from . import stack_choice, view_choice
+from . import first_views, stack_choice, view_choice
 
 
-def install(window):
-    """Returns what must be kept."""
-    def act():
-        apply = window.findChild(QtWidgets.QAbstractButton, "Accept")
+class Watch(QtCore.QObject):
+    """File > Connect brings a session with a selection of its own."""
+
+    def __init__(self, window):
+        super().__init__(window)
+        self._window, self._manager, self._model = window, None, None
+        self._look()
+        self._timer = QtCore.QTimer(self)
+        self._timer.timeout.connect(self._look)
+        self._timer.start(1000)
+
+    def _look(self):
+        manager = servermanager.ProxyManager()
+        if manager.SMProxyManager is self._manager or manager.SMProxyManager is None:
+            return
+        self._manager, self._model = manager.SMProxyManager, manager.GetSelectionModel("ActiveSources")
+        self._model.AddObserver("CurrentChangedEvent", lambda *_: QtCore.QTimer.singleShot(0, self._act))
+        self._manager.AddObserver("LoadStateEvent", lambda *_: first_views.keep())
+
+    def _act(self):
+        apply = self._window.findChild(QtWidgets.QAbstractButton, "Accept")
         is_new = apply is not None and apply.isEnabled()  # one that a script or a state file has made does not wait for Apply
         if is_new:
             stack_choice.adapt(simple.GetActiveSource())
         view_choice.adapt(is_new)
-    model = servermanager.ProxyManager().GetSelectionModel("ActiveSources")
-    model.AddObserver("CurrentChangedEvent", lambda *_: QtCore.QTimer.singleShot(0, act))
-    return model

@@ -33,7 +33,7 @@ def install(window):
     window.addToolBar(toolbar)
     first_views.listen(window)
     return (panel, toolbar, help.install(window), message_window.install(window), reader_choice.ReaderChoice(window),
-            menus.Order(window), selection.install(window))
+            menus.Order(window), selection.Watch(window))
 
 
 def _guarded(window, act):

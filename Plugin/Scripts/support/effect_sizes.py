@@ -26,12 +26,12 @@ def _brighter(value):
 def _channels(values, unit):
     """Of one number for each channel."""
     low, high = min(values), max(values)
-    return f"by {_plain(low, '+')} to {_plain(high, '+')} {unit} from channel to channel"
+    return f"by {_plain(low, '+')} to {_plain(high, '+')} {unit} (by channel)"
 
 
 def _relative(values, words):
     """A change of all channels in words, or the range of those of each."""
-    return words(values[0]) if len(values) == 1 else _channels([100 * value for value in values], "%")
+    return words(values[0]) if len(values) == 1 else f"{words(min(values))} to {words(max(values))} (by channel)"
 
 
 def _of(values, words):
@@ -111,8 +111,8 @@ WORDS = {
     "interreflection": lambda f, p: (f"{_percent(p['probability'][0])} of the light strikes the surface once "
                                      f"{'more' if p['probability'][0] >= 0 else 'less'} than in the spectrophotometer"),
     "medium_gain": lambda f, p: _brighter(p["gain"][0] - 1.0),
-    "filter_bandwidth": lambda f, p: _relative([v - 1.0 for v in p["factor"]],
-                                               lambda v: f"passbands {_percent(v)} {'wider' if v >= 0 else 'narrower'}"),
+    "filter_bandwidth": lambda f, p: "passbands " + _relative([v - 1.0 for v in p["factor"]],
+                                                              lambda v: f"{_percent(v)} {'wider' if v >= 0 else 'narrower'}"),
     "filter_shift": lambda f, p: (f"{abs(p['shift'][0]):.3g} nm towards {'longer' if p['shift'][0] >= 0 else 'shorter'} wavelengths"
                                   if len(p["shift"]) == 1 else _channels(p["shift"], "nm")),
     "filter_leak": lambda f, p: _of(p["fraction"], "{} of the light through the passband leaks beside it"),

@@ -1,0 +1,23 @@
+"""Whether the data of the pipeline have changed: what is written beside a picture must not tell of an earlier one."""
+
+from paraview import simple
+
+
+class Changes:
+    def __init__(self):
+        self._watched, self._changed = {}, False
+
+    def any(self):
+        """Since it was asked last."""
+        for source in simple.GetSources().values():
+            proxy = source.SMProxy
+            # A source that was deleted and brought back by Undo has the same number.
+            if self._watched.get(proxy.GetGlobalID()) is not proxy:
+                self._watched[proxy.GetGlobalID()] = proxy
+                proxy.AddObserver("UpdateDataEvent", self._tell)
+                self._changed = True
+        changed, self._changed = self._changed, False
+        return changed
+
+    def _tell(self, *_):
+        self._changed = True

@@ -134,15 +134,6 @@ std::vector<int> samplesOfReadings(vtkTable* responses, const std::vector<std::s
   return samples;
 }
 
-std::optional<ReadingNoise> readingNoise(const std::optional<CameraNoise>& noise)
-{
-  if (!noise)
-  {
-    return std::nullopt;
-  }
-  return ReadingNoise{ noise->read, noise->shot };
-}
-
 void requireNoEffects(const CameraTable& camera)
 {
   const auto text = camera.effects.find_first_not_of(" \t\n[]");
@@ -228,7 +219,7 @@ NamedGapCapture gapCaptureOf(vtkTable* cameraTable, vtkTable* samples, vtkTable*
     scene.y.resize(0);
   }
   return { { camera.camera, *reflectance.axis.wavelengths, std::move(scene),
-             std::move(readings.values), std::move(sampleOf), readingNoise(camera.noise) },
+             std::move(readings.values), std::move(sampleOf), camera.noise },
     std::move(names) };
 }
 

@@ -2,6 +2,7 @@
 
 #include "Kernels/Camera/CameraNoiseKernel.h"
 #include "Kernels/Numerics/CounterRandom.h"
+#include "Kernels/Numerics/NonNegativeLeastSquares.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
@@ -44,6 +45,17 @@ void requireNotNegative(const char* name, double value)
 double noiseVariance(const CameraNoise& noise, double response) noexcept
 {
   return noise.read * noise.read + noise.shot * noise.shot * (response > 0.0 ? response : 0.0);
+}
+
+CameraNoise fittedNoise(
+  const Eigen::ArrayXd& response, const Eigen::ArrayXd& variance, const Eigen::ArrayXd& weight)
+{
+  Eigen::MatrixXd terms(response.size(), 2);
+  terms << Eigen::VectorXd::Ones(response.size()), response.max(0.0).matrix();
+  const Eigen::MatrixXd weighted = weight.matrix().asDiagonal() * terms;
+  const Eigen::VectorXd squares =
+    solveNonNegative(terms.transpose() * weighted, weighted.transpose() * variance.matrix()).x;
+  return { std::sqrt(squares[0]), std::sqrt(squares[1]) };
 }
 
 // Value number i of the chunk is number firstIndex + i of its streams.

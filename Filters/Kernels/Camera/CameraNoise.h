@@ -24,6 +24,10 @@ struct CameraNoise
 
 double noiseVariance(const CameraNoise& noise, double response) noexcept;
 
+// Read and shot noise whose variances come nearest to those seen at some responses: weighted least squares of the variances.
+CameraNoise fittedNoise(
+  const Eigen::ArrayXd& response, const Eigen::ArrayXd& variance, const Eigen::ArrayXd& weight);
+
 // Adds noise in place.
 //
 // Shapes: response K x P. Column j stands for the pixel or sample firstColumn + j, so that any split

@@ -185,4 +185,23 @@ TEST(CameraNoise, RefusesNegativeNoiseAndNamesIt)
   }
 }
 
+TEST(CameraNoise, IsFittedToTheVariancesAtSomeResponses)
+{
+  const Eigen::ArrayXd response = Eigen::ArrayXd::LinSpaced(9, 0.0, 0.8);
+  const Eigen::ArrayXd weight = Eigen::ArrayXd::LinSpaced(9, 1.0, 5.0);
+  const msi::CameraNoise both = msi::fittedNoise(response, 4e-6 + 1e-4 * response, weight);
+  EXPECT_NEAR(both.read, 0.002, 1e-9);
+  EXPECT_NEAR(both.shot, 0.01, 1e-9);
+  // Variances that fall with the response: their mean.
+  const Eigen::ArrayXd falling = 4e-6 - 1e-6 * response;
+  const msi::CameraNoise read = msi::fittedNoise(response, falling, Eigen::ArrayXd::Ones(9));
+  EXPECT_NEAR(read.read, std::sqrt(falling.mean()), 1e-12);
+  EXPECT_EQ(read.shot, 0.0);
+  // A line that would meet the axis below zero: one through the origin.
+  const msi::CameraNoise shot =
+    msi::fittedNoise(response, 1e-4 * response.square(), Eigen::ArrayXd::Ones(9));
+  EXPECT_EQ(shot.read, 0.0);
+  EXPECT_NEAR(shot.shot, 0.01 * std::sqrt(response.cube().sum() / response.square().sum()), 1e-12);
+}
+
 }

@@ -1,6 +1,6 @@
 #include "Kernels/Gap/GapProfile.h"
 
-#include "Kernels/Gap/GapCells.h"
+#include "Kernels/Gap/GapAxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,12 +75,6 @@ void addParts(std::vector<SampleGroup>& groups, const char* kind, const Eigen::V
   }
 }
 
-int third(double value, double low, double high)
-{
-  const double at = high > low ? FieldParts * (value - low) / (high - low) : 0.0;
-  return std::min(static_cast<int>(at), FieldParts - 1);
-}
-
 void addField(std::vector<SampleGroup>& groups, const Eigen::VectorXd& x, const Eigen::VectorXd& y)
 {
   const std::vector<Eigen::Index> byX = sorted(x);
@@ -97,29 +91,21 @@ void addField(std::vector<SampleGroup>& groups, const Eigen::VectorXd& x, const 
   {
     return;
   }
-  std::vector<SampleGroup> cells;
-  for (int row = 0; row < FieldParts; ++row)
-  {
-    for (int column = 0; column < FieldParts; ++column)
-    {
-      const double width = (right - left) / FieldParts;
-      const double height = (high - low) / FieldParts;
-      cells.push_back({ "position",
-        rangeText("x", left + column * width, left + (column + 1) * width) + ", " +
-          rangeText("y", low + row * height, low + (row + 1) * height),
-        {} });
-    }
-  }
+  std::map<std::pair<double, double>, SampleGroup> cells; // by row and column
   for (Eigen::Index i = 0; i < x.size(); ++i)
   {
     if (std::isfinite(x[i]) && std::isfinite(y[i]))
     {
-      const int cell = FieldParts * third(y[i], low, high) + third(x[i], left, right);
-      cells[static_cast<std::size_t>(cell)].samples.push_back(i);
+      const GapPart column(x[i], left, right, FieldParts);
+      const GapPart row(y[i], low, high, FieldParts);
+      const SampleGroup empty{ "position", column.text("x") + ", " + row.text("y"), {} };
+      cells.try_emplace({ row.low, column.low }, empty).first->second.samples.push_back(i);
     }
   }
-  std::copy_if(cells.begin(), cells.end(), std::back_inserter(groups),
-    [](const SampleGroup& cell) { return !cell.samples.empty(); });
+  for (auto& [place, cell] : cells)
+  {
+    groups.push_back(std::move(cell));
+  }
 }
 
 double median(std::vector<double> values)

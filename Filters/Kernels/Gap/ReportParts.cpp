@@ -3,7 +3,6 @@
 #include "Kernels/Camera/CameraEffect.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -52,33 +51,6 @@ void believe(GapReport& report, std::vector<std::pair<std::string, double>> prob
   {
     report.verdict = GapVerdict::PartlyExplained;
   }
-}
-
-std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes)
-{
-  axes.erase(std::remove_if(axes.begin(), axes.end(),
-               [](const GapAxis& axis) { return !(axis.share > Decision::FormPart); }),
-    axes.end());
-  std::stable_sort(
-    axes.begin(), axes.end(), [](const GapAxis& a, const GapAxis& b) { return a.share > b.share; });
-  return axes;
-}
-
-std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxis>& axes)
-{
-  static const std::map<std::string, std::string> plain = { { "channel", "wavelength" },
-    { "spectral_shape", "wavelength" }, { "edges", "neighbour" }, { "region", "position" },
-    { "rows", "position" }, { "columns", "position" } };
-  std::map<std::string, double> parts;
-  for (const GapAxis& axis : axes)
-  {
-    const auto known = plain.find(axis.axis);
-    parts[known == plain.end() ? axis.axis : known->second] += axis.share;
-  }
-  std::vector<std::pair<std::string, double>> sorted(parts.begin(), parts.end());
-  std::stable_sort(
-    sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  return sorted;
 }
 
 void requireKnown(const std::vector<std::string>& without)
@@ -175,26 +147,6 @@ void recommendCapture(GapReport& report)
     separates.insert(separates.end(), ambiguous->equivalent.begin(), ambiguous->equivalent.end());
     report.nextCaptures = { { separatingCapture(ambiguous->effect), separates, {}, {} } };
   }
-}
-
-std::string whereIs(const std::vector<GapAxis>& axes)
-{
-  if (axes.empty())
-  {
-    return "no axis stands out";
-  }
-  const GapAxis& axis = axes.front();
-  if (axis.worst.empty())
-  {
-    return axis.axis;
-  }
-  const std::string& cell = axis.worst.front().cell;
-  return cell.rfind(axis.axis, 0) == 0 ? cell : axis.axis + " " + cell;
-}
-
-GapRemainder remainderOf(double share, const std::vector<GapAxis>& axes)
-{
-  return { share, whereIs(axes), dependences(axes) };
 }
 
 void leaveAsItWas(GapFigures& figures)

@@ -4,12 +4,23 @@
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/GapReport.h"
 
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace msi
 {
+
+// The parts in a row, numbers with so many digits.
+template <typename... Parts>
+std::string textOf(int digits, const Parts&... parts)
+{
+  std::ostringstream text;
+  text.precision(digits);
+  (text << ... << parts);
+  return text.str();
+}
 
 // Errors: std::invalid_argument for the name of an effect that may not be blamed and that the library does not have.
 void requireKnown(const std::vector<std::string>& without);
@@ -29,12 +40,6 @@ void creditCauses(
 // Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.
 void believe(GapReport& report, std::vector<std::pair<std::string, double>> probabilities);
 
-// The axes with a share, the largest first.
-std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes);
-
-// What a rest depends on, from its shares over the axes: GapRemainder::dependsOn.
-std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxis>& axes);
-
 // Says which effects the corrected simulator has although they are not believed to be causes.
 void noteUncredited(std::vector<std::string>& notes, const std::vector<std::string>& effects);
 
@@ -49,12 +54,6 @@ std::vector<std::string> cheapestOf(std::vector<Rival> rivals);
 
 // The capture that the library names for the first cause with equivalents.
 void recommendCapture(GapReport& report);
-
-// The first axis and its worst cell.
-std::string whereIs(const std::vector<GapAxis>& axes);
-
-// What is left unexplained, by the axes along which it lies.
-GapRemainder remainderOf(double share, const std::vector<GapAxis>& axes);
 
 // Figures of a gap that nothing corrects.
 void leaveAsItWas(GapFigures& figures);

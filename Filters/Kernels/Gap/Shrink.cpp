@@ -1,7 +1,9 @@
 #include "Kernels/Gap/Shrink.h"
 
 #include "Kernels/Numerics/CounterRandom.h"
+
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -25,29 +27,23 @@ double shrinkOf(double before, double after, double noise) noexcept
   return std::fmax(1.0 - std::sqrt(std::fmax(after - noise, 0.0) / excess), -1.0);
 }
 
+double sumOf(const std::vector<double>& values) noexcept
+{
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
 double shrinkOf(const GroupEnergies& energies)
 {
-  const auto sum = [](const std::vector<double>& values)
-  { return std::accumulate(values.begin(), values.end(), 0.0); };
-  return shrinkOf(sum(energies.before), sum(energies.after), sum(energies.noise));
+  return shrinkOf(sumOf(energies.before), sumOf(energies.after), sumOf(energies.noise));
 }
 
 GapFigures figuresOf(const GroupEnergies& energies, double elements, std::uint64_t seed)
 {
-  double before = 0.0;
-  double after = 0.0;
-  double noise = 0.0;
-  for (std::size_t i = 0; i < energies.before.size(); ++i)
-  {
-    before += energies.before[i];
-    after += energies.after[i];
-    noise += energies.noise[i];
-  }
   GapFigures figures;
-  figures.rmsBefore = std::sqrt(before / elements);
-  figures.rmsAfter = std::sqrt(after / elements);
-  figures.noiseFloor = std::sqrt(noise / elements);
-  figures.shrink = shrinkOf(before, after, noise);
+  figures.rmsBefore = std::sqrt(sumOf(energies.before) / elements);
+  figures.rmsAfter = std::sqrt(sumOf(energies.after) / elements);
+  figures.noiseFloor = std::sqrt(sumOf(energies.noise) / elements);
+  figures.shrink = shrinkOf(energies);
   figures.shrinkInterval = shrinkInterval(energies, seed);
   figures.shrinkInterval[0] = std::fmin(figures.shrinkInterval[0], figures.shrink);
   figures.shrinkInterval[1] = std::fmax(figures.shrinkInterval[1], figures.shrink);
@@ -103,11 +99,7 @@ std::vector<double> shapleyValues(const std::vector<double>& value, std::size_t 
     {
       if ((subset >> p & 1U) == 0)
       {
-        std::size_t others = 0;
-        for (std::size_t bit = 0; bit < players; ++bit)
-        {
-          others += subset >> bit & 1U;
-        }
+        const std::size_t others = std::bitset<64>(subset).count();
         sum += weight(others) * (value[subset | std::size_t(1) << p] - value[subset]);
       }
     }

@@ -17,6 +17,8 @@ struct GroupEnergies
   std::vector<double> before, after, noise;
 };
 
+double sumOf(const std::vector<double>& values) noexcept;
+
 // 1 - sqrt(excess energy left / excess energy before), within [-1, 1]; 0 where there was none.
 double shrinkOf(double before, double after, double noise) noexcept;
 double shrinkOf(const GroupEnergies& energies);

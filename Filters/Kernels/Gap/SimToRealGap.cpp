@@ -2,8 +2,9 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
+#include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/Samples/GapAxes.h"
+#include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
 #include "Kernels/Gap/Samples/GapEvidence.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
@@ -30,59 +31,28 @@ class Progress
 {
 public:
   Progress(const GapOptions& options, double steps)
-    : Report(options.progress)
-    , Exclusive(options.exclusive)
+    : Options(options)
     , Steps(steps)
   {
   }
-  bool stopped() const
+  // So many steps are done. Returns whether to stop.
+  bool operator()(const char* what, double steps = 0.0)
   {
-    bool now = false;
-    alone([&] { now = Stopped; });
-    return now;
+    bool stop = false;
+    const auto tell = [&]
+    {
+      Done += steps;
+      Stopped =
+        Stopped || (Options.progress && !Options.progress(std::fmin(Done / Steps, 1.0), what));
+      stop = Stopped;
+    };
+    Options.exclusive ? Options.exclusive(tell) : tell();
+    return stop;
   }
-  void step(const char* what, double count = 1.0)
-  {
-    alone(
-      [&]
-      {
-        Done += count;
-        ask(what);
-      });
-  }
-  bool ask()
-  {
-    bool now = false;
-    alone(
-      [&]
-      {
-        ask("searching for effects");
-        now = Stopped;
-      });
-    return now;
-  }
+  bool stopped() const noexcept { return Stopped; } // while no other thread runs a job
 
 private:
-  void alone(const std::function<void()>& body) const
-  {
-    if (Exclusive)
-    {
-      Exclusive(body);
-    }
-    else
-    {
-      body();
-    }
-  }
-  void ask(const char* what)
-  {
-    if (Report && !Stopped && !Report(std::fmin(Done / Steps, 1.0), what))
-    {
-      Stopped = true;
-    }
-  }
-  std::function<bool(double, const char*)> Report;
-  std::function<void(const std::function<void()>&)> Exclusive;
+  const GapOptions& Options;
   bool Stopped = false;
   double Done = 0.0;
   double Steps;
@@ -129,7 +99,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const SampleObservation observation(data, data.usable, choices, options.seed);
   FoundSets found;
   Eigen::MatrixXd after = before;
-  const std::function<bool()> stop = [&progress] { return progress.ask(); };
+  const std::function<bool()> stop = [&progress] { return progress("searching for effects"); };
   const auto job = [&](int number)
   {
     SetSearchLimits limits;
@@ -137,13 +107,14 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     if (number == 0)
     {
       found = searchSets(observation, limits, stop);
-      progress.step("effects found", 2.0);
+      progress("effects found", 2.0);
       return;
     }
-    std::vector<char> training = data.usable;
-    for (std::size_t i = 0; i < training.size(); ++i)
+    SampleList training;
+    SampleList heldOut;
+    for (const Eigen::Index i : data.usable)
     {
-      training[i] = training[i] != 0 && data.fold[i] != number - 1 ? 1 : 0;
+      (data.fold[static_cast<std::size_t>(i)] == number - 1 ? heldOut : training).push_back(i);
     }
     const SampleObservation fold(
       data, training, choices, options.seed + static_cast<std::uint64_t>(number));
@@ -152,14 +123,8 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     limits.exchange = false;
     const FoundSets result = searchSets(fold, limits, stop);
     const Eigen::MatrixXd left = leftOfHeldOut(data, fold.whole(*result.best), training);
-    for (Eigen::Index i = 0; i < data.samples(); ++i)
-    {
-      if (data.fold[static_cast<std::size_t>(i)] == number - 1)
-      {
-        after.col(i) = left.col(i);
-      }
-    }
-    progress.step("checked on samples left out");
+    after(Eigen::all, heldOut) = left(Eigen::all, heldOut);
+    progress("checked on samples left out", 1.0);
   };
   if (options.parallelFor)
   {
@@ -196,13 +161,13 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     data.variance.colwise() +=
       reflectanceNoise * reflectanceNoise * reflectanceErrorGain(data.camera);
   }
-  report.gap =
-    figuresOf(energiesOf(data, before, after), static_cast<double>(data.elements), options.seed);
+  report.gap = figuresOf(
+    energiesOf(data, data.usable, before, after), static_cast<double>(data.elements), options.seed);
   const AxisShares where = shareOverAxes(data, before, true);
   report.where = where.axes;
   report.changePoints =
     OrderBreaks::significant(observation.fitter(), data.simulated, MostChangePoints);
-  progress.step("axes shared");
+  progress("axes shared", 1.0);
 
   const bool causes = !found.best->set.empty();
   const double shrink = report.gap.shrink;
@@ -227,7 +192,9 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   }
   else if ((predictable(data, before, where) &&
              where.predictable > negligibleEnergy(data, after, integration)) ||
-    beyondNoise(report.gap, doubted))
+    // A gap that nothing predicts, but that neither noise nor sums over wavelength make.
+    report.gap.rmsBefore >
+      Decision::BeyondNoise * std::hypot(report.gap.noiseFloor, std::sqrt(doubted)))
   {
     report.verdict = GapVerdict::Unexplained;
     report.unexplained = remainderOf(1.0, where.axes);
@@ -258,7 +225,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const double nan = std::numeric_limits<double>::quiet_NaN();
   report.gapBefore = (data.count.array() > 0.0).select(before, nan);
   report.gapAfter = (data.count.array() > 0.0).select(after, nan);
-  progress.step("done", 10.0);
+  progress("done", 10.0);
   return report;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Kernels/Camera/CameraModel.h"
+#include "Kernels/Camera/CameraNoise.h"
 #include "Kernels/Camera/SampleScene.h"
 #include "Kernels/Gap/GapReport.h"
 #include "Kernels/Spectra/WavelengthGrid.h"
@@ -18,22 +19,15 @@
 namespace msi
 {
 
-// Variance of one reading = read^2 + shot^2 max(u, 0), relative to white.
-struct ReadingNoise
-{
-  double read = 0.0;
-  double shot = 0.0;
-};
-
 // A capture as numbers.
 struct GapCapture
 {
-  CameraModel camera;                // the simulated camera, K channels
-  WavelengthGrid wavelengths;        // of the samples' reflectance; resampled to the camera's grid
-  SceneSamples samples;              // S samples
-  Eigen::MatrixXd readings;          // K x R, what the real camera answered; NaN: not measured
-  std::vector<int> sampleOf;         // R, the sample of each reading; repeats name a sample again
-  std::optional<ReadingNoise> noise; // empty: the repeats decide
+  CameraModel camera;               // the simulated camera, K channels
+  WavelengthGrid wavelengths;       // of the samples' reflectance; resampled to the camera's grid
+  SceneSamples samples;             // S samples
+  Eigen::MatrixXd readings;         // K x R, what the real camera answered; NaN: not measured
+  std::vector<int> sampleOf;        // R, the sample of each reading; repeats name a sample again
+  std::optional<CameraNoise> noise; // read and shot of a reading; empty: the repeats decide
 };
 
 struct GapOptions

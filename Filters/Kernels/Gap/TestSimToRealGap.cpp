@@ -208,7 +208,7 @@ TEST(SimToRealGap, AnEffectLeftOutIsNotBlamed)
 TEST(SimToRealGap, ScatterBeyondTheNoiseModelIsExcessNoise)
 {
   msi::GapCapture capture = captureOf(rasterSamples(96), {}, 4, 0.002);
-  capture.noise = msi::ReadingNoise{ 0.001, 0.0 };
+  capture.noise = msi::CameraNoise{ 0.001, 0.0 };
   const msi::GapReport report = diagnosisOf(capture);
   ASSERT_EQ(report.causes.size(), 1U);
   EXPECT_EQ(report.causes.front().effect, "excess_noise");

@@ -54,10 +54,10 @@ msi::GapCapture readTable(const std::string& folder)
   {
     sampleOf.push_back(place.at(name));
   }
-  std::optional<msi::ReadingNoise> noise;
+  std::optional<msi::CameraNoise> noise;
   if (capture.description.noise.read && capture.description.noise.shot)
   {
-    noise = msi::ReadingNoise{ *capture.description.noise.read, *capture.description.noise.shot };
+    noise = msi::CameraNoise{ *capture.description.noise.read, *capture.description.noise.shot };
   }
   return { msi::CameraModel(capture.camera.wavelengths, capture.camera.values.transpose(), dark,
              capture.camera.names),

@@ -174,7 +174,7 @@ std::vector<FieldResidual> fieldResiduals(
   const FieldData& data, const FieldModel& model, const FieldLoop& loop)
 {
   const Eigen::Index K = data.channels();
-  const Eigen::ArrayXd glare = sceneMean(data, model);
+  const Eigen::ArrayXd glare = data.cells.mean(model);
   const AskedSteps gain = stepWith(FieldColumn::gain());
   std::vector<FieldResidual> residuals(data.blocks.size() * static_cast<std::size_t>(K));
   loop(static_cast<int>(data.blocks.size()),

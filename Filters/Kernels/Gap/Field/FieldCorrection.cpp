@@ -13,7 +13,7 @@ namespace msi
 FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   : Pair(pair)
   , Model(model)
-  , Glare(sceneMean(pair, model))
+  , Glare(SceneCells(pair).mean(model))
   , Filled(filledScene(pair))
 {
   const auto K = static_cast<Eigen::Index>(pair.channels.size());

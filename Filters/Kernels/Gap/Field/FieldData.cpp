@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Field/FieldData.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
-#include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldScene.h"
 #include "Kernels/Spectra/Reject.h"
 
@@ -49,24 +48,15 @@ std::vector<Region> regionsOf(const ImageExtent& extent)
         (extent.height - height) * j / (Regions - 1), width, height };
       // Where the window is cut the tail is not known.
       ImageWindow interior = whole;
-      if (whole.x > 0)
+      const auto cut = [](int& first, int& size, int all)
       {
-        interior.x += TailReach;
-        interior.width -= TailReach;
-      }
-      if (whole.x + whole.width < extent.width)
-      {
-        interior.width -= TailReach;
-      }
-      if (whole.y > 0)
-      {
-        interior.y += TailReach;
-        interior.height -= TailReach;
-      }
-      if (whole.y + whole.height < extent.height)
-      {
-        interior.height -= TailReach;
-      }
+        const int before = first > 0 ? TailReach : 0;
+        const int behind = first + size < all ? TailReach : 0;
+        first += before;
+        size -= before + behind;
+      };
+      cut(interior.x, interior.width, extent.width);
+      cut(interior.y, interior.height, extent.height);
       if (interior.width > 0 && interior.height > 0)
       {
         regions.push_back({ interior, whole });
@@ -220,7 +210,7 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
     std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
   data.filled = filledScene(pair);
   data.scene = gaps ? data.filled.data() : pair.simulated;
-  data.cells = sceneCells(pair);
+  data.cells = SceneCells(pair);
   data.unit = fieldUnits(pair);
   loop(static_cast<int>(data.blocks.size()),
     [&](int i)
@@ -243,42 +233,25 @@ constexpr std::size_t MostPixels = std::size_t(1) << 20;
 Eigen::ArrayXd fieldUnits(const FieldPair& pair)
 {
   const std::size_t K = pair.channels.size();
-  struct Sums
-  {
-    double n = 0.0, r = 0.0, s = 0.0, rs = 0.0, rr = 0.0, ss = 0.0;
-  };
-  std::vector<Sums> sums(K);
+  std::vector<PairSums> sums(K);
   const std::size_t step = 1 + pair.pixels() / MostPixels;
   for (std::size_t i = 0; i < pair.pixels(); i += step)
   {
     for (std::size_t k = 0; k < K; ++k)
     {
-      const auto real = static_cast<double>(pair.real[i * K + k]);
-      const auto simulated = static_cast<double>(pair.simulated[i * K + k]);
-      if (std::isfinite(real) && std::isfinite(simulated))
-      {
-        Sums& sum = sums[k];
-        sum.n += 1.0;
-        sum.r += real;
-        sum.s += simulated;
-        sum.rs += real * simulated;
-        sum.rr += real * real;
-        sum.ss += simulated * simulated;
-      }
+      sums[k].add(pair.real[i * K + k], pair.simulated[i * K + k]);
     }
   }
   Eigen::ArrayXd ratio(static_cast<Eigen::Index>(K));
   for (std::size_t k = 0; k < K; ++k)
   {
-    const Sums& sum = sums[k];
-    const double n = std::fmax(sum.n, 1.0);
-    const double both = sum.rs - sum.r * sum.s / n;
-    const double simulated = sum.ss - sum.s * sum.s / n;
-    const double real = sum.rr - sum.r * sum.r / n;
+    const PairSums& sum = sums[k];
+    const double both = sum.ofBoth();
     // A straight line where the images go together, else through the origin.
-    const bool line = both > 0.0 && both * both > Correlated * real * simulated;
-    ratio[static_cast<Eigen::Index>(k)] =
-      line ? both / std::fmax(simulated, 1e-30) : sum.rs / std::fmax(sum.ss, 1e-30);
+    const bool line = both > 0.0 && both * both > Correlated * sum.ofReal() * sum.ofSimulated();
+    ratio[static_cast<Eigen::Index>(k)] = line
+      ? both / std::fmax(sum.ofSimulated(), 1e-30)
+      : sum.products / std::fmax(sum.simulatedSquares, 1e-30);
   }
   const auto alike = [](const Eigen::ArrayXd& values)
   { return (values >= 1.0 / OtherUnit).all() && (values <= OtherUnit).all(); };

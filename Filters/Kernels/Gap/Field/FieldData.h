@@ -26,7 +26,7 @@ struct FieldBlock
 {
   ImageWindow window;
   int fold = -1; // 0 .. FieldFolds - 1; -1: a test block that takes no part in choosing and fitting
-  int group = 0; // FieldGroups
+  int group = 0; // dealBlocks
   std::vector<float> real; // pixel after pixel; NaN: not usable
   // Passes 1 .. TailPasses of the broad tail (ScatterTail) for each value; pass after pass.
   std::vector<float> tail;
@@ -52,13 +52,19 @@ Eigen::ArrayXd fieldUnits(const FieldPair& pair);
 
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and
 // that lies a little inside the image. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.
-// Two thirds are for training, in FieldFolds folds, whole groups (FieldGroups) in one of them.
+// Two thirds are for training, in FieldFolds folds, whole groups (dealBlocks) in one of them.
 // The tail needs the surround: images of more than 2 million pixels are looked at in nine windows of at most
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.
 // Errors: std::invalid_argument for an empty image, no channel, or too few usable pixels.
 FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop);
 
-// The mean over the scene of the simulated signal behind gradient and vignetting, K.
-Eigen::ArrayXd sceneMean(const FieldData& data, const FieldModel& model);
+// Draws at most `most` blocks and deals them to folds and test, whole groups at a time: what errs in one block (a material whose
+// color is simulated wrongly) errs in its neighbours, too, and may not vouch for itself.
+// A group is a label or, without labels or where a label covers much, one of about 96 cells of the image.
+void dealBlocks(
+  const FieldPair& pair, std::vector<FieldBlock>& blocks, std::size_t most, std::uint64_t seed);
+
+// Sums of the blocks' numbers over groups: of the training blocks, or of the test blocks.
+std::vector<double> groupSums(const FieldData& data, const Eigen::VectorXd& ofBlock, bool training);
 
 } // namespace msi

@@ -18,7 +18,6 @@ namespace
 // What a profile counts for beside its strength. Its lines are no parameters: blocks that took no part in it judge it.
 constexpr Eigen::Index ProfileParameters = 3;
 constexpr int RadiusSteps = 48;
-constexpr double LeastSquared = 1e-4; // of a number whose root the library has
 
 std::string withChannel(const std::string& name, const std::string& channel)
 {
@@ -171,19 +170,28 @@ AskedSteps stepsOf(const FieldSet& set)
   return asked;
 }
 
-Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels)
+std::vector<FieldNumber> numbersOf(const FieldSet& set, Eigen::Index channels)
 {
-  Eigen::Index count = 0;
+  std::vector<FieldNumber> numbers;
   for (const FieldChoice* choice : set)
   {
     for (const ImageTerm& term : choice->terms)
     {
-      count += term.perChannel ? channels : 1;
+      for (Eigen::Index k = 0; k < (term.perChannel ? channels : 1); ++k)
+      {
+        numbers.push_back({ choice, &term, term.parameter, term.perChannel ? k : -1, term.lower,
+          term.upper, term.typical });
+      }
     }
-    count += isBanding(*choice) ? 1 : 0; // the period
-    count += isProfile(*choice) ? ProfileParameters * channels : 0;
   }
-  return count;
+  return numbers;
+}
+
+Eigen::Index parameterCount(const FieldChoice& choice, Eigen::Index channels)
+{
+  return static_cast<Eigen::Index>(numbersOf({ &choice }, channels).size()) +
+    (isBanding(choice) ? 1 : 0) + // the period
+    (isProfile(choice) ? ProfileParameters * channels : 0);
 }
 
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,
@@ -207,23 +215,20 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
     next += passes;
     return parameters;
   }
-  for (const ImageTerm& term : choice.terms)
+  for (const FieldNumber& number : numbersOf({ &choice }, K))
   {
-    if (term.name.empty())
+    const ImageTerm& term = *number.term;
+    const Eigen::Index k = std::max<Eigen::Index>(number.channel, 0);
+    const double scale = libraryScale(term, model);
+    double value = scale * model.at(term.parameter, k);
+    double deviation = scale * error[next++];
+    if (term.squared)
     {
-      ++next;
-      continue;
+      value = std::sqrt(std::fmax(value, 0.0));
+      deviation = value > 0.0 ? deviation / (2.0 * value) : std::sqrt(deviation);
     }
-    for (Eigen::Index k = 0; k < (term.perChannel ? K : 1); ++k)
+    if (!term.name.empty())
     {
-      const double scale = libraryScale(term, model);
-      double value = scale * model.at(term.parameter, k);
-      double deviation = scale * error[next++];
-      if (term.squared)
-      {
-        value = std::sqrt(std::fmax(value, 0.0));
-        deviation = value > 0.0 ? deviation / (2.0 * value) : std::sqrt(deviation);
-      }
       parameters.push_back(
         { term.perChannel ? withChannel(term.name, channels[static_cast<std::size_t>(k)])
                           : term.name,
@@ -236,50 +241,20 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
 std::vector<CameraEffect> fieldCorrection(
   const FieldSet& set, const FieldModel& model, const std::vector<std::string>& channels)
 {
-  const auto K = static_cast<Eigen::Index>(channels.size());
   std::vector<CameraEffect> effects;
   for (const FieldChoice* choice : set)
   {
     CameraEffect effect = neutralEffect(choice->effect->name, channels, choice->form);
     const std::vector<EffectParameter> names = effectParameters(effect, channels);
-    const auto put = [&](const std::string& name, double value)
+    const std::size_t numbers =
+      numbersOf({ choice }, static_cast<Eigen::Index>(channels.size())).size();
+    const Eigen::VectorXd exact = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers));
+    Eigen::Index next = 0;
+    for (const GapParameter& found : fieldParameters(*choice, model, 0.0, channels, exact, next))
     {
       for (std::size_t i = 0; i < names.size(); ++i)
       {
-        if (names[i].name == name)
-        {
-          effect.parameters[i] = value;
-        }
-      }
-    };
-    if (isBanding(*choice))
-    {
-      const BandingSines sines = bandingSines(*choice, model);
-      put("period", sines.period);
-      for (Eigen::Index k = 0; k < K; ++k)
-      {
-        const std::string& channel = channels[static_cast<std::size_t>(k)];
-        for (Eigen::Index n = 0; n < sines.amplitude.cols(); ++n)
-        {
-          put(withChannel("amplitude" + harmonicName(n), channel), sines.amplitude(k, n));
-          put(withChannel("start" + harmonicName(n), channel), sines.start(k, n));
-        }
-      }
-    }
-    if (isFree(*choice))
-    {
-      const TailForm form = tailForm(model);
-      put("fraction", form.fraction);
-      put("radius", form.radius);
-    }
-    for (const ImageTerm& term : choice->terms)
-    {
-      for (Eigen::Index k = 0; k < (term.perChannel ? K : 1); ++k)
-      {
-        const double value = libraryScale(term, model) * model.at(term.parameter, k);
-        put(term.perChannel ? withChannel(term.name, channels[static_cast<std::size_t>(k)])
-                            : term.name,
-          term.squared ? (value > LeastSquared ? std::sqrt(value) : 0.0) : value);
+        effect.parameters[i] = names[i].name == found.name ? found.value : effect.parameters[i];
       }
     }
     effects.push_back(std::move(effect));

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -40,12 +41,30 @@ bool isOfRows(const FieldChoice& choice);
 
 using FieldSet = std::vector<const FieldChoice*>;
 
+template <typename Condition>
+bool hasChoice(const FieldSet& set, Condition condition)
+{
+  return std::any_of(
+    set.begin(), set.end(), [&](const FieldChoice* choice) { return condition(*choice); });
+}
+
+// One of the numbers that a set has to fit: terms in order, channels within a term that has a number for each.
+struct FieldNumber
+{
+  const FieldChoice* choice;
+  const ImageTerm* term;
+  ImageParameter parameter;
+  Eigen::Index channel; // -1: common to all
+  double lower, upper, typical;
+};
+std::vector<FieldNumber> numbersOf(const FieldSet& set, Eigen::Index channels);
+
 // Neither the same effect nor parameters in common.
 bool compatible(const FieldSet& set, const FieldChoice& choice);
 AskedSteps stepsOf(const FieldSet& set);
-Eigen::Index parameterCount(const FieldSet& set, Eigen::Index channels);
+Eigen::Index parameterCount(const FieldChoice& choice, Eigen::Index channels);
 
-// error: standard errors of the choice's terms, from `next` on (FieldFitter::standardErrors), which moves on.
+// error: standard errors of the choice's numbers, from `next` on (FieldFitter::standardErrors), which moves on.
 // periodError: of the period of stripes.
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,
   double periodError, const std::vector<std::string>& channels, const Eigen::VectorXd& error,

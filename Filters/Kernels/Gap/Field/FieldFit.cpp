@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldFit.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/GapAxes.h"
 
 #include <Eigen/Cholesky>
 
@@ -14,21 +15,51 @@ namespace msi
 namespace
 {
 constexpr int Rounds = 3;
-constexpr double Held = 1e4; // times the information, of a parameter that is held
+constexpr int Iterations = 6;
+constexpr double Rising = 1.001;   // of the energy, by the prior alone
+constexpr double SmallStep = 0.02; // typical sizes
+constexpr double Held = 1e4;       // times the information, of a parameter that is held
+
+// Of one common to the channels that of the first.
+double valueIn(const FieldModel& model, const FieldNumber& number)
+{
+  return model.at(number.parameter, std::max<Eigen::Index>(number.channel, 0));
 }
 
-// A term with the value that is wanted (prior or hold), channel by channel.
+double precisionBefore(const FieldNumber& number)
+{
+  return std::pow(Decision::FreeSpread * number.typical, -2);
+}
+}
+
+// A number with the value that is wanted, by its prior or because it is held there.
 struct FieldFitter::Bound
 {
-  ImageTerm term;
-  Eigen::ArrayXd wanted;
-  std::vector<char> held;
+  FieldNumber number;
+  double wanted;
+  bool held;
+};
+
+// Of a channel: the numbers that act in it, and what each changes in its columns.
+struct FieldFitter::Design
+{
+  std::vector<Eigen::Index> numbers;
+  Eigen::MatrixXd columns;
+
+  Eigen::MatrixXd information(const Eigen::MatrixXd& normal) const
+  {
+    return columns.transpose() *
+      normal.topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * columns;
+  }
+  Eigen::VectorXd gradient(const Eigen::MatrixXd& normal) const
+  {
+    return columns.transpose() * normal.col(FieldColumn::residual()).head(FieldColumn::residual());
+  }
 };
 
 FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistics)
   : Data(data)
   , Statistics(statistics)
-  , Glare(sceneMean(data, statistics.model))
 {
   const auto K = static_cast<std::size_t>(data.channels());
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count());
@@ -49,10 +80,34 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
   }
 }
 
-FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDetail detail) const
+std::vector<FieldFitter::Design> FieldFitter::designs(
+  const std::vector<FieldNumber>& numbers, const FieldModel& about) const
+{
+  std::vector<Design> designs(Total.size());
+  for (std::size_t k = 0; k < designs.size(); ++k)
+  {
+    const auto channel = static_cast<Eigen::Index>(k);
+    std::vector<Eigen::VectorXd> columns;
+    for (std::size_t n = 0; n < numbers.size(); ++n)
+    {
+      if (numbers[n].channel < 0 || numbers[n].channel == channel)
+      {
+        designs[k].numbers.push_back(static_cast<Eigen::Index>(n));
+        columns.push_back(columnsChanged(numbers[n].parameter, Statistics.model, about, channel));
+      }
+    }
+    designs[k].columns.resize(FieldColumn::residual(), static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+    {
+      designs[k].columns.col(static_cast<Eigen::Index>(c)) = columns[c];
+    }
+  }
+  return designs;
+}
+
+FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
 {
   const FieldModel& model = Statistics.model;
-  const auto K = static_cast<std::size_t>(Data.channels());
   FieldModel about = model;
   for (const auto& [parameter, value] : start)
   {
@@ -61,275 +116,232 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start, FieldDet
       about[parameter].setConstant(value);
     }
   }
-  std::vector<Bound> terms;
-  std::vector<char> known(fieldParameterCount(), 0);
-  const auto add = [&](const ImageTerm& term, bool held)
+  std::vector<FieldNumber> numbers = numbersOf(set, Data.channels());
+  std::vector<Bound> bounds;
+  const auto hold = [&](ImageParameter parameter, double typical, double wanted)
   {
-    const ImageNumber& number = numberOf(term.parameter);
-    const bool free = isShape(term.parameter) || (number.pull == ImagePull::Itself && !held);
-    const double neutral = free ? about.at(term.parameter, 0) : number.neutral;
-    terms.push_back({ term, Eigen::ArrayXd::Constant(Data.channels(), neutral),
-      std::vector<char>(K, held ? 1 : 0) });
-    known[term.parameter] = 1;
-  };
-  for (const FieldChoice* choice : set)
-  {
-    for (const ImageTerm& term : choice->terms)
+    for (Eigen::Index k = 0; k < Data.channels(); ++k)
     {
-      add(term, false);
-      const Eigen::ArrayXd value = model[term.parameter];
-      if (!term.perChannel && (value != value[0]).any())
-      {
-        // Alike in all channels from here on; the common term moves them together.
-        add({ term.parameter, true, 0.0, 0.0, term.typical }, true);
-        terms.back().wanted.setConstant(value.mean());
-      }
+      bounds.push_back({ { nullptr, nullptr, parameter, k, 0.0, 0.0, typical }, wanted, true });
+    }
+  };
+  std::vector<char> known(fieldParameterCount(), 0);
+  for (const FieldNumber& number : numbers)
+  {
+    const ImageNumber& kind = numberOf(number.parameter);
+    const bool stays = isShape(number.parameter) || kind.pull == ImagePull::Itself;
+    bounds.push_back({ number, stays ? about.at(number.parameter, 0) : kind.neutral, false });
+    known[number.parameter] = 1;
+    const Eigen::ArrayXd value = model[number.parameter];
+    if (number.channel < 0 && (value != value[0]).any())
+    {
+      // Alike in all channels from here on; the common number moves them together.
+      hold(number.parameter, number.typical, value.mean());
     }
   }
   for (ImageParameter parameter = 0; parameter < fieldParameterCount(); ++parameter)
   {
     if (known[parameter] == 0 && !isShape(parameter) && !model.isNeutral(parameter))
     {
-      add({ parameter, true, 0.0, 0.0, 1.0 }, true);
+      hold(parameter, 1.0, numberOf(parameter).neutral);
     }
   }
-  FieldFit fit{ set, model, 0.0, Eigen::VectorXd(), 0.0 };
-  std::vector<Eigen::ArrayXd> values;
-  for (int round = 0; round < Rounds; ++round)
+  numbers.clear();
+  for (const Bound& bound : bounds)
   {
-    solve(Total, terms, values, about);
-    bool beyond = false;
-    for (std::size_t t = 0; t < terms.size(); ++t)
+    numbers.push_back(bound.number);
+  }
+  const std::vector<Design> design = designs(numbers, about);
+  Eigen::VectorXd step;
+  bool beyond = true;
+  for (int round = 0; round < Rounds && beyond; ++round)
+  {
+    step = solve(Total, design, bounds);
+    beyond = false;
+    for (std::size_t n = 0; n < bounds.size(); ++n)
     {
-      Bound& bound = terms[t];
-      for (std::size_t k = 0; k < K; ++k)
+      Bound& bound = bounds[n];
+      const double value = valueIn(model, bound.number) + step[static_cast<Eigen::Index>(n)];
+      if (!bound.held && (value < bound.number.lower || value > bound.number.upper))
       {
-        const double value = values[t][static_cast<Eigen::Index>(k)];
-        if (bound.held[k] == 0 && (value < bound.term.lower || value > bound.term.upper))
-        {
-          bound.held[k] = 1;
-          bound.wanted[static_cast<Eigen::Index>(k)] =
-            std::clamp(value, bound.term.lower, bound.term.upper);
-          beyond = true;
-        }
+        bound.held = true;
+        bound.wanted = std::clamp(value, bound.number.lower, bound.number.upper);
+        beyond = true;
       }
     }
-    if (!beyond)
-    {
-      break;
-    }
   }
-  std::vector<char> seen(fieldParameterCount(), 0);
-  for (std::size_t t = 0; t < terms.size(); ++t)
+  FieldFit fit{ model, 0.0, 0.0, {} };
+  for (std::size_t n = 0; n < bounds.size(); ++n)
   {
-    const Bound& bound = terms[t];
-    Eigen::ArrayXd value = values[t];
-    for (std::size_t k = 0; k < K; ++k)
-    {
-      const auto at = static_cast<Eigen::Index>(k);
-      value[at] = bound.held[k] != 0 ? bound.wanted[at] : value[at];
-    }
-    fit.step = std::max(
-      fit.step, (value - model[bound.term.parameter]).abs().maxCoeff() / bound.term.typical);
-    const bool again = seen[bound.term.parameter] != 0;
-    seen[bound.term.parameter] = 1;
-    const Eigen::ArrayXd before = model[bound.term.parameter];
-    const Eigen::ArrayXd found = fit.next[bound.term.parameter];
-    fit.next[bound.term.parameter] = again ? Eigen::ArrayXd(found + value - before) : value;
+    const Bound& bound = bounds[n];
+    const Eigen::Index channel = bound.number.channel;
+    const double change =
+      bound.held ? bound.wanted - valueIn(model, bound.number) : step[static_cast<Eigen::Index>(n)];
+    fit.step = std::fmax(fit.step, std::fabs(change) / bound.number.typical);
+    fit.next[bound.number.parameter].segment(
+      std::max<Eigen::Index>(channel, 0), channel < 0 ? Data.channels() : 1) += change;
   }
-  fit.blockEnergy.setZero(
-    detail == FieldDetail::Blocks ? static_cast<Eigen::Index>(Data.blocks.size()) : 0);
-  for (int fold = 0; fold < FieldFolds; ++fold)
+  for (const std::vector<Eigen::MatrixXd>& own : Fold)
   {
-    const std::vector<Eigen::MatrixXd>& own = Fold[static_cast<std::size_t>(fold)];
     std::vector<Eigen::MatrixXd> others = Total;
-    for (std::size_t k = 0; k < K; ++k)
+    for (std::size_t k = 0; k < others.size(); ++k)
     {
       others[k] -= own[k];
     }
-    const std::vector<Eigen::VectorXd> change = solve(others, terms, values, about);
-    for (std::size_t k = 0; k < K; ++k)
+    const Eigen::VectorXd without = solve(others, design, bounds);
+    fit.change.emplace_back();
+    for (std::size_t k = 0; k < others.size(); ++k)
     {
-      fit.energy += energyLeft(own[k], change[k]);
-    }
-    for (std::size_t b = 0; detail == FieldDetail::Blocks && b < Data.blocks.size(); ++b)
-    {
-      for (std::size_t k = 0; Data.blocks[b].fold == fold && k < K; ++k)
-      {
-        fit.blockEnergy[static_cast<Eigen::Index>(b)] +=
-          energyLeft(Statistics.at(b, static_cast<Eigen::Index>(k)).normal(), change[k]);
-      }
+      fit.change.back().emplace_back(design[k].columns * without(design[k].numbers));
+      fit.energy += energyLeft(own[k], fit.change.back().back());
     }
   }
   return fit;
 }
 
-ArrowSolution solved(ArrowEquations equations)
+Eigen::VectorXd FieldFitter::solve(const std::vector<Eigen::MatrixXd>& normal,
+  const std::vector<Design>& design, const std::vector<Bound>& bounds) const
 {
-  const Eigen::Index C = equations.common.rows();
-  std::vector<Eigen::MatrixXd> toCommon;
-  ArrowSolution solution;
-  for (std::size_t k = 0; k < equations.own.size(); ++k)
+  const auto count = static_cast<Eigen::Index>(bounds.size());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count);
+  if (count == 0)
   {
-    const Eigen::MatrixXd& across = equations.across[k];
-    const Eigen::VectorXd& gradient = equations.ownGradient[k];
-    const bool own = gradient.size() > 0;
-    const Eigen::LDLT<Eigen::MatrixXd> factor(equations.own[k]);
-    toCommon.emplace_back(own && C > 0 ? Eigen::MatrixXd(factor.solve(across)) : across);
-    solution.own.emplace_back(own ? Eigen::VectorXd(factor.solve(gradient)) : gradient);
-    if (own)
-    {
-      equations.common -= across.transpose() * toCommon.back();
-      equations.gradient -= across.transpose() * solution.own.back();
-    }
+    return gradient;
   }
-  solution.common =
-    C > 0 ? Eigen::VectorXd(equations.common.ldlt().solve(equations.gradient)) : equations.gradient;
-  for (std::size_t k = 0; k < equations.own.size(); ++k)
-  {
-    solution.own[k] -= toCommon[k] * solution.common;
-  }
-  return solution;
-}
-
-// Returns the change of the columns, K; `values` gets the parameters.
-std::vector<Eigen::VectorXd> FieldFitter::solve(const std::vector<Eigen::MatrixXd>& normal,
-  const std::vector<Bound>& terms, std::vector<Eigen::ArrayXd>& values,
-  const FieldModel& about) const
-{
-  std::vector<const Bound*> common;
-  std::vector<const Bound*> own;
-  for (const Bound& bound : terms)
-  {
-    (bound.term.perChannel ? own : common).push_back(&bound);
-  }
-  const auto design = [&](const std::vector<const Bound*>& bounds, Eigen::Index channel)
-  {
-    Eigen::MatrixXd columns(FieldColumn::residual(), static_cast<Eigen::Index>(bounds.size()));
-    for (std::size_t b = 0; b < bounds.size(); ++b)
-    {
-      columns.col(static_cast<Eigen::Index>(b)) =
-        columnsChanged(bounds[b]->term.parameter, Statistics.model, about, channel);
-    }
-    return columns;
-  };
-  // Priors and holds.
-  const auto pull = [&](const std::vector<const Bound*>& bounds, Eigen::Index channel,
-                      Eigen::MatrixXd& information, Eigen::VectorXd& gradient)
-  {
-    for (std::size_t b = 0; b < bounds.size(); ++b)
-    {
-      const Bound& bound = *bounds[b];
-      const auto at = static_cast<Eigen::Index>(b);
-      const double precision = bound.held[static_cast<std::size_t>(channel)] != 0
-        ? Held * (information(at, at) + 1.0)
-        : std::pow(Decision::FreeSpread * bound.term.typical, -2);
-      gradient[at] +=
-        precision * (bound.wanted[channel] - Statistics.model.at(bound.term.parameter, channel));
-      information(at, at) += precision;
-    }
-  };
-  const auto C = static_cast<Eigen::Index>(common.size());
-  ArrowEquations equations{ Eigen::MatrixXd::Zero(C, C), Eigen::VectorXd::Zero(C), {}, {}, {} };
-  std::vector<Eigen::MatrixXd> A;
-  std::vector<Eigen::MatrixXd> B;
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
   for (std::size_t k = 0; k < normal.size(); ++k)
   {
-    const auto channel = static_cast<Eigen::Index>(k);
-    A.push_back(design(common, channel));
-    B.push_back(design(own, channel));
-    const auto local = normal[k].topLeftCorner(FieldColumn::residual(), FieldColumn::residual());
-    const auto residual = normal[k].col(FieldColumn::residual()).head(FieldColumn::residual());
-    equations.common += A[k].transpose() * local * A[k];
-    equations.gradient += A[k].transpose() * residual;
-    const Eigen::MatrixXd along = local * B[k];
-    equations.own.emplace_back(B[k].transpose() * along);
-    equations.ownGradient.emplace_back(B[k].transpose() * residual);
-    equations.across.emplace_back(along.transpose() * A[k]);
-    pull(own, channel, equations.own[k], equations.ownGradient[k]);
+    information(design[k].numbers, design[k].numbers) += design[k].information(normal[k]);
+    gradient(design[k].numbers) += design[k].gradient(normal[k]);
   }
-  pull(common, 0, equations.common, equations.gradient);
-  const ArrowSolution solution = solved(std::move(equations));
-  std::vector<Eigen::VectorXd> columns;
-  for (std::size_t k = 0; k < normal.size(); ++k)
+  for (Eigen::Index n = 0; n < count; ++n)
   {
-    columns.emplace_back(A[k] * solution.common + B[k] * solution.own[k]);
+    const Bound& bound = bounds[static_cast<std::size_t>(n)];
+    const double precision =
+      bound.held ? Held * (information(n, n) + 1.0) : precisionBefore(bound.number);
+    gradient[n] += precision * (bound.wanted - valueIn(Statistics.model, bound.number));
+    information(n, n) += precision;
   }
-  values.clear();
-  Eigen::Index nextCommon = 0;
-  Eigen::Index nextOwn = 0;
-  for (const Bound& bound : terms)
-  {
-    values.emplace_back(Statistics.model[bound.term.parameter]);
-    for (std::size_t k = 0; bound.term.perChannel && k < normal.size(); ++k)
-    {
-      values.back()[static_cast<Eigen::Index>(k)] += solution.own[k][nextOwn];
-    }
-    values.back() += bound.term.perChannel ? 0.0 : solution.common[nextCommon];
-    ++(bound.term.perChannel ? nextOwn : nextCommon);
-  }
-  return columns;
+  return information.ldlt().solve(gradient);
 }
 
-// What each number of the set changes in the columns of a channel; terms in order, channels within a per-channel term.
-std::vector<Eigen::MatrixXd> FieldFitter::design(const FieldSet& set) const
+Eigen::VectorXd blockEnergies(
+  const FieldData& data, const FieldStatistics& statistics, const FieldFit& fit)
 {
-  const auto K = Data.channels();
-  Eigen::Index count = 0;
+  Eigen::VectorXd energy = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(data.blocks.size()));
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    const int fold = data.blocks[b].fold;
+    for (Eigen::Index k = 0; fold >= 0 && k < data.channels(); ++k)
+    {
+      energy[static_cast<Eigen::Index>(b)] += energyLeft(statistics.at(b, k).normal(),
+        fit.change[static_cast<std::size_t>(fold)][static_cast<std::size_t>(k)]);
+    }
+  }
+  return energy;
+}
+
+FieldFit FieldFitter::fitFromBestStart(const FieldSet& set) const
+{
+  FieldShape start;
+  FieldFit best = fit(set);
+  const auto tryOut = [&](const FieldShape& shape)
+  {
+    FieldFit other = fit(set, shape);
+    if (other.energy < best.energy)
+    {
+      best = std::move(other);
+      start = shape;
+    }
+  };
   for (const FieldChoice* choice : set)
   {
-    for (const ImageTerm& term : choice->terms)
+    if (!Statistics.model.isNeutral(choice->step()))
     {
-      count += term.perChannel ? K : 1;
+      continue;
     }
-  }
-  std::vector<Eigen::MatrixXd> design(
-    static_cast<std::size_t>(K), Eigen::MatrixXd::Zero(FieldColumn::residual(), count));
-  for (Eigen::Index k = 0; k < K; ++k)
-  {
-    Eigen::Index next = 0;
-    for (const FieldChoice* choice : set)
+    if (choice->twice)
     {
+      FieldShape there = start;
       for (const ImageTerm& term : choice->terms)
       {
-        design[static_cast<std::size_t>(k)].col(next + (term.perChannel ? k : 0)) =
-          columnsChanged(term.parameter, Statistics.model, Statistics.model, k);
-        next += term.perChannel ? K : 1;
+        there[term.parameter] = best.next.at(term.parameter, 0);
       }
+      tryOut(there);
+    }
+    // Every combination of the starts.
+    std::vector<FieldShape> shapes{ start };
+    for (const ImageTerm& term : choice->terms)
+    {
+      std::vector<FieldShape> more;
+      for (const FieldShape& shape : shapes)
+      {
+        for (const double value : term.starts)
+        {
+          more.push_back(shape);
+          more.back()[term.parameter] = value;
+        }
+      }
+      shapes = more.empty() ? shapes : more;
+    }
+    for (std::size_t i = 0; shapes.size() > 1 && i < shapes.size(); ++i)
+    {
+      tryOut(shapes[i]);
     }
   }
-  return design;
+  return best;
+}
+
+FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
+  const FieldModel& start, const FieldLoop& loop)
+{
+  const AskedSteps asked = stepsOf(set);
+  FieldModel model = start;
+  FieldHypothesis best;
+  double least = 0.0;
+  for (int iteration = 0; iteration < Iterations; ++iteration)
+  {
+    const auto statistics =
+      std::make_shared<FieldStatistics>(fieldStatistics(data, model, &weights, loop, asked));
+    const FieldFitter fitter(data, *statistics);
+    if (best.statistics && !(fitter.energy() < least * Rising))
+    {
+      model.goHalfwayTo(best.statistics->model); // the step was too long
+      continue;
+    }
+    least = fitter.energy();
+    best = { set, statistics, fitter.fit(set) };
+    if (best.fit.step < SmallStep)
+    {
+      break;
+    }
+    model = best.fit.next;
+  }
+  return best;
 }
 
 Eigen::MatrixXd FieldFitter::information(const FieldSet& set) const
 {
-  const std::vector<Eigen::MatrixXd> columns = design(set);
-  const Eigen::Index count = columns.front().cols();
+  const std::vector<FieldNumber> numbers = numbersOf(set, Data.channels());
+  const auto count = static_cast<Eigen::Index>(numbers.size());
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
-  for (std::size_t k = 0; k < columns.size(); ++k)
+  const std::vector<Design> design = designs(numbers, Statistics.model);
+  for (std::size_t k = 0; k < design.size(); ++k)
   {
-    information += columns[k].transpose() *
-      Total[k].topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * columns[k];
+    information(design[k].numbers, design[k].numbers) += design[k].information(Total[k]);
   }
   return information;
 }
 
 Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
 {
-  const auto K = Data.channels();
-  const std::vector<Eigen::MatrixXd> columns = design(set);
+  const std::vector<FieldNumber> numbers = numbersOf(set, Data.channels());
+  const std::vector<Design> design = designs(numbers, Statistics.model);
   Eigen::MatrixXd normal = information(set);
   const Eigen::Index p = normal.rows();
-  Eigen::Index next = 0;
-  for (const FieldChoice* choice : set)
+  for (Eigen::Index n = 0; n < p; ++n)
   {
-    for (const ImageTerm& term : choice->terms)
-    {
-      const Eigen::Index size = term.perChannel ? K : 1;
-      normal.diagonal().segment(next, size).array() +=
-        std::pow(Decision::FreeSpread * term.typical, -2);
-      next += size;
-    }
+    normal(n, n) += precisionBefore(numbers[static_cast<std::size_t>(n)]);
   }
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(p, p);
   std::map<int, Eigen::VectorXd> ofGroup;
@@ -341,10 +353,10 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
     }
     Eigen::VectorXd& g =
       ofGroup.try_emplace(Data.blocks[b].group, Eigen::VectorXd::Zero(p)).first->second;
-    for (Eigen::Index k = 0; k < K; ++k)
+    for (std::size_t k = 0; k < design.size(); ++k)
     {
-      g += columns[static_cast<std::size_t>(k)].transpose() *
-        Statistics.at(b, k).normal().col(FieldColumn::residual()).head(FieldColumn::residual());
+      g(design[k].numbers) +=
+        design[k].gradient(Statistics.at(b, static_cast<Eigen::Index>(k)).normal());
     }
   }
   for (const auto& [number, g] : ofGroup)

@@ -3,11 +3,10 @@
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
-#include "Kernels/Gap/Field/FieldGroups.h"
-#include "Kernels/Gap/Field/FieldHypothesis.h"
 #include "Kernels/Gap/Field/FieldObservation.h"
 #include "Kernels/Gap/Field/FieldStripes.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
+#include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 
@@ -15,7 +14,6 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <sstream>
 
 namespace msi
 {
@@ -64,34 +62,12 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
     *finding.observation, { maximumEffects, PairBeamWidth, PairOptionsFitted, true }, stop);
 }
 
-struct TestEnergies
-{
-  GroupEnergies groups;
-  double elements = 0.0;
-};
-
-TestEnergies energiesOf(
+GroupEnergies energiesOf(
   const FieldData& data, const FieldStatistics& nominal, const FieldStatistics& corrected)
 {
-  TestEnergies energies;
-  const auto count = static_cast<Eigen::Index>(data.blocks.size());
-  Eigen::VectorXd before = Eigen::VectorXd::Zero(count);
-  Eigen::VectorXd after = before;
-  Eigen::VectorXd noise = before;
-  for (Eigen::Index b = 0; b < count; ++b)
-  {
-    const auto block = static_cast<std::size_t>(b);
-    for (Eigen::Index k = 0; k < data.channels(); ++k)
-    {
-      before[b] += nominal.at(block, k).energy;
-      after[b] += corrected.at(block, k).energy;
-      noise[b] += corrected.at(block, k).noise;
-      energies.elements += data.blocks[block].fold < 0 ? corrected.at(block, k).pixels : 0.0;
-    }
-  }
-  energies.groups = { groupSums(data, before, false), groupSums(data, after, false),
-    groupSums(data, noise, false) };
-  return energies;
+  return { groupSums(data, nominal.ofBlocks(&BlockSums::energy), false),
+    groupSums(data, corrected.ofBlocks(&BlockSums::energy), false),
+    groupSums(data, corrected.ofBlocks(&BlockSums::noise), false) };
 }
 
 // Mean over test blocks and channels of the squared block mean of the residual over what white noise allows.
@@ -114,13 +90,42 @@ double blockMeanExcess(const FieldData& data, const FieldStatistics& statistics)
   return count > 0.0 ? sum / count : 0.0;
 }
 
+// Effects whose parameters this scene does not show.
+std::vector<std::string> indistinctEffects(
+  const FieldData& data, const FieldStatistics& statistics, const std::vector<FieldChoice>& choices)
+{
+  std::vector<std::string> found;
+  for (const FieldChoice& choice : choices)
+  {
+    double information = 0.0;
+    for (Eigen::Index k = 0; choice.has(EffectTrait::ActsOnEdges) && k < data.channels(); ++k)
+    {
+      const Eigen::VectorXd column =
+        columnsChanged(choice.terms.front().parameter, statistics.model, statistics.model, k);
+      for (std::size_t b = 0; b < data.blocks.size(); ++b)
+      {
+        information += column.dot(
+          statistics.at(b, k).normal().topLeftCorner(column.size(), column.size()) * column);
+      }
+    }
+    const bool missing = choice.has(EffectTrait::ActsOnEdges) &&
+      Decision::SureDeviations / std::sqrt(std::fmax(information, 1e-30)) >
+        choice.terms.front().typical;
+    const std::string& name = choice.effect->name;
+    if (missing && std::find(found.begin(), found.end(), name) == found.end())
+    {
+      found.push_back(name);
+    }
+  }
+  return found;
+}
+
 std::vector<std::string> notesOn(
   const FieldData& data, const FieldFinding& finding, const std::vector<FieldChoice>& choices)
 {
   std::vector<std::string> notes;
   const FieldSet& set = finding.set();
-  for (const std::string& effect :
-    indistinctEffects(data, FieldFitter(data, finding.before()), choices))
+  for (const std::string& effect : indistinctEffects(data, finding.before(), choices))
   {
     notes.push_back(effect +
       " cannot be decided: the simulated image has too few edges and too little texture in the "
@@ -128,27 +133,21 @@ std::vector<std::string> notesOn(
   }
   if ((data.unit != 1.0).any())
   {
-    std::ostringstream text;
-    text.precision(3);
-    text << "the real image is not in units of white: its channels are ";
     const bool common = (data.unit == data.unit[0]).all();
-    text << data.unit[0];
+    std::string units = textOf(3, data.unit[0]);
     for (Eigen::Index k = 1; !common && k < data.unit.size(); ++k)
     {
-      text << ", " << data.unit[k];
+      units += textOf(3, ", ", data.unit[k]);
     }
-    text
-      << " times the simulated ones; the figures are after division by that. A flat field or the "
-         "response of a white brings them to 1 for a perfect white";
-    notes.push_back(text.str());
+    notes.push_back("the real image is not in units of white: its channels are " + units +
+      " times the simulated ones; the figures are after division by that. A flat field or the "
+      "response of a white brings them to 1 for a perfect white");
   }
   if (data.usablePart < FewUsable)
   {
-    std::ostringstream text;
-    text << "only " << std::lround(100.0 * data.usablePart)
-         << " % of the pixels can be used; the others have no value in one of the images, or none "
-            "beside them in the simulated one";
-    notes.push_back(text.str());
+    notes.push_back(textOf(3, "only ", std::lround(100.0 * data.usablePart),
+      " % of the pixels can be used; the others have no value in one of the images, or none "
+      "beside them in the simulated one"));
   }
   const bool hasTail = hasChoice(
     set, [](const FieldChoice& choice) { return choice.stage() == ImageStage::Surround; });
@@ -161,13 +160,11 @@ std::vector<std::string> notesOn(
   {
     if (isProfile(*choice))
     {
-      std::ostringstream text;
-      text << "the stripes of " << (isOfRows(*choice) ? "rows" : "columns")
-           << " may have any shape in the corrected image; the list of effects has the three sines "
-              "that come nearest, with "
-           << std::lround(100.0 * bandingSines(*choice, finding.after().model).part)
-           << " % of their energy";
-      notes.push_back(text.str());
+      notes.push_back(textOf(3, "the stripes of ", isOfRows(*choice) ? "rows" : "columns",
+        " may have any shape in the corrected image; the list of effects has the three sines "
+        "that come nearest, with ",
+        std::lround(100.0 * bandingSines(*choice, finding.after().model).part),
+        " % of their energy"));
     }
   }
   const auto isOfLens = [](const FieldChoice* choice)
@@ -236,12 +233,12 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   gap->model = finding.after().model;
   gap->unit = data.unit;
   GapReport& report = gap->report;
-  const TestEnergies energies = energiesOf(data, finding.before(), finding.after());
-  report.gap = figuresOf(energies.groups, std::fmax(energies.elements, 1.0), options.seed);
+  const std::vector<double> pixels =
+    groupSums(data, finding.after().ofBlocks(&BlockSums::pixels), false);
+  report.gap = figuresOf(energiesOf(data, finding.before(), finding.after()),
+    std::fmax(sumOf(pixels), 1.0), options.seed);
   // The stripes that were found are an axis of the gap before, too.
   FieldModel nominal = finding.before().model;
-  nominal.rowPeriod = gap->model.rowPeriod;
-  nominal.columnPeriod = gap->model.columnPeriod;
   nominal.rows = gap->model.rows;
   nominal.columns = gap->model.columns;
   report.where = fieldAxes(data, fieldStatistics(data, nominal, &finding.weights, loop), loop);

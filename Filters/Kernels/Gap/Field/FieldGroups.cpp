@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Field/FieldGroups.h"
+#include "Kernels/Gap/Field/FieldData.h"
 
 #include "Kernels/Numerics/CounterRandom.h"
 

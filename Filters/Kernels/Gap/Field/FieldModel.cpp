@@ -177,8 +177,7 @@ FieldLines::FieldLines(
   , gain(sine)
   , offset(sine)
 {
-  const double period = ofRows ? model.rowPeriod : model.columnPeriod;
-  const FieldProfile* profile = (ofRows ? model.rows : model.columns).get();
+  const auto& [period, profile] = model.stripes(ofRows);
   if (period > 0.0)
   {
     const Eigen::ArrayXd angle =
@@ -188,8 +187,8 @@ FieldLines::FieldLines(
   }
   if (profile != nullptr)
   {
-    gain = profile->gainFor(fold).col(channel).segment(first, count);
-    offset = profile->offsetFor(fold).col(channel).segment(first, count);
+    gain = FieldProfile::without(fold, profile->gain).col(channel).segment(first, count);
+    offset = FieldProfile::without(fold, profile->offset).col(channel).segment(first, count);
   }
 }
 

@@ -21,14 +21,16 @@ struct FieldProfile
   std::vector<Eigen::ArrayXXd> gain, offset;
 
   // fold: -1 for blocks outside all folds.
-  const Eigen::ArrayXXd& gainFor(int fold) const { return fold < 0 ? gain.back() : gain[at(fold)]; }
-  const Eigen::ArrayXXd& offsetFor(int fold) const
+  static const Eigen::ArrayXXd& without(int fold, const std::vector<Eigen::ArrayXXd>& folds)
   {
-    return fold < 0 ? offset.back() : offset[at(fold)];
+    return fold < 0 ? folds.back() : folds[static_cast<std::size_t>(fold)];
   }
+};
 
-private:
-  static std::size_t at(int fold) noexcept { return static_cast<std::size_t>(fold); }
+struct FieldStripes
+{
+  double period = 0.0;                         // 0: none
+  std::shared_ptr<const FieldProfile> profile; // null: none
 };
 
 // Derivatives of a pixel's answer: those of every step (PlacedStep::column), and each step's own by its signal.
@@ -93,9 +95,9 @@ struct FieldModel
   double blurVariance(Eigen::Index channel) const;
   std::array<double, TailPasses> tailWeights(Eigen::Index channel) const;
 
-  double rowPeriod = 0.0; // 0: none
-  double columnPeriod = 0.0;
-  std::shared_ptr<const FieldProfile> rows, columns; // null: none
+  FieldStripes rows, columns;
+  FieldStripes& stripes(bool ofRows) noexcept { return ofRows ? rows : columns; }
+  const FieldStripes& stripes(bool ofRows) const noexcept { return ofRows ? rows : columns; }
 
 private:
   Eigen::ArrayXXd Values; // parameters x K
@@ -118,7 +120,7 @@ private:
 // The stripes of `count` rows, or columns, of one channel from `first` on.
 struct FieldLines
 {
-  // fold: FieldProfile::gainFor.
+  // fold: FieldProfile::without.
   FieldLines(
     const FieldModel& model, bool ofRows, Eigen::Index channel, int fold, int first, int count);
 

@@ -3,7 +3,6 @@
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
-#include "Kernels/Gap/Field/FieldGroups.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/Field/FieldStripes.h"
 
@@ -55,6 +54,12 @@ bool hasSine(const FieldSet& set, bool rows)
     { return isBanding(choice) && !isProfile(choice) && isOfRows(choice) == rows; });
 }
 
+FieldSet joined(FieldSet set, const FieldChoice& choice)
+{
+  set.push_back(&choice);
+  return set;
+}
+
 bool clips(const FieldChoice& choice)
 {
   return choice.has(EffectTrait::LimitsResponse);
@@ -76,13 +81,7 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
   const FieldFitter fitter(data, *hypothesis.statistics);
   hypothesis.fit = fitter.fit({});
   NoiseEnergy = fitter.chance();
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
-  {
-    for (Eigen::Index k = 0; data.blocks[b].fold >= 0 && k < data.channels(); ++k)
-    {
-      Elements += hypothesis.statistics->at(b, k).pixels;
-    }
-  }
+  Elements = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true));
   Nominal = described(std::move(hypothesis));
 }
 
@@ -90,9 +89,8 @@ bool FieldObservation::hasStart(const FieldModel& model, const FieldChoice& choi
 {
   if (isBanding(choice))
   {
-    const bool rows = isOfRows(choice);
-    return isProfile(choice) ? (rows ? model.rows : model.columns) != nullptr
-                             : (rows ? model.rowPeriod : model.columnPeriod) > 0.0;
+    const auto& [period, profile] = model.stripes(isOfRows(choice));
+    return isProfile(choice) ? profile != nullptr : period > 0.0;
   }
   return !clips(choice) || !model.isNeutral(clippingTerms()[1].parameter);
 }
@@ -107,19 +105,14 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   FieldHypothesis hypothesis = hypothesisOf(fit);
   FieldModel model = hypothesis.statistics->model;
   const std::vector<FieldResidual> residuals = fieldResiduals(Data, model, Loop);
-  const auto period = [&](bool rows)
+  for (const bool rows : { true, false })
   {
-    const FieldPeriod found = findPeriod(Data, residuals, rows, Loop);
-    PeriodError[found.period] = found.standardError;
-    return found.period;
-  };
-  if (!hasSine(hypothesis.set, true))
-  {
-    model.rowPeriod = period(true);
-  }
-  if (!hasSine(hypothesis.set, false))
-  {
-    model.columnPeriod = period(false);
+    if (!hasSine(hypothesis.set, rows))
+    {
+      const FieldPeriod found = findPeriod(Data, residuals, rows, Loop);
+      PeriodError[found.period] = found.standardError;
+      model.stripes(rows).period = found.period;
+    }
   }
   findProfiles(model, residuals, hypothesis.set, false);
   if (!hasChoice(hypothesis.set, clips))
@@ -136,18 +129,13 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
 void FieldObservation::findProfiles(FieldModel& model, const std::vector<FieldResidual>& residuals,
   const FieldSet& set, bool keepTrend) const
 {
-  const auto find = [&](bool rows)
+  for (const bool rows : { true, false })
   {
-    return std::make_shared<const FieldProfile>(
-      findProfile(Data, residuals, rows, keepTrend, Weights.limit));
-  };
-  if (!hasProfile(set, true))
-  {
-    model.rows = find(true);
-  }
-  if (!hasProfile(set, false))
-  {
-    model.columns = find(false);
+    if (!hasProfile(set, rows))
+    {
+      model.stripes(rows).profile = std::make_shared<const FieldProfile>(
+        findProfile(Data, residuals, rows, keepTrend, Weights.limit));
+    }
   }
 }
 
@@ -178,14 +166,14 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
       continue;
     }
     const FieldSet set = joined(base.set, choice);
-    const auto parameters = static_cast<double>(parameterCount({ &choice }, Data.channels()));
+    const auto parameters = static_cast<double>(parameterCount(choice, Data.channels()));
     GapPreview preview{ option, {}, 0.0, parameters };
-    double energy = linearFit(fitter, set, FieldDetail::Sum).energy;
+    double energy = fitter.fitFromBestStart(set).energy;
     if (choice.step().step->displacement != nullptr && !Start.shift.isZero())
     {
       const FieldModel moved = registered(model, choice);
       const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop, stepsOf(set));
-      const double other = FieldFitter(Data, there).fit(set, {}, FieldDetail::Sum).energy;
+      const double other = FieldFitter(Data, there).fit(set).energy;
       if (other < energy)
       {
         energy = other;
@@ -212,7 +200,7 @@ FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview&
   const FieldChoice& choice = Choices[with.option];
   const FieldSet set = joined(base.set, choice);
   FieldHypothesis hypothesis = refit(set,
-    with.start.empty() ? linearFit(FieldFitter(Data, *base.statistics), set).next
+    with.start.empty() ? FieldFitter(Data, *base.statistics).fitFromBestStart(set).next
                        : registered(base.statistics->model, choice));
   // Once more beside the other effects.
   for (const FieldChoice* profile : set)
@@ -265,28 +253,20 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
   }
   described->energy = hypothesis.fit.energy;
   std::vector<FreeNumber> numbers;
-  std::size_t group = 0;
-  for (const FieldChoice* choice : hypothesis.set)
+  for (const FieldNumber& number : numbersOf(hypothesis.set, Data.channels()))
   {
-    const bool ownMean = !isPerChannel(choice->effect->imageForms.front().terms);
-    for (const ImageTerm& term : choice->terms)
+    const ImageTerm& term = *number.term;
+    const double value = model.at(term.parameter, std::max<Eigen::Index>(number.channel, 0));
+    numbers.push_back({ term.parameter, term.perChannel,
+      !isPerChannel(number.choice->effect->imageForms.front().terms),
+      value - numberOf(term.parameter).neutral, Decision::FreeSpread * term.typical,
+      term.typical });
+    if (numberOf(term.parameter).pull == ImagePull::Itself)
     {
-      for (Eigen::Index k = 0; k < (term.perChannel ? Data.channels() : 1); ++k)
-      {
-        const double value = model.at(term.parameter, k);
-        numbers.push_back(
-          { group, term.perChannel, ownMean, value - numberOf(term.parameter).neutral,
-            Decision::FreeSpread * term.typical, term.typical });
-        if (numberOf(term.parameter).pull == ImagePull::Itself)
-        {
-          described->surprise +=
-            0.5 * std::pow(value / term.typical, 2); // axes are near the middle
-        }
-        described->atBound = described->atBound ||
-          ((value <= term.lower || value >= term.upper) && !isShape(term.parameter));
-      }
-      ++group;
+      described->surprise += 0.5 * std::pow(value / term.typical, 2); // axes are near the middle
     }
+    described->atBound = described->atBound ||
+      ((value <= term.lower || value >= term.upper) && !isShape(term.parameter));
   }
   const LearnedPrior prior(numbers);
   described->information =
@@ -300,16 +280,10 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
 GroupEnergies FieldObservation::energies(const ObservedFit& fit) const
 {
   const FieldStatistics& nominal = *hypothesisOf(*Nominal).statistics;
-  Eigen::VectorXd chance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(Data.blocks.size()));
-  for (Eigen::Index b = 0; b < chance.size(); ++b)
-  {
-    for (Eigen::Index k = 0; k < Data.channels(); ++k)
-    {
-      chance[b] += nominal.at(static_cast<std::size_t>(b), k).chance;
-    }
-  }
-  return { groupSums(Data, hypothesisOf(*Nominal).fit.blockEnergy, true),
-    groupSums(Data, hypothesisOf(fit).fit.blockEnergy, true), groupSums(Data, chance, true) };
+  const auto sums = [this](const FieldHypothesis& hypothesis)
+  { return groupSums(Data, blockEnergies(Data, *hypothesis.statistics, hypothesis.fit), true); };
+  return { sums(hypothesisOf(*Nominal)), sums(hypothesisOf(fit)),
+    groupSums(Data, nominal.ofBlocks(&BlockSums::chance), true) };
 }
 
 std::vector<std::vector<GapParameter>> FieldObservation::parameters(const ObservedFit& fit) const
@@ -327,7 +301,7 @@ std::vector<std::vector<GapParameter>> FieldObservation::parameters(const Observ
   std::vector<std::vector<GapParameter>> parameters;
   for (const FieldChoice* choice : hypothesis.set)
   {
-    const double period = isOfRows(*choice) ? model.rowPeriod : model.columnPeriod;
+    const double period = model.stripes(isOfRows(*choice)).period;
     parameters.push_back(fieldParameters(*choice, model,
       isBanding(*choice) ? deviation(period) : 0.0, Data.pair.channels, error, next));
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Kernels/Gap/Diagnosis/Observation.h"
-#include "Kernels/Gap/Field/FieldHypothesis.h"
+#include "Kernels/Gap/Field/FieldFit.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 
 #include <Eigen/Core>

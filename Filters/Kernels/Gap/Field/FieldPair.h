@@ -4,6 +4,7 @@
 #include "Kernels/Camera/Imaging/ImageWindow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -39,6 +40,35 @@ private:
   {
     return 0.5 * std::max(1, std::max(extent.width, extent.height) - 1);
   }
+};
+
+// Sums over pixels that have a value in both images.
+struct PairSums
+{
+  double n = 0.0, real = 0.0, simulated = 0.0;
+  double realSquares = 0.0, simulatedSquares = 0.0, products = 0.0;
+
+  void add(float realValue, float simulatedValue) noexcept
+  {
+    const auto r = static_cast<double>(realValue);
+    const auto s = static_cast<double>(simulatedValue);
+    if (std::isfinite(r) && std::isfinite(s))
+    {
+      n += 1.0;
+      real += r;
+      simulated += s;
+      realSquares += r * r;
+      simulatedSquares += s * s;
+      products += r * s;
+    }
+  }
+  // About the means.
+  double ofReal() const noexcept { return realSquares - real * real / count(); }
+  double ofSimulated() const noexcept { return simulatedSquares - simulated * simulated / count(); }
+  double ofBoth() const noexcept { return products - real * simulated / count(); }
+
+private:
+  double count() const noexcept { return std::fmax(n, 1.0); }
 };
 
 } // namespace msi

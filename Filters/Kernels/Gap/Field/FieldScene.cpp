@@ -1,7 +1,5 @@
 #include "Kernels/Gap/Field/FieldScene.h"
 
-#include "Kernels/Gap/Field/FieldData.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -45,12 +43,10 @@ bool hasGaps(const FieldPair& pair)
     pair.simulated, pair.simulated + count, [](float value) { return std::isfinite(value); });
 }
 
-SceneCells sceneCells(const FieldPair& pair)
+SceneCells::SceneCells(const FieldPair& pair)
 {
   const auto K = static_cast<Eigen::Index>(pair.channels.size());
-  constexpr Eigen::Index All = Eigen::Index{ CellsPerSide } * CellsPerSide;
-  SceneCells cells{ Eigen::ArrayXXd::Zero(All, K), Eigen::ArrayXXd::Zero(All, K),
-    Eigen::ArrayXXd::Zero(All, K) };
+  Part = X = Y = Eigen::ArrayXXd::Zero(Eigen::Index{ CellsPerSide } * CellsPerSide, K);
   Eigen::ArrayXd count = Eigen::ArrayXd::Zero(K);
   int step = 1;
   while (pair.pixels() / static_cast<std::size_t>(step * step) > MeanPixels)
@@ -70,53 +66,26 @@ SceneCells sceneCells(const FieldPair& pair)
         if (std::isfinite(values[k]))
         {
           const auto u = static_cast<double>(values[k]);
-          cells.part(cell, k) += u;
-          cells.x(cell, k) += u * pair.fieldX(x);
-          cells.y(cell, k) += u * pair.fieldY(y);
+          Part(cell, k) += u;
+          X(cell, k) += u * pair.fieldX(x);
+          Y(cell, k) += u * pair.fieldY(y);
           count[k] += 1.0;
         }
       }
     }
   }
-  for (Eigen::Index k = 0; k < K; ++k)
-  {
-    for (Eigen::Index cell = 0; cell < All; ++cell)
-    {
-      double& part = cells.part(cell, k);
-      const bool light = std::fabs(part) > 1e-12;
-      cells.x(cell, k) = light ? cells.x(cell, k) / part : 0.0;
-      cells.y(cell, k) = light ? cells.y(cell, k) / part : 0.0;
-      part /= std::fmax(count[k], 1.0);
-    }
-  }
-  return cells;
+  const auto light = Part.abs() > 1e-12;
+  X = light.select(X / Part, 0.0);
+  Y = light.select(Y / Part, 0.0);
+  Part.rowwise() /= count.max(1.0).transpose();
 }
 
-namespace
-{
-Eigen::ArrayXd meanOf(const SceneCells& cells, const FieldModel& model)
+Eigen::ArrayXd SceneCells::mean(const FieldModel& model) const
 {
   const FieldFactor factor(model);
-  Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(cells.part.cols());
-  for (Eigen::Index k = 0; k < mean.size(); ++k)
-  {
-    for (Eigen::Index cell = 0; cell < cells.part.rows(); ++cell)
-    {
-      mean[k] += cells.part(cell, k) * factor(cells.x(cell, k), cells.y(cell, k));
-    }
-  }
-  return mean;
-}
-}
-
-Eigen::ArrayXd sceneMean(const FieldPair& pair, const FieldModel& model)
-{
-  return meanOf(sceneCells(pair), model);
-}
-
-Eigen::ArrayXd sceneMean(const FieldData& data, const FieldModel& model)
-{
-  return meanOf(data.cells, model);
+  const Eigen::ArrayXXd factors =
+    X.binaryExpr(Y, [&factor](double x, double y) { return factor(x, y); });
+  return (Part * factors).colwise().sum().transpose();
 }
 
 std::vector<float> filledScene(const FieldPair& pair)
@@ -127,7 +96,7 @@ std::vector<float> filledScene(const FieldPair& pair)
     return {};
   }
   std::vector<float> filled(pair.simulated, pair.simulated + pair.pixels() * K);
-  const Eigen::ArrayXd mean = sceneMean(pair, FieldModel(static_cast<Eigen::Index>(K)));
+  const Eigen::ArrayXd mean = SceneCells(pair).mean(FieldModel(static_cast<Eigen::Index>(K)));
   for (int y = 0; y < pair.extent.height; ++y)
   {
     for (std::size_t k = 0; k < K; ++k)

@@ -22,11 +22,13 @@ std::vector<float> filledScene(const FieldPair& pair);
 // A smooth factor of the field may be taken at that place.
 struct SceneCells
 {
-  Eigen::ArrayXXd part, x, y;
-};
-SceneCells sceneCells(const FieldPair& pair);
+  SceneCells() = default;
+  explicit SceneCells(const FieldPair& pair);
+  // The mean over the scene of the simulated signal behind gradient and vignetting, K.
+  Eigen::ArrayXd mean(const FieldModel& model) const;
 
-// The mean over the scene of the simulated signal behind gradient and vignetting, K.
-Eigen::ArrayXd sceneMean(const FieldPair& pair, const FieldModel& model);
+private:
+  Eigen::ArrayXXd Part, X, Y;
+};
 
 } // namespace msi

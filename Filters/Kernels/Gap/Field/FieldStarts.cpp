@@ -38,36 +38,20 @@ Match matchOf(const FieldData& data, const FieldBlock& block, Eigen::Index chann
   {
     for (int right = -Farthest; right <= Farthest; ++right)
     {
-      double n = 0.0;
-      double r = 0.0;
-      double s = 0.0;
-      double r2 = 0.0;
-      double s2 = 0.0;
-      double both = 0.0;
+      PairSums sums;
       std::size_t i = k;
       for (int y = block.window.y; y < block.window.y + block.window.height; ++y)
       {
         const int v = std::clamp(y - down, 0, extent.height - 1);
         for (int x = block.window.x; x < block.window.x + block.window.width; ++x, i += K)
         {
-          const auto real = static_cast<double>(block.real[i]);
-          if (std::isfinite(real))
-          {
-            const int u = std::clamp(x - right, 0, extent.width - 1);
-            const auto scene = static_cast<double>(data.scene[data.pair.index(u, v) * K + k]);
-            n += 1.0;
-            r += real;
-            s += scene;
-            r2 += real * real;
-            s2 += scene * scene;
-            both += real * scene;
-          }
+          const int u = std::clamp(x - right, 0, extent.width - 1);
+          sums.add(block.real[i], data.scene[data.pair.index(u, v) * K + k]);
         }
       }
-      n = std::fmax(n, 1.0);
-      match.real = r2 - r * r / n;
-      match.scene(down + Farthest, right + Farthest) = s2 - s * s / n;
-      match.both(down + Farthest, right + Farthest) = both - r * s / n;
+      match.real = sums.ofReal();
+      match.scene(down + Farthest, right + Farthest) = sums.ofSimulated();
+      match.both(down + Farthest, right + Farthest) = sums.ofBoth();
     }
   }
   return match;

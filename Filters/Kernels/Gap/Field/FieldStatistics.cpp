@@ -17,11 +17,6 @@ constexpr double Unequal = 1.1; // differences along one axis this much above th
 constexpr double LeastNoise = 1e-5;
 constexpr double FewestPairs = 4.0; // in a block that tells the noise
 
-double varianceOf(const ReadingNoise& noise, double level) noexcept
-{
-  return noise.read * noise.read + noise.shot * noise.shot * std::fmax(level, 0.0);
-}
-
 double trimmedMean(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());
@@ -43,71 +38,37 @@ void addDifferences(const ChannelColumns& found, const ImageWindow& window, Bloc
     at[static_cast<std::size_t>(found.pixel[n])] = static_cast<int>(n);
   }
   const auto residual = found.columns.col(FieldColumn::residual());
-  double across = 0.0;
-  double down = 0.0;
-  double slope = 0.0;
-  double pairsAcross = 0.0;
-  double pairsDown = 0.0;
   constexpr int lag = 2;
-  for (int i = 0; i < static_cast<int>(window.pixels()); ++i)
+  double slope = 0.0;
+  double pairs = 0.0;
+  // Half the mean squared difference to the pixels at this place from each.
+  const auto difference = [&](int right, int down)
   {
-    const int self = at[static_cast<std::size_t>(i)];
-    const int right = i % window.width + lag < window.width
-      ? at[static_cast<std::size_t>(i) + std::size_t{ lag }]
-      : -1;
-    const int below = i / window.width + lag < window.height
-      ? at[static_cast<std::size_t>(i) +
-          std::size_t{ lag } * static_cast<std::size_t>(window.width)]
-      : -1;
-    if (self >= 0 && right >= 0)
+    double sum = 0.0;
+    double count = 0.0;
+    for (int i = 0; i < static_cast<int>(window.pixels()); ++i)
     {
-      across += std::pow(residual[self] - residual[right], 2);
-      slope += std::pow(found.level[self] - found.level[right], 2);
-      pairsAcross += 1.0;
+      const int x = i % window.width + right;
+      const int y = i / window.width + down;
+      const int self = at[static_cast<std::size_t>(i)];
+      const int other = x < window.width && y < window.height
+        ? at[static_cast<std::size_t>(y * window.width + x)]
+        : -1;
+      if (self >= 0 && other >= 0)
+      {
+        sum += std::pow(residual[self] - residual[other], 2);
+        slope += std::pow(found.level[self] - found.level[other], 2);
+        count += 1.0;
+      }
     }
-    if (self >= 0 && below >= 0)
-    {
-      down += std::pow(residual[self] - residual[below], 2);
-      slope += std::pow(found.level[self] - found.level[below], 2);
-      pairsDown += 1.0;
-    }
-  }
-  sums.difference = pairsAcross < FewestPairs ? 0.0 : 0.5 * across / pairsAcross;
-  sums.differenceDown = pairsDown < FewestPairs ? 0.0 : 0.5 * down / pairsDown;
-  sums.gradient = slope / std::max(pairsAcross + pairsDown, 1.0);
+    pairs += count;
+    return count < FewestPairs ? 0.0 : 0.5 * sum / count;
+  };
+  sums.difference = difference(lag, 0);
+  sums.differenceDown = difference(0, lag);
+  sums.gradient = slope / std::fmax(pairs, 1.0);
 }
 
-// Straight line through (level, variance), neither end negative.
-ReadingNoise lineThrough(const std::vector<double>& level, const std::vector<double>& variance)
-{
-  double n = 0.0;
-  double x = 0.0;
-  double y = 0.0;
-  double xx = 0.0;
-  double xy = 0.0;
-  for (std::size_t i = 0; i < level.size(); ++i)
-  {
-    n += 1.0;
-    x += level[i];
-    y += variance[i];
-    xx += level[i] * level[i];
-    xy += level[i] * variance[i];
-  }
-  const double spread = n * xx - x * x;
-  double slope = spread > 1e-12 ? (n * xy - x * y) / spread : 0.0;
-  double base = (y - slope * x) / n;
-  if (slope < 0.0)
-  {
-    slope = 0.0;
-    base = y / n;
-  }
-  else if (base < 0.0)
-  {
-    base = 0.0;
-    slope = xx > 0.0 ? xy / xx : 0.0;
-  }
-  return { std::sqrt(base + LeastNoise * LeastNoise), std::sqrt(slope) };
-}
 }
 
 Eigen::MatrixXd BlockSums::normal() const
@@ -117,17 +78,20 @@ Eigen::MatrixXd BlockSums::normal() const
   return whole;
 }
 
-double energyLeft(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change)
+Eigen::VectorXd FieldStatistics::ofBlocks(double BlockSums::*number) const
 {
-  return normal(FieldColumn::residual(), FieldColumn::residual()) -
-    2.0 * change.dot(normal.col(FieldColumn::residual()).head(FieldColumn::residual())) +
-    change.dot(normal.topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * change);
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(blocks()));
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    together[static_cast<Eigen::Index>(i) / channels] += sums[i].*number;
+  }
+  return together;
 }
 
-std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics)
+std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
 {
-  std::vector<ReadingNoise> noise;
-  const std::size_t blocks = statistics.sums.size() / static_cast<std::size_t>(statistics.channels);
+  std::vector<CameraNoise> noise;
+  const std::size_t blocks = statistics.blocks();
   for (Eigen::Index k = 0; k < statistics.channels; ++k)
   {
     std::vector<const BlockSums*> smooth;
@@ -157,9 +121,9 @@ std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics)
     const double meanDown = trimmedMean(down);
     std::stable_sort(smooth.begin(), smooth.end(),
       [](const BlockSums* a, const BlockSums* b) { return a->level < b->level; });
-    std::vector<double> level;
-    std::vector<double> variance;
     const std::size_t bins = std::min(LevelBins, smooth.size());
+    Eigen::ArrayXd level(static_cast<Eigen::Index>(bins));
+    Eigen::ArrayXd variance(level.size());
     for (std::size_t bin = 0; bin < bins; ++bin)
     {
       std::vector<double> values;
@@ -172,10 +136,11 @@ std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics)
             : 0.5 * (smooth[i]->difference + smooth[i]->differenceDown));
         mean += smooth[i]->level;
       }
-      level.push_back(mean / static_cast<double>(values.size()));
-      variance.push_back(trimmedMean(values));
+      level[static_cast<Eigen::Index>(bin)] = mean / static_cast<double>(values.size());
+      variance[static_cast<Eigen::Index>(bin)] = trimmedMean(values);
     }
-    noise.push_back(lineThrough(level, variance));
+    noise.push_back(fittedNoise(level, variance, Eigen::ArrayXd::Ones(level.size())));
+    noise.back().read = std::hypot(noise.back().read, LeastNoise);
   }
   return noise;
 }
@@ -195,7 +160,7 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
     {
       const BlockSums& sums = statistics.at(b, k);
       energy += sums.energy;
-      noise += sums.pixels * varianceOf(weights.noise[static_cast<std::size_t>(k)], sums.level);
+      noise += sums.pixels * noiseVariance(weights.noise[static_cast<std::size_t>(k)], sums.level);
       pixels += sums.pixels;
     }
     const double variance = energy / std::fmax(pixels, 1.0);
@@ -212,7 +177,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   FieldStatistics statistics{ model, data.channels(), {} };
   const auto K = static_cast<std::size_t>(data.channels());
   statistics.sums.resize(data.blocks.size() * K);
-  const Eigen::ArrayXd glare = sceneMean(data, model);
+  const Eigen::ArrayXd glare = data.cells.mean(model);
   const auto measure = [&](int b)
   {
     const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
@@ -232,7 +197,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       Eigen::ArrayXd root(weights != nullptr ? found.columns.rows() : 0);
       for (Eigen::Index n = 0; n < root.size(); ++n)
       {
-        const double variance = varianceOf(weights->noise[k], found.level[n]);
+        const double variance = noiseVariance(weights->noise[k], found.level[n]);
         const double size = std::fabs(residual[n]);
         const double limit = weights->limit[channel];
         const double weight =

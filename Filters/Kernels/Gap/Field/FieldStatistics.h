@@ -35,7 +35,7 @@ struct BlockSums
 // (Huber).
 struct FieldWeights
 {
-  std::vector<ReadingNoise> noise;
+  std::vector<CameraNoise> noise;
   Eigen::ArrayXd tolerance; // a variance: the forms are approximations
   Eigen::ArrayXd limit;
 };
@@ -51,10 +51,9 @@ struct FieldStatistics
   {
     return sums[block * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)];
   }
+  // Of each block a number of all its channels together.
+  Eigen::VectorXd ofBlocks(double BlockSums::*number) const;
 };
-
-// Squared residual after a change of the columns.
-double energyLeft(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change);
 
 // weights: null: all pixels the same. asked: for which steps, beside those that change something, there are columns.
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
@@ -65,6 +64,6 @@ FieldWeights fieldWeights(const FieldStatistics& statistics);
 
 // Noise from differences of residuals two pixels apart, in the smoother half of the blocks: a variance for each
 // quarter of the levels (trimmed mean over blocks), then read^2 + shot^2 u.
-std::vector<ReadingNoise> fieldNoise(const FieldStatistics& statistics);
+std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics);
 
 } // namespace msi

@@ -120,8 +120,9 @@ void cutDefects(Eigen::ArrayXXd& values)
   }
 }
 
-Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t without,
-  LineValues LineSums::*kind, bool keepTrend)
+// The mean of each line over all folds but one.
+LineValues meansWithout(
+  const std::vector<LineSums>& folds, std::size_t without, LineValues LineSums::*kind)
 {
   LineValues lines = noLines((folds[0].*kind).value.rows(), (folds[0].*kind).value.cols());
   for (std::size_t fold = 0; fold < folds.size(); ++fold)
@@ -132,6 +133,13 @@ Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t w
     }
   }
   lines.value /= lines.weight.max(1e-12);
+  return lines;
+}
+
+Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t without,
+  LineValues LineSums::*kind, bool keepTrend)
+{
+  LineValues lines = meansWithout(folds, without, kind);
   detrend(lines, keepTrend ? 1 : 3);
   lines.value = (lines.weight > 0.0).select(lines.value, 0.0);
   cutDefects(lines.value);
@@ -207,18 +215,8 @@ double gammaSurvival(double x, Eigen::Index channels)
 FieldPeriod findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals,
   bool alongRows, const FieldLoop& loop)
 {
-  LineValues profile;
-  for (const LineSums& fold : lineSums(data, residuals, alongRows, Eigen::ArrayXd()))
-  {
-    if (profile.value.size() == 0)
-    {
-      profile = fold.gain;
-      continue;
-    }
-    profile.value += fold.gain.value;
-    profile.weight += fold.gain.weight;
-  }
-  profile.value /= profile.weight.max(1e-12);
+  LineValues profile = meansWithout(
+    lineSums(data, residuals, alongRows, Eigen::ArrayXd()), FieldFolds, &LineSums::gain);
   const Eigen::Index lines = profile.value.rows();
   const Eigen::Index K = profile.value.cols();
   if (lines < FewestLines)
@@ -296,26 +294,6 @@ Eigen::MatrixXd basisOf(Eigen::Index lines, double period)
   return basis;
 }
 
-// Energy of all channels at i / (Oversampling lines) cycles a line.
-Eigen::ArrayXd spectrumOf(const Eigen::ArrayXXd& profile)
-{
-  const Eigen::Index lines = profile.rows();
-  Eigen::ArrayXd energy = Eigen::ArrayXd::Zero(Oversampling * lines / 2 + 1);
-  for (Eigen::Index i = 0; i < energy.size(); ++i)
-  {
-    const std::complex<double> turn =
-      std::polar(1.0, TwoPi * static_cast<double>(i) / static_cast<double>(Oversampling * lines));
-    std::complex<double> now = 1.0;
-    Eigen::ArrayXcd sum = Eigen::ArrayXcd::Zero(profile.cols());
-    for (Eigen::Index line = 0; line < lines; ++line, now *= turn)
-    {
-      sum += now * profile.row(line).transpose();
-    }
-    energy[i] = sum.abs2().sum();
-  }
-  return energy;
-}
-
 void setSine(BandingSines& sines, Eigen::Index channel, Eigen::Index n, double sine, double cosine)
 {
   sines.amplitude(channel, n) = std::fmin(std::hypot(sine, cosine), LargestAmplitude);
@@ -336,7 +314,13 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
 {
   const Eigen::Index lines = profile.rows();
   BandingSines sines = noSines(profile.cols(), BandingHarmonics);
-  const Eigen::ArrayXd energy = spectrumOf(profile);
+  // Of all channels, at i / (Oversampling lines) cycles a line.
+  Eigen::ArrayXd energy(Oversampling * lines / 2 + 1);
+  for (Eigen::Index i = 0; i < energy.size(); ++i)
+  {
+    const double frequency = static_cast<double>(i) / static_cast<double>(Oversampling * lines);
+    energy[i] = powerAt({ profile, Eigen::ArrayXXd::Ones(lines, profile.cols()) }, frequency).sum();
+  }
   // Two cycles at least; harmonics beyond two pixels a cycle are those of another period.
   Eigen::Index best = 2 * Oversampling;
   double most = -1.0;
@@ -376,17 +360,17 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
 
 BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model)
 {
-  const bool rows = isOfRows(choice);
+  const FieldStripes& stripes = model.stripes(isOfRows(choice));
   const ImageParameter first = choice.terms.front().parameter;
   const Eigen::Index K = model[first].size();
   if (isProfile(choice))
   {
-    const FieldProfile& profile = *(rows ? model.rows : model.columns);
+    const FieldProfile& profile = *stripes.profile;
     return nearestSines((isOffset(choice) ? profile.offset : profile.gain).back().rowwise() *
       model[first].transpose());
   }
   BandingSines sines = noSines(K, 1);
-  sines.period = rows ? model.rowPeriod : model.columnPeriod;
+  sines.period = stripes.period;
   for (Eigen::Index k = 0; k < K; ++k)
   {
     setSine(sines, k, 0, model.at(first, k), model.at(choice.terms[1].parameter, k));

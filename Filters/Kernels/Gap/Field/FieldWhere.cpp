@@ -1,14 +1,12 @@
 #include "Kernels/Gap/Field/FieldWhere.h"
 
-#include "Kernels/Gap/Field/FieldFit.h"
-#include "Kernels/Gap/GapCells.h"
+#include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/Shrink.h"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 
 namespace msi
@@ -16,9 +14,7 @@ namespace msi
 
 namespace
 {
-constexpr std::size_t ChannelBit = 1;
-constexpr std::size_t LevelBit = 2;
-
+constexpr std::size_t ChannelAndLevel = 3; // their bits
 constexpr double Ridge = 1e-6;
 
 struct FieldAxis
@@ -48,13 +44,13 @@ std::vector<FieldAxis> fieldAxisBases(const FieldModel& model, bool gaps)
         edges.end());
     }
   }
-  if (model.rowPeriod > 0.0 || model.rows != nullptr)
+  for (const bool rows : { true, false })
   {
-    axes.push_back({ "rows", {}, FieldColumn::of(ImageAxis::Rows) });
-  }
-  if (model.columnPeriod > 0.0 || model.columns != nullptr)
-  {
-    axes.push_back({ "columns", {}, FieldColumn::of(ImageAxis::Columns) });
+    if (model.stripes(rows).period > 0.0 || model.stripes(rows).profile != nullptr)
+    {
+      axes.push_back({ rows ? "rows" : "columns", {},
+        FieldColumn::of(rows ? ImageAxis::Rows : ImageAxis::Columns) });
+    }
   }
   return axes;
 }
@@ -73,6 +69,49 @@ std::vector<Eigen::MatrixXd> sumOfNormals(
     }
   }
   return sum;
+}
+
+// Least squares in which the numbers of a channel meet only each other and those common to all channels.
+struct ArrowEquations
+{
+  Eigen::MatrixXd common;
+  Eigen::VectorXd gradient; // of the common numbers
+  // Of each channel; across: own x common.
+  std::vector<Eigen::MatrixXd> own, across;
+  std::vector<Eigen::VectorXd> ownGradient;
+};
+struct ArrowSolution
+{
+  Eigen::VectorXd common;
+  std::vector<Eigen::VectorXd> own;
+};
+// Eliminates the channels one by one, then solves for the common numbers.
+ArrowSolution solved(ArrowEquations equations)
+{
+  const Eigen::Index C = equations.common.rows();
+  std::vector<Eigen::MatrixXd> toCommon;
+  ArrowSolution solution;
+  for (std::size_t k = 0; k < equations.own.size(); ++k)
+  {
+    const Eigen::MatrixXd& across = equations.across[k];
+    const Eigen::VectorXd& gradient = equations.ownGradient[k];
+    const bool own = gradient.size() > 0;
+    const Eigen::LDLT<Eigen::MatrixXd> factor(equations.own[k]);
+    toCommon.emplace_back(own && C > 0 ? Eigen::MatrixXd(factor.solve(across)) : across);
+    solution.own.emplace_back(own ? Eigen::VectorXd(factor.solve(gradient)) : gradient);
+    if (own)
+    {
+      equations.common -= across.transpose() * toCommon.back();
+      equations.gradient -= across.transpose() * solution.own.back();
+    }
+  }
+  solution.common =
+    C > 0 ? Eigen::VectorXd(equations.common.ldlt().solve(equations.gradient)) : equations.gradient;
+  for (std::size_t k = 0; k < equations.own.size(); ++k)
+  {
+    solution.own[k] -= toCommon[k] * solution.common;
+  }
+  return solution;
 }
 
 // Least squares of the common and the channels' own columns; change of the columns, K.
@@ -160,69 +199,99 @@ double energyAfter(
   return energy;
 }
 
-// Mean residual and pixels of each label and channel.
-using LabelMeans = std::map<int, std::vector<std::array<double, 3>>>; // sum, pixels, energy
+// Of each label, a row a channel: sum of what the columns leave, pixels, squared residual.
+using LabelSums = std::map<int, Eigen::ArrayX3d>;
 
-LabelMeans labelMeans(const FieldData& data, const FieldModel& model,
-  const std::vector<Eigen::VectorXd>& change, bool training, const FieldLoop& loop)
+void add(LabelSums& all, int label, const Eigen::ArrayX3d& sums)
 {
-  const auto K = static_cast<std::size_t>(data.channels());
-  const Eigen::ArrayXd glare = sceneMean(data, model);
-  std::vector<LabelMeans> ofBlocks(data.blocks.size());
-  const auto measure = [&](int b)
+  all.try_emplace(label, Eigen::ArrayX3d::Zero(sums.rows(), 3)).first->second += sums;
+}
+
+LabelSums labelSums(const FieldData& data, const FieldBlock& block, const FieldModel& model,
+  const Eigen::ArrayXd& glare, const std::vector<Eigen::VectorXd>& change)
+{
+  LabelSums all;
+  const auto sum = [&](Eigen::Index k, const ChannelColumns& found)
   {
-    const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
-    if ((block.fold >= 0) != training)
+    const Eigen::VectorXd residual = found.columns.col(FieldColumn::residual());
+    const Eigen::VectorXd left = residual -
+      found.columns.leftCols(FieldColumn::residual()) * change[static_cast<std::size_t>(k)];
+    for (Eigen::Index n = 0; n < left.size(); ++n)
     {
-      return;
+      const int pixel = found.pixel[static_cast<std::size_t>(n)];
+      const int label = data.pair.labels[data.pair.index(
+        block.window.x + pixel % block.window.width, block.window.y + pixel / block.window.width)];
+      if (label != 0)
+      {
+        Eigen::ArrayX3d sums = Eigen::ArrayX3d::Zero(data.channels(), 3);
+        sums.row(k) << left[n], 1.0, residual[n] * residual[n];
+        add(all, label, sums);
+      }
     }
-    LabelMeans& means = ofBlocks[static_cast<std::size_t>(b)];
-    const auto add = [&](Eigen::Index channel, const ChannelColumns& found)
-    {
-      const auto k = static_cast<std::size_t>(channel);
-      const Eigen::VectorXd left = found.columns.col(FieldColumn::residual()) -
-        found.columns.leftCols(FieldColumn::residual()) * change[k];
-      for (Eigen::Index n = 0; n < left.size(); ++n)
-      {
-        const int pixel = found.pixel[static_cast<std::size_t>(n)];
-        const int label =
-          data.pair.labels[data.pair.index(block.window.x + pixel % block.window.width,
-            block.window.y + pixel / block.window.width)];
-        if (label == 0)
-        {
-          continue;
-        }
-        auto& sums = means[label];
-        sums.resize(K, { 0.0, 0.0, 0.0 });
-        sums[k][0] += left[n];
-        sums[k][1] += 1.0;
-        sums[k][2] +=
-          found.columns(n, FieldColumn::residual()) * found.columns(n, FieldColumn::residual());
-      }
-    };
-    forColumns(data, model, glare, block, everyStep(), add);
   };
-  loop(static_cast<int>(data.blocks.size()), measure);
-  LabelMeans all;
-  for (const LabelMeans& means : ofBlocks)
-  {
-    for (const auto& [label, sums] : means)
+  forColumns(data, model, glare, block, everyStep(), sum);
+  return all;
+}
+
+// What the means of labels in the training blocks predict of the test blocks, and where.
+GapAxis sampleAxis(const FieldData& data, const FieldModel& model,
+  const std::vector<Eigen::VectorXd>& change, double beyond, const FieldLoop& loop)
+{
+  const Eigen::ArrayXd glare = data.cells.mean(model);
+  std::vector<LabelSums> ofBlock(data.blocks.size());
+  loop(static_cast<int>(ofBlock.size()),
+    [&](int b)
     {
-      auto& sum = all[label];
-      sum.resize(K, { 0.0, 0.0, 0.0 });
-      for (std::size_t k = 0; k < K; ++k)
-      {
-        std::transform(
-          sums[k].begin(), sums[k].end(), sum[k].begin(), sum[k].begin(), std::plus<>());
-      }
+      const auto block = static_cast<std::size_t>(b);
+      ofBlock[block] = labelSums(data, data.blocks[block], model, glare, change);
+    });
+  LabelSums training;
+  LabelSums test;
+  for (std::size_t b = 0; b < ofBlock.size(); ++b)
+  {
+    for (const auto& [label, sums] : ofBlock[b])
+    {
+      add(data.blocks[b].fold >= 0 ? training : test, label, sums);
     }
   }
-  return all;
+  double gained = 0.0;
+  GapCells cells;
+  for (const auto& [label, sums] : test)
+  {
+    cells.add(std::to_string(label), sums.col(2).sum());
+    const auto known = training.find(label);
+    if (known != training.end())
+    {
+      const Eigen::ArrayXd mean = known->second.col(0) / known->second.col(1).max(1.0);
+      gained += (2.0 * mean * sums.col(0) - mean.square() * sums.col(1)).sum();
+    }
+  }
+  return { "sample", gained / beyond, cells.worst() };
+}
+
+// What the means of the test blocks have beyond noise.
+double regionEnergy(const FieldData& data, const FieldStatistics& statistics,
+  const FieldStatistics& plain, const std::vector<Eigen::VectorXd>& change)
+{
+  double energy = 0.0;
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    for (std::size_t k = 0; data.blocks[b].fold < 0 && k < change.size(); ++k)
+    {
+      const auto channel = static_cast<Eigen::Index>(k);
+      const Eigen::MatrixXd normal = plain.at(b, channel).normal();
+      const double pixels = normal(FieldColumn::offset(), FieldColumn::offset());
+      const double sum = normal(FieldColumn::offset(), FieldColumn::residual()) -
+        normal.row(FieldColumn::offset()).head(FieldColumn::residual()).dot(change[k]);
+      energy += pixels > 0.0 ? sum * sum / pixels - statistics.at(b, channel).noise / pixels : 0.0;
+    }
+  }
+  return energy;
 }
 
 std::vector<GapCell> stripeCells(double period, const std::string& lines)
 {
-  return { { period > 0.0 ? "period " + rounded(period) + " " + lines : lines + " without period",
+  return { { period > 0.0 ? textOf(2, "period ", period, ' ', lines) : lines + " without period",
     1.0 } };
 }
 }
@@ -236,12 +305,9 @@ std::vector<GapAxis> fieldAxes(
   auto test = sumOfNormals(data, plain, false);
   const std::vector<FieldAxis> axes = fieldAxisBases(statistics.model, !data.filled.empty());
   const auto K = static_cast<std::size_t>(data.channels());
-  double before = 0.0;
+  const double before = energyAfter(
+    test, std::vector<Eigen::VectorXd>(K, Eigen::VectorXd::Zero(FieldColumn::residual())));
   double noise = 0.0;
-  for (std::size_t k = 0; k < K; ++k)
-  {
-    before += test[k](FieldColumn::residual(), FieldColumn::residual());
-  }
   std::vector<std::pair<double, double>> level;
   std::vector<std::pair<double, double>> gradient;
   GapCells channel;
@@ -249,8 +315,10 @@ std::vector<GapAxis> fieldAxes(
   for (std::size_t b = 0; b < data.blocks.size(); ++b)
   {
     const ImageWindow& window = data.blocks[b].window;
-    const std::string place = thirdOfField(data.pair.fieldX(window.x + 0.5 * window.width), "x") +
-      ", " + thirdOfField(data.pair.fieldY(window.y + 0.5 * window.height), "y");
+    const double x = data.pair.fieldX(window.x + 0.5 * window.width);
+    const double y = data.pair.fieldY(window.y + 0.5 * window.height);
+    const std::string place =
+      GapPart(x, -1.0, 1.0, 3).text("x", 2) + ", " + GapPart(y, -1.0, 1.0, 3).text("y", 2);
     for (std::size_t k = 0; k < K; ++k)
     {
       const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
@@ -267,10 +335,8 @@ std::vector<GapAxis> fieldAxes(
   {
     return {};
   }
-  const std::size_t subsets = std::size_t(1) << axes.size();
-  std::vector<double> explained(subsets, 0.0);
-  std::vector<Eigen::VectorXd> change(K, Eigen::VectorXd::Zero(FieldColumn::residual()));
-  const auto explain = [&](std::size_t subset)
+  std::vector<Eigen::VectorXd> change;
+  const auto explained = [&](std::size_t subset)
   {
     std::vector<int> common;
     std::vector<int> own;
@@ -288,27 +354,17 @@ std::vector<GapAxis> fieldAxes(
         [&own](int column) { return std::find(own.begin(), own.end(), column) != own.end(); }),
       common.end());
     change = regress(training, common, own);
-    if ((subset & (ChannelBit | LevelBit)) == ChannelBit)
+    if ((subset & ChannelAndLevel) == 1)
     {
       takeCommonGain(training, own, change);
     }
-    explained[subset] = (before - energyAfter(test, change)) / beyond;
+    return (before - energyAfter(test, change)) / beyond;
   };
-  explain(ChannelBit | LevelBit);
-  explain(subsets - 1);
-  if (explained[ChannelBit | LevelBit] > (1.0 - Decision::SmallPart) * explained[subsets - 1])
-  {
-    centerPosition(training, test);
-  }
-  for (std::size_t subset = 1; subset < subsets; ++subset)
-  {
-    explain(subset);
-  }
-  const std::vector<double> share = shapleyValues(explained, axes.size());
+  const std::vector<double> share =
+    shapleyOfAxes(axes.size(), explained, [&] { centerPosition(training, test); });
   // What the bases leave for labels and blocks, in the plain columns.
   training = sumOfNormals(data, plain, true);
-  test = sumOfNormals(data, plain, false);
-  explain(subsets - 1);
+  explained((std::size_t(1) << axes.size()) - 1);
   std::vector<GapAxis> found;
   for (std::size_t a = 0; a < axes.size(); ++a)
   {
@@ -317,53 +373,14 @@ std::vector<GapAxis> fieldAxes(
       : name == "level"                                  ? fifths(level, "level").worst()
       : name == "position"                               ? position.worst()
       : name == "edges" ? fifths(gradient, "change over two pixels").worst()
-      : name == "rows"  ? stripeCells(plain.model.rowPeriod, "rows")
-                        : stripeCells(plain.model.columnPeriod, "columns");
+                        : stripeCells(plain.model.stripes(name == "rows").period, name);
     found.push_back({ name, share[a], cells });
   }
   // What goes with labels, or with blocks, of what is left.
-  if (data.pair.labels != nullptr)
-  {
-    const LabelMeans means = labelMeans(data, statistics.model, change, true, loop);
-    const LabelMeans others = labelMeans(data, statistics.model, change, false, loop);
-    double gained = 0.0;
-    GapCells cells;
-    for (const auto& [label, sums] : others)
-    {
-      const auto mean = means.find(label);
-      for (std::size_t k = 0; k < K; ++k)
-      {
-        const double n = sums[k][1];
-        cells.add(std::to_string(label), sums[k][2]);
-        if (mean != means.end() && mean->second[k][1] > 0.0)
-        {
-          const double m = mean->second[k][0] / mean->second[k][1];
-          gained += 2.0 * m * sums[k][0] - m * m * n;
-        }
-      }
-    }
-    found.push_back({ "sample", gained / beyond, cells.worst() });
-  }
-  else
-  {
-    double gained = 0.0;
-    for (std::size_t b = 0; b < data.blocks.size(); ++b)
-    {
-      for (std::size_t k = 0; data.blocks[b].fold < 0 && k < K; ++k)
-      {
-        const Eigen::MatrixXd& N = plain.at(b, static_cast<Eigen::Index>(k)).normal();
-        const double pixels = N(FieldColumn::offset(), FieldColumn::offset());
-        const double sum = N(FieldColumn::offset(), FieldColumn::residual()) -
-          N.row(FieldColumn::offset()).head(FieldColumn::residual()).dot(change[k]);
-        const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
-        if (pixels > 0.0)
-        {
-          gained += sum * sum / pixels - sums.noise / pixels;
-        }
-      }
-    }
-    found.push_back({ "region", gained / beyond, position.worst() });
-  }
+  found.push_back(data.pair.labels != nullptr
+      ? sampleAxis(data, statistics.model, change, beyond, loop)
+      : GapAxis{
+          "region", regionEnergy(data, statistics, plain, change) / beyond, position.worst() });
   found = worthNaming(std::move(found));
   for (GapAxis& axis : found)
   {

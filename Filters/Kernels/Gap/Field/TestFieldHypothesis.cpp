@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Field/FieldHypothesis.h"
+#include "Kernels/Gap/Field/FieldFit.h"
 #include "Kernels/Gap/Field/TestFieldReport.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Samples/GapAxes.h"
+#include "Kernels/Gap/Samples/AxisShares.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,64 +10,60 @@ namespace
 {
 constexpr std::size_t ManyGroups = 6;
 
-// Builds columns over the elements k + K i.
+using Elements = Eigen::ArrayXXd;                          // K x S
+using OfSamples = Eigen::Array<double, 1, Eigen::Dynamic>; // S
+
+// Builds the columns of one axis after the other.
 class Columns
 {
 public:
   explicit Columns(const GapData& data)
-    : Data(data)
-    , Channels(data.channels())
-    , Samples(data.samples())
+    : Channels(data.channels())
+    , Usable((data.count.array() > 0.0).colwise().any())
   {
   }
-  template <typename Value> // Value(k, i)
-  void add(const Value& value)
+  // One row for all channels, or one for each.
+  void add(const Elements& values)
   {
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(Channels * Samples);
-    for (Eigen::Index i = 0; i < Samples; ++i)
-    {
-      if (Data.usable[static_cast<std::size_t>(i)] != 0)
-      {
-        for (Eigen::Index k = 0; k < Channels; ++k)
-        {
-          column[k + Channels * i] = value(k, i);
-        }
-      }
-    }
-    List.push_back(std::move(column));
+    const Elements known = Usable.replicate(values.rows(), 1).select(values, 0.0);
+    List.emplace_back(known.replicate(Channels / known.rows(), 1).reshaped());
   }
-  // One column a channel: value in that channel, less the mean over the channels if centered.
-  template <typename Value>
-  void addEachChannel(const Value& value, bool centered)
+  // One column a channel: the values in that channel, less the mean over the channels if centered.
+  void addEachChannel(const Elements& values, bool centered)
   {
     const double mean = centered ? 1.0 / static_cast<double>(Channels) : 0.0;
     for (Eigen::Index c = 0; c < Channels; ++c)
     {
-      add([&](Eigen::Index k, Eigen::Index i)
-        { return ((k == c ? 1.0 : 0.0) - mean) * value(k, i); });
+      Eigen::ArrayXd factor = Eigen::ArrayXd::Constant(Channels, -mean);
+      factor[c] += 1.0;
+      add(values.colwise() * factor);
     }
   }
-  AxisBasis finish(const char* axis)
+  void finish(const char* axis)
   {
-    AxisBasis basis{ axis,
-      Eigen::MatrixXd(Channels * Samples, static_cast<Eigen::Index>(List.size())) };
+    Names.emplace_back(axis);
+    End.push_back(static_cast<Eigen::Index>(List.size()));
+  }
+  AxisBases bases() const
+  {
+    AxisBases bases{ Names, End, { List.front().size(), End.back() } };
     for (std::size_t c = 0; c < List.size(); ++c)
     {
-      basis.columns.col(static_cast<Eigen::Index>(c)) = List[c];
+      bases.columns.col(static_cast<Eigen::Index>(c)) = List[c];
     }
-    List.clear();
-    return basis;
+    return bases;
   }
 
 private:
-  const GapData& Data;
   Eigen::Index Channels;
-  Eigen::Index Samples;
+  Eigen::Array<bool, 1, Eigen::Dynamic> Usable;
+  std::vector<std::string> Names;
+  std::vector<Eigen::Index> End;
   std::vector<Eigen::VectorXd> List;
 };
 
 // First and second derivative under every passband, per 100 nm.
-Eigen::MatrixXd derivativeUnder(const GapData& data, int order)
+Elements derivativeUnder(const GapData& data, int order)
 {
   const WavelengthGrid& grid = data.camera.wavelengths();
   const Eigen::Index last = grid.size() - 1;
@@ -87,24 +83,24 @@ Eigen::MatrixXd derivativeUnder(const GapData& data, int order)
 }
 
 void addGroups(Columns& columns, const std::vector<int>& group, std::size_t count,
-  const Eigen::MatrixXd& u, bool contrasts)
+  const Elements& u, bool contrasts)
 {
   const int groups = static_cast<int>(count);
-  const double common = contrasts ? 1.0 / groups : 0.0;
+  const Eigen::Map<const Eigen::Array<int, 1, Eigen::Dynamic>> number(group.data(), u.cols());
   for (int g = 0; g + (contrasts ? 1 : 0) < groups; ++g)
   {
-    const auto member = [&group, g, common](Eigen::Index i)
-    { return (group[static_cast<std::size_t>(i)] == g ? 1.0 : 0.0) - common; };
+    const OfSamples member =
+      (number == g).cast<double>() - (contrasts ? 1.0 / static_cast<double>(groups) : 0.0);
     if (count <= ManyGroups)
     {
-      columns.addEachChannel([&](Eigen::Index, Eigen::Index i) { return member(i); }, false);
-      columns.add([&](Eigen::Index k, Eigen::Index i) { return member(i) * u(k, i) * u(k, i); });
+      columns.addEachChannel(member.replicate(u.rows(), 1), false);
+      columns.add(u.square().rowwise() * member);
     }
     else
     {
-      columns.add([&](Eigen::Index, Eigen::Index i) { return member(i); });
+      columns.add(member);
     }
-    columns.add([&](Eigen::Index k, Eigen::Index i) { return member(i) * u(k, i); });
+    columns.add(u.rowwise() * member);
   }
 }
 
@@ -124,108 +120,105 @@ double upperLevel(const GapData& data)
   return *place;
 }
 
-AxisBasis positionBasis(const GapData& data, Columns& columns, bool contrasts)
+// Mean response of the usable neighbours minus the sample's own.
+Elements surroundMinusSelf(const GapData& data)
 {
-  const Eigen::MatrixXd& u = data.simulated;
-  const Eigen::VectorXd& x = data.scene.fieldX();
-  const Eigen::VectorXd& y = data.scene.fieldY();
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return u(k, i) * x[i]; });
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return u(k, i) * y[i]; });
-  const double middle = contrasts ? (x.array().square() + y.array().square()).mean() : 0.0;
-  columns.add(
-    [&](Eigen::Index k, Eigen::Index i) { return u(k, i) * (x[i] * x[i] + y[i] * y[i] - middle); });
-  columns.add(
-    [&](Eigen::Index k, Eigen::Index i) { return u(k, i) * (x[i] * x[i] - y[i] * y[i]); });
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return u(k, i) * x[i] * y[i]; });
-  columns.add([&](Eigen::Index, Eigen::Index i) { return x[i]; });
-  columns.add([&](Eigen::Index, Eigen::Index i) { return y[i]; });
-  columns.add(
-    [&](Eigen::Index k, Eigen::Index i)
+  Elements difference = Elements::Zero(data.channels(), data.samples());
+  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  {
+    std::vector<int> near = data.scene.neighbours()[static_cast<std::size_t>(i)];
+    near.erase(std::remove_if(near.begin(), near.end(),
+                 [&](int other) { return !(data.count.col(other).array() > 0.0).any(); }),
+      near.end());
+    if (!near.empty())
     {
-      double sum = 0.0;
-      int count = 0;
-      for (const int neighbour : data.scene.neighbours()[static_cast<std::size_t>(i)])
-      {
-        if (data.usable[static_cast<std::size_t>(neighbour)] != 0)
-        {
-          sum += u(k, neighbour);
-          ++count;
-        }
-      }
-      return count > 0 ? sum / count - u(k, i) : 0.0;
-    });
-  return columns.finish("position");
+      difference.col(i) = data.simulated(Eigen::all, near).rowwise().mean() - data.simulated.col(i);
+    }
+  }
+  return difference;
 }
 
-AxisBasis orderBasis(const GapData& data, Columns& columns, bool contrasts)
+void addPosition(Columns& columns, const GapData& data, const Elements& u, bool contrasts)
 {
-  const Eigen::MatrixXd& u = data.simulated;
+  const OfSamples x = data.scene.fieldX().transpose();
+  const OfSamples y = data.scene.fieldY().transpose();
+  const OfSamples square = x.square() + y.square();
+  for (const OfSamples& factor : { x, y, OfSamples(square - (contrasts ? square.mean() : 0.0)),
+         OfSamples(x.square() - y.square()), OfSamples(x * y) })
+  {
+    columns.add(u.rowwise() * factor);
+  }
+  columns.add(x);
+  columns.add(y);
+  columns.add(surroundMinusSelf(data));
+}
+
+void addOrder(Columns& columns, const GapData& data, const Elements& u, bool contrasts)
+{
   const double common = contrasts ? 1.0 : 0.0;
-  const Eigen::ArrayXd t = data.scene.time().array() - 0.5 * common;
-  const double square = t.square().mean() * common;
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return u(k, i) * t[i]; });
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return u(k, i) * (t[i] * t[i] - square); });
-  columns.add([&](Eigen::Index, Eigen::Index i) { return t[i]; });
-  for (int step = 1; step <= 4; ++step)
+  const OfSamples time = data.scene.time().transpose();
+  const OfSamples t = time - 0.5 * common;
+  columns.add(u.rowwise() * t);
+  columns.add(u.rowwise() * OfSamples(t.square() - common * t.square().mean()));
+  columns.add(t);
+  for (const double place : { 0.2, 0.4, 0.6, 0.8 })
   {
-    const double place = 0.2 * step;
-    columns.add([&](Eigen::Index k, Eigen::Index i)
-      { return u(k, i) * ((data.scene.time()[i] > place ? 1.0 : 0.0) - common * (1.0 - place)); });
+    const OfSamples behind = (time > place).cast<double>() - common * (1.0 - place);
+    columns.add(u.rowwise() * behind);
   }
-  columns.addEachChannel([&](Eigen::Index k, Eigen::Index i) { return u(k, i) * t[i]; }, true);
-  return columns.finish("order");
+  columns.addEachChannel(u.rowwise() * t, true);
 }
 
-AxisBasis shapeBasis(const GapData& data, Columns& columns)
+void addShape(Columns& columns, const GapData& data, const Elements& u)
 {
-  const Eigen::MatrixXd& u = data.simulated;
-  const Eigen::MatrixXd slope = derivativeUnder(data, 1);
-  const Eigen::MatrixXd curvature = derivativeUnder(data, 2);
-  const Eigen::VectorXd mean = data.scene.reflectance().colwise().mean();
-  const Eigen::Index last = data.channels() - 1;
-  columns.addEachChannel([&](Eigen::Index k, Eigen::Index i) { return slope(k, i); }, false);
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return curvature(k, i); });
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return mean[i] - u(k, i); });
-  columns.add([&](Eigen::Index k, Eigen::Index i)
-    { return (k > 0 ? u(k - 1, i) - u(k, i) : 0.0) + (k < last ? u(k + 1, i) - u(k, i) : 0.0); });
-  return columns.finish("spectral_shape");
+  columns.addEachChannel(derivativeUnder(data, 1), false);
+  columns.add(derivativeUnder(data, 2));
+  const OfSamples mean = data.scene.reflectance().colwise().mean();
+  columns.add(mean.replicate(u.rows(), 1) - u);
+  Elements neighbours = Elements::Zero(u.rows(), u.cols());
+  const Elements step = u.bottomRows(u.rows() - 1) - u.topRows(u.rows() - 1);
+  neighbours.topRows(step.rows()) += step;
+  neighbours.bottomRows(step.rows()) -= step;
+  columns.add(neighbours);
 }
 }
 
-std::vector<AxisBasis> axisBases(const GapData& data, bool contrasts)
+AxisBases axisBases(const GapData& data, bool contrasts)
 {
-  const Eigen::MatrixXd& u = data.simulated;
+  const Elements u = data.simulated;
   Columns columns(data);
-  std::vector<AxisBasis> bases;
-  columns.addEachChannel([](Eigen::Index, Eigen::Index) { return 1.0; }, false);
-  columns.addEachChannel([&](Eigen::Index k, Eigen::Index i) { return u(k, i); }, true);
-  bases.push_back(columns.finish("channel"));
-  const double upper = upperLevel(data);
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return u(k, i); });
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return u(k, i) * u(k, i); });
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return u(k, i) * u(k, i) * u(k, i); });
-  columns.add([&](Eigen::Index k, Eigen::Index i) { return std::fmax(u(k, i) - upper, 0.0); });
-  bases.push_back(columns.finish("level"));
-  if (data.scene.media().size() > 1)
+  columns.addEachChannel(Elements::Ones(u.rows(), u.cols()), false);
+  columns.addEachChannel(u, true);
+  columns.finish("channel");
+  columns.add(u);
+  columns.add(u.square());
+  columns.add(u.cube());
+  columns.add((u - upperLevel(data)).cwiseMax(0.0));
+  columns.finish("level");
+  const SampleScene& scene = data.scene;
+  if (scene.media().size() > 1)
   {
-    addGroups(columns, data.scene.medium(), data.scene.media().size(), u, contrasts);
-    bases.push_back(columns.finish("medium"));
+    addGroups(columns, scene.medium(), scene.media().size(), u, contrasts);
+    columns.finish("medium");
   }
-  if (data.scene.scenes().size() > 1)
+  if (scene.scenes().size() > 1)
   {
-    addGroups(columns, data.scene.scene(), data.scene.scenes().size(), u, contrasts);
-    bases.push_back(columns.finish("scene"));
+    addGroups(columns, scene.scene(), scene.scenes().size(), u, contrasts);
+    columns.finish("scene");
   }
-  if (data.scene.hasPositions())
+  if (scene.hasPositions())
   {
-    bases.push_back(positionBasis(data, columns, contrasts));
+    addPosition(columns, data, u, contrasts);
+    columns.finish("position");
   }
-  if (data.scene.hasOrder())
+  if (scene.hasOrder())
   {
-    bases.push_back(orderBasis(data, columns, contrasts));
+    addOrder(columns, data, u, contrasts);
+    columns.finish("order");
   }
-  bases.push_back(shapeBasis(data, columns));
-  return bases;
+  addShape(columns, data, u);
+  columns.finish("spectral_shape");
+  return columns.bases();
 }
 
 } // namespace msi

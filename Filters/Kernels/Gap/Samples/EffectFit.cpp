@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Samples/EffectFit.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/Samples/ColumnProducts.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
 
 #include <Eigen/Cholesky>
@@ -53,17 +52,17 @@ double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
 
 Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
   const Eigen::Ref<const Eigen::ArrayXXd>& weight, const std::vector<FreeParameter>& free,
-  Eigen::Index reach, const std::vector<Eigen::Index>& samples)
+  Eigen::Index reach, const SampleList& samples)
 {
-  const Eigen::Index channels = weight.rows();
-  const auto count = static_cast<Eigen::Index>(samples.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
-  Eigen::ArrayXd root(count);
-  std::vector<Eigen::Index> active;
-  Eigen::MatrixXd columns;
-  for (Eigen::Index k = 0; k < channels; ++k)
+  for (Eigen::Index k = 0; k < weight.rows(); ++k)
   {
-    active.clear();
+    SampleList rows;
+    for (const Eigen::Index i : samples)
+    {
+      rows.push_back(k + weight.rows() * i);
+    }
+    std::vector<Eigen::Index> active;
     for (std::size_t p = 0; p < free.size(); ++p)
     {
       if (free[p].channel < 0 || std::abs(free[p].channel - k) <= reach)
@@ -71,21 +70,9 @@ Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
         active.push_back(static_cast<Eigen::Index>(p));
       }
     }
-    for (Eigen::Index i = 0; i < count; ++i)
-    {
-      root[i] = std::sqrt(weight(k, samples[static_cast<std::size_t>(i)]));
-    }
-    columns.resize(count, static_cast<Eigen::Index>(active.size()));
-    for (std::size_t a = 0; a < active.size(); ++a)
-    {
-      const double* from = jacobian.col(active[a]).data() + k;
-      double* to = columns.col(static_cast<Eigen::Index>(a)).data();
-      for (Eigen::Index i = 0; i < count; ++i)
-      {
-        to[i] = root[i] * from[samples[static_cast<std::size_t>(i)] * channels];
-      }
-    }
-    normal(active, active) += columnProducts(columns);
+    const Eigen::VectorXd root = weight.row(k)(samples).sqrt();
+    const Eigen::MatrixXd columns = root.asDiagonal() * jacobian(rows, active);
+    normal(active, active) += columns.transpose() * columns;
   }
   return normal;
 }
@@ -101,34 +88,19 @@ Eigen::MatrixXd EffectFit::informationOfData() const
   return ofData;
 }
 
-EffectFitter::EffectFitter(const GapData& data, std::vector<char> training, std::uint64_t seed)
+EffectFitter::EffectFitter(const GapData& data, SampleList training, std::uint64_t seed)
   : Data(data)
   , Training(std::move(training))
-  , Weight(data.weight)
+  , Weight(Eigen::MatrixXd::Zero(data.channels(), data.samples()))
 {
-  for (Eigen::Index j = 0; j < Weight.cols(); ++j)
-  {
-    if (Training[static_cast<std::size_t>(j)] == 0)
-    {
-      Weight.col(j).setZero();
-    }
-  }
-  const auto samples =
-    std::count_if(Training.begin(), Training.end(), [](char c) { return c != 0; });
-  Samples = static_cast<double>(samples);
-  const auto folds = static_cast<int>(std::min<std::ptrdiff_t>(InnerFolds, samples));
-  const std::vector<int> fold = foldsOf(data, Training, std::max(folds, 2), seed);
+  Weight(Eigen::all, Training) = data.weight(Eigen::all, Training);
+  const int folds = std::min(InnerFolds, static_cast<int>(Training.size()));
   Fold.resize(folds >= 2 ? static_cast<std::size_t>(folds) : 0);
-  for (Eigen::Index j = 0; j < data.samples(); ++j)
+  const std::vector<int> fold = foldsOf(data, Training, std::max(folds, 2), seed);
+  for (std::size_t t = 0; t < Training.size() && !Fold.empty(); ++t)
   {
-    if (Training[static_cast<std::size_t>(j)] != 0)
-    {
-      Members.push_back(j);
-      if (!Fold.empty())
-      {
-        Fold[static_cast<std::size_t>(fold[static_cast<std::size_t>(j)])].push_back(j);
-      }
-    }
+    const int number = fold[static_cast<std::size_t>(Training[t])];
+    Fold[static_cast<std::size_t>(number)].push_back(Training[t]);
   }
   Elements = static_cast<double>((Weight.array() > 0.0).count());
   NoiseEnergy = (Weight.array() * Data.variance.array()).sum();
@@ -188,9 +160,9 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
     const Eigen::Map<const Eigen::ArrayXXd> trust(
       rootTrust.data(), Data.channels(), Data.samples());
     Eigen::MatrixXd normal =
-      normalMatrix(fit.jacobian, trust.square(), fit.free, fit.set.reach(), Members);
+      normalMatrix(fit.jacobian, trust.square(), fit.free, fit.set.reach(), Training);
     Eigen::VectorXd gradient =
-      columnProducts(fit.jacobian, (rootWeight * residual * root.square()).matrix());
+      fit.jacobian.transpose() * (rootWeight * residual * root.square()).matrix();
     normal.diagonal().array() += prior;
     gradient.array() -= prior * (values.array() - neutral);
     // A parameter at its bound that wants further out stays.
@@ -245,7 +217,7 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
     fit.jacobian = jacobian(*here, fit.set, fit.free);
   }
   fit.predicted = here->response();
-  fit.information = normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), Members);
+  fit.information = normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), Training);
   fit.information.diagonal().array() += prior;
   crossValidate(fit);
   return fit;
@@ -261,7 +233,7 @@ void EffectFitter::crossValidate(EffectFit& fit) const
   {
     std::vector<Eigen::MatrixXd> normal;
     std::vector<Eigen::VectorXd> gradient;
-    for (const std::vector<Eigen::Index>& members : Fold)
+    for (const SampleList& members : Fold)
     {
       normal.push_back(
         normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), members));
@@ -280,7 +252,7 @@ void EffectFitter::crossValidate(EffectFit& fit) const
       {
         // The estimate without the fold is minus this step away, and keeps to the bounds.
         const FreeParameter& parameter = fit.free[static_cast<std::size_t>(p)];
-        const double value = valueOf(fit.set, parameter);
+        const double value = fit.set.value(parameter);
         step[p] = std::fmin(std::fmax(step[p], value - parameter.upper), value - parameter.lower);
       }
       for (const Eigen::Index j : Fold[f])
@@ -303,29 +275,18 @@ void EffectFitter::crossValidate(EffectFit& fit) const
   fit.dispersion = mean * std::fmin(std::fmax(effect, 1.0), static_cast<double>(channels));
 }
 
-Eigen::VectorXd EffectFitter::weighted(const Eigen::MatrixXd& change) const
-{
-  const Eigen::ArrayXXd whole =
-    (Weight.array() > 0.0).select(Weight.array().sqrt() * change.array(), 0.0);
-  return Eigen::Map<const Eigen::VectorXd>(whole.data(), whole.size());
-}
-
 Eigen::MatrixXd EffectFitter::covariance(const EffectFit& fit) const
 {
   const Eigen::Index channels = Data.channels();
   const Eigen::Index count = fit.jacobian.cols();
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(count, count);
-  double samples = 0.0;
-  for (Eigen::Index j = 0; j < Data.samples(); ++j)
+  for (const Eigen::Index j : Training)
   {
-    if (Training[static_cast<std::size_t>(j)] != 0)
-    {
-      const Eigen::VectorXd score = fit.jacobian.middleRows(j * channels, channels).transpose() *
-        (Weight.col(j).array() * fit.heldOut.col(j).array()).matrix();
-      meat += score * score.transpose();
-      samples += 1.0;
-    }
+    const Eigen::VectorXd score = fit.jacobian.middleRows(j * channels, channels).transpose() *
+      (Weight.col(j).array() * fit.heldOut.col(j).array()).matrix();
+    meat += score * score.transpose();
   }
+  const auto samples = static_cast<double>(Training.size());
   const Eigen::MatrixXd inverse =
     fit.information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
   return samples / std::fmax(samples - 1.0, 1.0) * inverse * meat * inverse;
@@ -339,8 +300,7 @@ Eigen::MatrixXd leftBy(const GapData& data, const Eigen::MatrixXd& predicted)
 }
 }
 
-Eigen::MatrixXd leftOfHeldOut(
-  const GapData& data, const EffectFit& fit, const std::vector<char>& training)
+Eigen::MatrixXd leftOfHeldOut(const GapData& data, const EffectFit& fit, const SampleList& training)
 {
   Eigen::MatrixXd left = leftBy(data, fit.predicted);
   const double none = std::numeric_limits<double>::infinity();
@@ -355,13 +315,10 @@ Eigen::MatrixXd leftOfHeldOut(
     const double place = fit.set.effects[e].parameters[step->index];
     double before = -none;
     double behind = none;
-    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    for (const Eigen::Index i : training)
     {
-      if (training[static_cast<std::size_t>(i)] != 0)
-      {
-        before = time[i] <= place ? std::fmax(before, time[i]) : before;
-        behind = time[i] > place ? std::fmin(behind, time[i]) : behind;
-      }
+      before = time[i] <= place ? std::fmax(before, time[i]) : before;
+      behind = time[i] > place ? std::fmin(behind, time[i]) : behind;
     }
     const double half = 0.5 * fit.set.effects[e].parameters[step->index + 1];
     for (const double end : { before - half, behind + half })

@@ -50,21 +50,17 @@ struct EffectFit
 class EffectFitter
 {
 public:
-  // Only samples with training != 0 are looked at. Holds a reference to data.
-  EffectFitter(const GapData& data, std::vector<char> training, std::uint64_t seed);
+  // Only the samples for training are looked at. Holds a reference to data.
+  EffectFitter(const GapData& data, SampleList training, std::uint64_t seed);
 
   const GapData& data() const noexcept { return Data; }
   const Eigen::MatrixXd& weight() const noexcept { return Weight; }
-  const std::vector<char>& training() const noexcept { return Training; }
-  double trainingSamples() const noexcept { return Samples; }
+  const SampleList& training() const noexcept { return Training; }
   double trainingElements() const noexcept { return Elements; }
   double noiseEnergy() const noexcept { return NoiseEnergy; } // what noise alone leaves of energy
 
   EffectFit nominal() const;
   EffectFit fit(EffectSet start, const FitEffort& effort) const; // nominal() without effects
-
-  // A change of the response, K x S, times the root of the weights, element by element.
-  Eigen::VectorXd weighted(const Eigen::MatrixXd& change) const;
 
   // Covariance of the free parameters: sandwich over samples, whose channels may err together.
   Eigen::MatrixXd covariance(const EffectFit& fit) const;
@@ -73,11 +69,9 @@ private:
   void crossValidate(EffectFit& fit) const;
 
   const GapData& Data;
-  std::vector<char> Training;
+  SampleList Training;
   Eigen::MatrixXd Weight;
-  std::vector<Eigen::Index> Members;           // the training samples
-  std::vector<std::vector<Eigen::Index>> Fold; // the training samples by inner fold
-  double Samples = 0.0;
+  std::vector<SampleList> Fold; // the training samples by inner fold
   double Elements = 0.0;
   double NoiseEnergy = 0.0;
 };
@@ -88,12 +82,12 @@ private:
 //   parameters a channel has, not with that of all.
 Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
   const Eigen::Ref<const Eigen::ArrayXXd>& weight, const std::vector<FreeParameter>& free,
-  Eigen::Index reach, const std::vector<Eigen::Index>& samples);
+  Eigen::Index reach, const SampleList& samples);
 
 // Observed minus predicted, K x S; 0 where nothing was measured.
 // A step in time is only known to lie between two training samples; a sample between these may lie on either side of it,
 // and is taken where it agrees better.
 Eigen::MatrixXd leftOfHeldOut(
-  const GapData& data, const EffectFit& fit, const std::vector<char>& training);
+  const GapData& data, const EffectFit& fit, const SampleList& training);
 
 } // namespace msi

@@ -195,17 +195,16 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
   return free;
 }
 
-double valueOf(const EffectSet& set, const FreeParameter& parameter)
+double& EffectSet::value(const FreeParameter& parameter)
 {
-  return parameter.effect < set.effects.size()
-    ? set.effects[parameter.effect].parameters[parameter.index]
-    : set.level;
+  return parameter.effect < effects.size() ? effects[parameter.effect].parameters[parameter.index]
+                                           : level;
 }
 
-void setValue(EffectSet& set, const FreeParameter& parameter, double value)
+double EffectSet::value(const FreeParameter& parameter) const
 {
-  (parameter.effect < set.effects.size() ? set.effects[parameter.effect].parameters[parameter.index]
-                                         : set.level) = value;
+  return parameter.effect < effects.size() ? effects[parameter.effect].parameters[parameter.index]
+                                           : level;
 }
 
 Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>& free)
@@ -213,7 +212,7 @@ Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>&
   Eigen::VectorXd values(static_cast<Eigen::Index>(free.size()));
   for (std::size_t p = 0; p < free.size(); ++p)
   {
-    values[static_cast<Eigen::Index>(p)] = valueOf(set, free[p]);
+    values[static_cast<Eigen::Index>(p)] = set.value(free[p]);
   }
   return values;
 }
@@ -223,7 +222,7 @@ void setValues(
 {
   for (std::size_t p = 0; p < free.size(); ++p)
   {
-    setValue(set, free[p], values[static_cast<Eigen::Index>(p)]);
+    set.value(free[p]) = values[static_cast<Eigen::Index>(p)];
   }
 }
 
@@ -262,7 +261,7 @@ Eigen::MatrixXd jacobian(
   Eigen::MatrixXd columns(base.size(), static_cast<Eigen::Index>(free.size()));
   const auto stepOf = [&](const FreeParameter& parameter)
   {
-    const double value = valueOf(set, parameter);
+    const double value = set.value(parameter);
     const double step = RelativeStep * parameter.scale;
     return value + step > parameter.upper ? -step : step;
   };
@@ -282,7 +281,7 @@ Eigen::MatrixXd jacobian(
       {
         if (!perChannel || free[p].channel % colors == color)
         {
-          setValue(moved, free[p], valueOf(set, free[p]) + stepOf(free[p]));
+          moved.value(free[p]) = set.value(free[p]) + stepOf(free[p]);
         }
       }
       const std::optional<StagedResponse> there = stagedResponse(here, moved);
@@ -313,6 +312,15 @@ Eigen::MatrixXd jacobian(
   return columns;
 }
 
+bool canShow(const SampleScene& scene, const EffectDefinition& effect, const std::string& medium)
+{
+  const std::vector<std::string>& media = scene.media();
+  return (effect.need != EffectNeed::Position || scene.hasPositions()) &&
+    (effect.need != EffectNeed::Order || scene.hasOrder()) &&
+    (effect.need != EffectNeed::Medium ||
+      (!medium.empty() && std::find(media.begin(), media.end(), medium) != media.end()));
+}
+
 std::vector<EffectChoice> choicesFor(
   const SampleScene& scene, const std::vector<std::string>& without)
 {
@@ -322,20 +330,15 @@ std::vector<EffectChoice> choicesFor(
   std::vector<EffectChoice> choices;
   for (const EffectDefinition& effect : effectLibrary())
   {
-    const bool shown = effect.stage != EffectStage::Noise && effect.stage != EffectStage::Image &&
-      (effect.need != EffectNeed::Position || scene.hasPositions()) &&
-      (effect.need != EffectNeed::Order || scene.hasOrder()) &&
-      (effect.need != EffectNeed::Medium || !scene.samples().medium.empty()) &&
-      !barred(effect.name);
-    if (!shown)
+    if (effect.stage == EffectStage::Noise || effect.stage == EffectStage::Image ||
+      barred(effect.name))
     {
       continue;
     }
-    const std::vector<std::string> media =
-      effect.need == EffectNeed::Medium ? scene.media() : std::vector<std::string>{ std::string() };
-    for (const std::string& medium : media)
+    for (const std::string& medium :
+      effect.need == EffectNeed::Medium ? scene.media() : std::vector<std::string>{ std::string() })
     {
-      if (effect.need == EffectNeed::Medium && medium.empty())
+      if (!canShow(scene, effect, medium))
       {
         continue;
       }

@@ -74,10 +74,10 @@ struct EffectSet
   void remove(std::size_t position);
   std::optional<StepPlace> placeOf(std::size_t position) const; // empty: it makes no step
   std::vector<FreeParameter> freeParameters(const CameraModel& camera) const;
+  double value(const FreeParameter& parameter) const;
+  double& value(const FreeParameter& parameter);
 };
 
-double valueOf(const EffectSet& set, const FreeParameter& parameter);
-void setValue(EffectSet& set, const FreeParameter& parameter, double value);
 Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>& free);
 void setValues(
   EffectSet& set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& values);
@@ -99,6 +99,9 @@ std::optional<StagedResponse> stagedResponse(const StagedResponse& related, cons
 // its neighbours), so all channels are moved at once.
 Eigen::MatrixXd jacobian(
   const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free);
+
+// Whether this scene has what an effect needs. medium: of an effect of one.
+bool canShow(const SampleScene& scene, const EffectDefinition& effect, const std::string& medium);
 
 // The effects of the library that this scene can show in its mean response, form by form, without those named;
 // those of lamp and filters also with the white taken after them.

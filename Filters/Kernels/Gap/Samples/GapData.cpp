@@ -106,25 +106,26 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options)
   GapData data{ capture.camera, alignedScene(capture), {}, {}, {}, {}, {}, {}, {}, {}, 0, 0 };
   averageReadings(capture, data);
   data.simulated = cameraResponse(data.camera)(data.scene.reflectance());
-  data.usable.assign(static_cast<std::size_t>(data.samples()), 0);
   for (Eigen::Index j = 0; j < data.samples(); ++j)
   {
     if (!data.simulated.col(j).allFinite())
     {
       data.count.col(j).setZero();
     }
-    data.usable[static_cast<std::size_t>(j)] = (data.count.col(j).array() > 0.0).any() ? 1 : 0;
+    if ((data.count.col(j).array() > 0.0).any())
+    {
+      data.usable.push_back(j);
+    }
     data.observed.col(j) =
       (data.count.col(j).array() > 0.0).select(data.observed.col(j), data.simulated.col(j));
   }
   data.elements = (data.count.array() > 0.0).count();
-  const auto usable = std::count(data.usable.begin(), data.usable.end(), 1);
-  if (usable < 2)
+  if (data.usable.size() < 2)
   {
-    reject("a diagnosis needs 2 samples or more with reading and reflectance; ", usable, " of ",
-      data.samples(), " have both");
+    reject("a diagnosis needs 2 samples or more with reading and reflectance; ", data.usable.size(),
+      " of ", data.samples(), " have both");
   }
-  data.folds = static_cast<int>(std::min<std::ptrdiff_t>(std::max(options.folds, 2), usable));
+  data.folds = std::min(std::max(options.folds, 2), static_cast<int>(data.usable.size()));
   data.fold = foldsOf(data, data.usable, data.folds, options.seed);
   return data;
 }
@@ -139,33 +140,21 @@ void setWeights(GapData& data)
   data.weight = measured / (data.variance.array() + tolerance);
 }
 
-std::vector<int> foldsOf(
-  const GapData& data, const std::vector<char>& among, int folds, std::uint64_t seed)
+std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed)
 {
-  std::vector<std::size_t> order;
+  const CounterRandom random(seed, 71);
+  const auto key = [&](Eigen::Index i)
+  {
+    return std::make_pair(data.scene.medium()[static_cast<std::size_t>(i)],
+      random.uniform(static_cast<std::uint64_t>(i)));
+  };
+  std::sort(
+    among.begin(), among.end(), [&key](Eigen::Index a, Eigen::Index b) { return key(a) < key(b); });
+  std::vector<int> fold(static_cast<std::size_t>(data.samples()), -1);
   for (std::size_t i = 0; i < among.size(); ++i)
   {
-    if (among[i] != 0)
-    {
-      order.push_back(i);
-    }
-  }
-  const CounterRandom random(seed, 71);
-  std::vector<double> key(among.size());
-  for (const std::size_t i : order)
-  {
-    key[i] = random.uniform(i);
-  }
-  std::sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b)
-    {
-      return std::make_pair(data.scene.medium()[a], key[a]) <
-        std::make_pair(data.scene.medium()[b], key[b]);
-    });
-  std::vector<int> fold(among.size(), -1);
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    fold[order[i]] = static_cast<int>(i % static_cast<std::size_t>(folds));
+    fold[static_cast<std::size_t>(among[i])] =
+      static_cast<int>(i % static_cast<std::size_t>(folds));
   }
   return fold;
 }

@@ -10,6 +10,8 @@
 namespace msi
 {
 
+using SampleList = std::vector<Eigen::Index>; // numbers of samples, ascending
+
 // Channels x samples throughout. An element without a reading has count 0 and weight 0, and observed
 // there equals simulated.
 struct GapData
@@ -22,8 +24,8 @@ struct GapData
   Eigen::MatrixXd simulated; // the nominal camera
   Eigen::MatrixXd variance;  // of observed - simulated from noise alone
   Eigen::MatrixXd weight;    // of a squared residual in a fit
-  std::vector<char> usable;  // S: has a reflectance and a reading
-  std::vector<int> fold;     // S: 0 .. folds - 1
+  SampleList usable;         // with a reflectance and a reading
+  std::vector<int> fold;     // S: 0 .. folds - 1; -1: not usable
   int folds = 0;
   Eigen::Index elements = 0; // with weight
 
@@ -39,8 +41,7 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options);
 // physics, and below that part of the gap no element is trusted more than another.
 void setWeights(GapData& data);
 
-// Balanced folds over the usable samples, media kept in proportion; the same for the same seed.
-std::vector<int> foldsOf(
-  const GapData& data, const std::vector<char>& among, int folds, std::uint64_t seed);
+// Balanced folds over some of the samples, media kept in proportion; the same for the same seed. Of each sample, -1 for others.
+std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed);
 
 } // namespace msi

@@ -39,47 +39,30 @@ double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, doubl
   return (1.0 - kept) * allowed / static_cast<double>(data.elements);
 }
 
-GroupEnergies energiesOf(
-  const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
+GroupEnergies energiesOf(const GapData& data, const SampleList& samples,
+  const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
 {
   GroupEnergies energies;
-  for (Eigen::Index i = 0; i < data.samples(); ++i)
+  const Eigen::MatrixXd noise = measuredOnly(data, data.variance);
+  for (const Eigen::Index i : samples)
   {
-    if (data.usable[static_cast<std::size_t>(i)] != 0)
-    {
-      energies.before.push_back(before.col(i).squaredNorm());
-      energies.after.push_back(after.col(i).squaredNorm());
-      energies.noise.push_back(
-        (data.count.col(i).array() > 0.0).select(data.variance.col(i), 0.0).sum());
-    }
+    energies.before.push_back(before.col(i).squaredNorm());
+    energies.after.push_back(after.col(i).squaredNorm());
+    energies.noise.push_back(noise.col(i).sum());
   }
   return energies;
 }
 
 bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares)
 {
-  double sum = 0.0;
-  double square = 0.0;
-  double samples = 0.0;
-  for (Eigen::Index i = 0; i < data.samples(); ++i)
-  {
-    if (data.usable[static_cast<std::size_t>(i)] != 0)
-    {
-      const double gain = gap.col(i).squaredNorm() - shares.heldOutResidual.col(i).squaredNorm();
-      sum += gain;
-      square += gain * gain;
-      samples += 1.0;
-    }
-  }
+  const Eigen::ArrayXd gain =
+    gap.colwise().squaredNorm() - shares.heldOutResidual.colwise().squaredNorm();
+  const double sum = gain.sum();
+  const double square = gain.square().sum();
+  const auto samples = static_cast<double>(data.usable.size());
   const double error = std::sqrt(std::fmax(square - sum * sum / samples, 0.0));
   const double noise = measuredOnly(data, data.variance).sum();
   return sum > Decision::SureDeviations * error && sum > Decision::SmallPart * noise;
-}
-
-bool beyondNoise(const GapFigures& gap, double integration)
-{
-  return gap.rmsBefore >
-    Decision::BeyondNoise * std::sqrt(gap.noiseFloor * gap.noiseFloor + integration);
 }
 
 double negligibleEnergy(

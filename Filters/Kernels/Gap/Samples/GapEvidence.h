@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Kernels/Gap/GapReport.h"
-#include "Kernels/Gap/Samples/GapAxes.h"
+#include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
 #include "Kernels/Gap/Shrink.h"
 
@@ -20,16 +20,12 @@ Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
 // it allows, only as much of it stays in data.variance as what is left shows. Returns the mean variance taken away.
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted);
 
-// Per-sample energies before and after, and what noise allows.
-GroupEnergies energiesOf(
-  const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
+// Energies of some samples before and after, and what noise allows.
+GroupEnergies energiesOf(const GapData& data, const SampleList& samples,
+  const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
 
 // Whether the bases predict held-out samples: their gain in energy, sample by sample, against its own error.
 bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares);
-
-// A gap that nothing predicts but that noise, with the largest reflectance noise allowed for, does not make.
-// integration: further variance that sums over wavelength may make.
-bool beyondNoise(const GapFigures& gap, double integration);
 
 // Energy that errors of sums over wavelength, or a small part of what is left, may be.
 double negligibleEnergy(

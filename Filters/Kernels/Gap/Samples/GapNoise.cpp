@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Samples/GapNoise.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/Samples/GapAxes.h"
+#include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Spectra/Interpolation.h"
 
 #include <Eigen/Cholesky>
@@ -17,64 +17,24 @@ namespace
 constexpr double FineStep = 1.0;           // nm
 constexpr double MedianOfNormal = 0.67449; // of the sizes of standard normal values
 
-double modelVariance(const ReadingNoise& noise, double response)
+// Variances of the repeats are as uncertain as they are large: four rounds of weights.
+CameraNoise fitRepeats(const GapData& data)
 {
-  return noise.read * noise.read + noise.shot * noise.shot * std::fmax(response, 0.0);
-}
-
-// Weighted least squares of variance on (1, u) with coefficients >= 0; three rounds of weights.
-ReadingNoise fitRepeats(const GapData& data)
-{
-  double read2 = 0.0;
-  double shot2 = 0.0;
-  double scale = 0.0;
-  double degrees = 0.0;
-  for (Eigen::Index i = 0; i < data.count.size(); ++i)
-  {
-    scale += data.scatter(i);
-    degrees += std::fmax(data.count(i) - 1.0, 0.0);
-  }
-  read2 = scale / std::fmax(degrees, 1.0);
+  const Eigen::ArrayXd degrees = (data.count.array() - 1.0).max(0.0).reshaped();
+  const Eigen::ArrayXd variance = data.scatter.array().reshaped() / degrees.max(1.0);
+  const Eigen::ArrayXd response = (degrees > 0.0).select(data.observed.array().reshaped(), 0.0);
+  CameraNoise noise{ std::sqrt(data.scatter.sum() / std::fmax(degrees.sum(), 1.0)) };
   for (int round = 0; round < 4; ++round)
   {
-    double a11 = 0, a12 = 0, a22 = 0, b1 = 0, b2 = 0;
-    for (Eigen::Index i = 0; i < data.count.size(); ++i)
-    {
-      const double dof = data.count(i) - 1.0;
-      if (dof <= 0.0)
-      {
-        continue;
-      }
-      const double u = std::fmax(data.observed(i), 0.0);
-      const double model = std::fmax(read2 + shot2 * u, 1e-14);
-      const double weight = dof / (model * model);
-      const double sample = data.scatter(i) / dof;
-      a11 += weight;
-      a12 += weight * u;
-      a22 += weight * u * u;
-      b1 += weight * sample;
-      b2 += weight * sample * u;
-    }
-    const double determinant = a11 * a22 - a12 * a12;
-    double constant = determinant > 1e-12 * a11 * a22 ? (a22 * b1 - a12 * b2) / determinant : -1.0;
-    double slope = determinant > 1e-12 * a11 * a22 ? (a11 * b2 - a12 * b1) / determinant : -1.0;
-    if (constant < 0.0 || slope < 0.0)
-    {
-      // On the border the better of the two one-parameter fits.
-      const double onlyConstant = b1 / a11;
-      const double onlySlope = a22 > 0.0 ? b2 / a22 : 0.0;
-      const bool flat = b1 * b1 / a11 >= (a22 > 0.0 ? b2 * b2 / a22 : 0.0);
-      constant = flat ? onlyConstant : 0.0;
-      slope = flat ? 0.0 : onlySlope;
-    }
-    read2 = constant;
-    shot2 = slope;
+    const Eigen::ArrayXd model =
+      response.unaryExpr([&noise](double u) { return std::fmax(noiseVariance(noise, u), 1e-14); });
+    noise = fittedNoise(response, variance, degrees / model.square());
   }
-  return { std::sqrt(std::fmax(read2, 0.0)), std::sqrt(std::fmax(shot2, 0.0)) };
+  return noise;
 }
 }
 
-NoiseFinding findNoise(const GapData& data, const std::optional<ReadingNoise>& given)
+NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& given)
 {
   NoiseFinding finding;
   finding.degrees = (data.count.array() - 1.0).cwiseMax(0.0).sum();
@@ -99,7 +59,7 @@ NoiseFinding findNoise(const GapData& data, const std::optional<ReadingNoise>& g
   {
     if (data.count(i) > 1.0)
     {
-      ratio += data.scatter(i) / std::fmax(modelVariance(*given, data.observed(i)), 1e-14);
+      ratio += data.scatter(i) / std::fmax(noiseVariance(*given, data.observed(i)), 1e-14);
     }
   }
   ratio /= finding.degrees;
@@ -117,13 +77,13 @@ NoiseFinding findNoise(const GapData& data, const std::optional<ReadingNoise>& g
   return finding;
 }
 
-Eigen::MatrixXd readingVariance(const GapData& data, const ReadingNoise& noise)
+Eigen::MatrixXd readingVariance(const GapData& data, const CameraNoise& noise)
 {
   Eigen::MatrixXd variance(data.channels(), data.samples());
   for (Eigen::Index i = 0; i < variance.size(); ++i)
   {
     // A short series of equal rounded readings is no proof of no noise at all.
-    variance(i) = modelVariance(noise, data.observed(i)) / std::fmax(data.count(i), 1.0) + 1e-12;
+    variance(i) = noiseVariance(noise, data.observed(i)) / std::fmax(data.count(i), 1.0) + 1e-12;
   }
   return variance;
 }
@@ -294,12 +254,8 @@ double logLikelihood(const GapData& data, const Eigen::MatrixXd& residual,
   const Eigen::ArrayXXd& variance, const Eigen::MatrixXd& common)
 {
   double sum = 0.0;
-  for (Eigen::Index j = 0; j < data.samples(); ++j)
+  for (const Eigen::Index j : data.usable)
   {
-    if (data.usable[static_cast<std::size_t>(j)] == 0)
-    {
-      continue;
-    }
     const auto measured = data.count.col(j).array() > 0.0;
     Eigen::MatrixXd covariance = common;
     covariance.diagonal().array() += variance.col(j);

@@ -22,7 +22,7 @@ double robustDeviation(std::vector<double> values);
 // What was found about the noise of one reading.
 struct NoiseFinding
 {
-  ReadingNoise reading;          // the model the diagnosis goes by
+  CameraNoise reading;           // the model the diagnosis goes by
   bool fromRepeats = false;      // fitted to the repeats
   bool unknown = false;          // no model and no repeats: set from the gap itself later
   bool unrepeated = false;       // the excess is read off what the effects leave, not off repeats
@@ -35,10 +35,10 @@ struct NoiseFinding
 //
 // Repeats that scatter more than the given model by a significant part overrule it (excess_noise).
 // Without a model the repeats' variances are fitted by read^2 + shot^2 u, weighted, not negative.
-NoiseFinding findNoise(const GapData& data, const std::optional<ReadingNoise>& given);
+NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& given);
 
 // Variance of the averaged readings; K x S.
-Eigen::MatrixXd readingVariance(const GapData& data, const ReadingNoise& noise);
+Eigen::MatrixXd readingVariance(const GapData& data, const CameraNoise& noise);
 
 // Squared standard deviation that a reflectance error of 1 (independent from wavelength to wavelength)
 // has in each channel; K.

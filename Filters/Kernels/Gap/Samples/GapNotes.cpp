@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace msi
 {
@@ -13,15 +12,6 @@ namespace msi
 namespace
 {
 constexpr double ClippedReadings = 0.01; // of all at the largest value
-
-template <typename... Parts>
-std::string text(const Parts&... parts)
-{
-  std::ostringstream message;
-  message.precision(3);
-  (message << ... << parts);
-  return message.str();
-}
 
 void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise)
@@ -34,12 +24,12 @@ void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   }
   else if (!capture.noise)
   {
-    notes.push_back(text("The noise comes from the repeats: read ", noise.reading.read, ", shot ",
-      noise.reading.shot, ", relative to white."));
+    notes.push_back(textOf(3, "The noise comes from the repeats: read ", noise.reading.read,
+      ", shot ", noise.reading.shot, ", relative to white."));
   }
   else if (noise.unrepeated)
   {
-    notes.push_back(text("One reading a sample, and what is left scatters ", noise.excess,
+    notes.push_back(textOf(3, "One reading a sample, and what is left scatters ", noise.excess,
       " times as much as the noise model allows: noise, or an error of its own of each sample. "
       "A second reading of each would tell."));
   }
@@ -50,7 +40,7 @@ void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   if (reflectanceNoise > 1e-5) // instruments give four or five digits
   {
     notes.push_back(
-      text("The measured reflectances are taken to scatter by ", reflectanceNoise, "."));
+      textOf(3, "The measured reflectances are taken to scatter by ", reflectanceNoise, "."));
   }
 }
 
@@ -102,10 +92,10 @@ void noteScene(std::vector<std::string>& notes, const GapData& data)
 
 void noteSamples(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
 {
-  const auto usable = std::count(data.usable.begin(), data.usable.end(), 1);
+  const auto usable = static_cast<Eigen::Index>(data.usable.size());
   if (usable < data.samples())
   {
-    notes.push_back(text(data.samples() - usable, " of ", data.samples(),
+    notes.push_back(textOf(3, data.samples() - usable, " of ", data.samples(),
       " samples have no reading or no reflectance and were left out."));
   }
   std::size_t parameters = 0;
@@ -115,22 +105,13 @@ void noteSamples(std::vector<std::string>& notes, const GapData& data, const Gap
   }
   if (static_cast<std::size_t>(usable) < std::max<std::size_t>(parameters, 20))
   {
-    notes.push_back(
-      text(usable, " samples are few for ", parameters, " parameters: expect wide intervals."));
+    notes.push_back(textOf(
+      3, usable, " samples are few for ", parameters, " parameters: expect wide intervals."));
   }
-  const Eigen::MatrixXd& r = data.scene.reflectance();
-  double spread = 0.0;
-  double level = 0.0;
-  for (Eigen::Index i = 0; i < r.cols(); ++i)
-  {
-    if (data.usable[static_cast<std::size_t>(i)] != 0)
-    {
-      const double mean = r.col(i).mean();
-      spread += (r.col(i).array() - mean).square().mean();
-      level += mean * mean;
-    }
-  }
-  if (spread < 1e-4 * level)
+  const Eigen::ArrayXXd r = data.scene.reflectance()(Eigen::all, data.usable);
+  const Eigen::Array<double, 1, Eigen::Dynamic> mean = r.colwise().mean();
+  const double spread = (r.rowwise() - mean).square().colwise().mean().sum();
+  if (spread < 1e-4 * mean.square().sum())
   {
     notes.push_back(
       "The reflectances hardly change with wavelength: lamp, filters and channel gains "
@@ -166,14 +147,14 @@ void noteSaturation(std::vector<std::string>& notes, const GapData& data)
   }
   if (static_cast<double>(equal) > ClippedReadings * static_cast<double>(data.elements))
   {
-    notes.push_back(text(equal, " readings share the largest value ", top,
+    notes.push_back(textOf(3, equal, " readings share the largest value ", top,
       ": they look clipped and say little about any other effect."));
   }
 }
 }
 
 void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,
-  const std::optional<ReadingNoise>& given, const std::vector<std::string>& without)
+  const std::optional<CameraNoise>& given, const std::vector<std::string>& without)
 {
   const EffectDefinition& effect = effectOf(EffectStage::Noise);
   const bool barred = std::find(without.begin(), without.end(), effect.name) != without.end();
@@ -187,7 +168,7 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     {
       report.verdict = GapVerdict::Unexplained;
       report.unexplained = { 1.0,
-        text(noise.unrepeated ? "scatter, " : "scatter between repeats, ", noise.excess,
+        textOf(3, noise.unrepeated ? "scatter, " : "scatter between repeats, ", noise.excess,
           " times what the noise model allows"),
         {} };
     }

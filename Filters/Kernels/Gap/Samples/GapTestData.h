@@ -24,7 +24,7 @@ inline GapCapture captureOf(const SceneSamples& samples, std::vector<CameraEffec
   const Eigen::MatrixXd mean = CameraSimulator(sevenChannels(), std::move(effects))
                                  .respond(SampleScene(visibleGrid(), samples));
   GapCapture capture{ sevenChannels(), visibleGrid(), samples,
-    Eigen::MatrixXd(mean.rows(), mean.cols() * repeats), {}, ReadingNoise{ readNoise, 0.0 } };
+    Eigen::MatrixXd(mean.rows(), mean.cols() * repeats), {}, CameraNoise{ readNoise, 0.0 } };
   for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
   {
     capture.sampleOf.push_back(static_cast<int>(j / repeats));

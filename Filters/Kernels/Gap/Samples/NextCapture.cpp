@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
 
 namespace msi
@@ -42,14 +41,12 @@ Predictor predictorOf(const SampleObservation& data, const ObservedFit& explanat
   predictor.covariance =
     posterior.ldlt().solve(Eigen::MatrixXd::Identity(posterior.rows(), posterior.cols()));
   const GroupEnergies energies = data.energies(fit);
-  const auto sum = [](const std::vector<double>& values)
-  { return std::accumulate(values.begin(), values.end(), 0.0); };
   predictor.rest =
-    std::fmax(sum(energies.after) - sum(energies.noise), 0.0) / std::fmax(data.elements(), 1.0);
+    std::fmax(sumOf(energies.after) - sumOf(energies.noise), 0.0) / std::fmax(data.elements(), 1.0);
   return predictor;
 }
 
-SceneSamples selected(const SceneSamples& samples, const std::vector<Eigen::Index>& which)
+SceneSamples selected(const SceneSamples& samples, const SampleList& which)
 {
   SceneSamples some;
   some.reflectance = samples.reflectance(Eigen::all, which);
@@ -77,21 +74,13 @@ SceneSamples selected(const SceneSamples& samples, const std::vector<Eigen::Inde
 
 SceneSamples chartOf(const GapData& data)
 {
-  std::vector<Eigen::Index> usable;
-  for (Eigen::Index i = 0; i < data.samples(); ++i)
-  {
-    if (data.usable[static_cast<std::size_t>(i)] != 0)
-    {
-      usable.push_back(i);
-    }
-  }
-  std::vector<Eigen::Index> which;
-  const auto count = static_cast<Eigen::Index>(usable.size());
+  SampleList which;
+  const auto count = static_cast<Eigen::Index>(data.usable.size());
   const Eigen::Index kept =
     std::min(count, std::max<Eigen::Index>(MostElements / data.channels(), 12));
   for (Eigen::Index i = 0; i < kept; ++i)
   {
-    which.push_back(usable[static_cast<std::size_t>(i * count / kept)]);
+    which.push_back(data.usable[static_cast<std::size_t>(i * count / kept)]);
   }
   return selected(data.scene.samples(), which);
 }
@@ -103,8 +92,9 @@ public:
   LowRankNormal(Eigen::VectorXd mean, Eigen::VectorXd variance, Eigen::MatrixXd factor)
     : Mean(std::move(mean))
     , Variance(std::move(variance))
+    , Precision(Variance.cwiseInverse())
     , Factor(std::move(factor))
-    , Scaled(Variance.cwiseInverse().asDiagonal() * Factor)
+    , Scaled(Precision.asDiagonal() * Factor)
     , Inner(Eigen::MatrixXd::Identity(Factor.cols(), Factor.cols()) + Factor.transpose() * Scaled)
   {
     LogDeterminant =
@@ -115,8 +105,7 @@ public:
   {
     const Eigen::VectorXd off = y - Mean;
     const Eigen::VectorXd inner = Scaled.transpose() * off;
-    const double square =
-      (off.array().square() / Variance.array()).sum() - inner.dot(Inner.solve(inner));
+    const double square = off.cwiseAbs2().dot(Precision) - inner.dot(Inner.solve(inner));
     return -0.5 * (square + LogDeterminant);
   }
 
@@ -132,7 +121,7 @@ public:
   }
 
 private:
-  Eigen::VectorXd Mean, Variance;
+  Eigen::VectorXd Mean, Variance, Precision;
   Eigen::MatrixXd Factor, Scaled;
   Eigen::LLT<Eigen::MatrixXd> Inner;
   double LogDeterminant = 0.0;
@@ -147,12 +136,8 @@ EffectSet shownBy(const CaptureCandidate& candidate, const SampleScene& scene, c
   for (std::size_t e = all.size(); e-- > 0;)
   {
     const EffectChoice& choice = all.choices[e];
-    const std::vector<std::string>& media = scene.media();
-    const bool elsewhere = choice.effect->need == EffectNeed::Medium &&
-      std::find(media.begin(), media.end(), choice.medium) == media.end();
-    const bool unplaced = (choice.effect->need == EffectNeed::Position && !scene.hasPositions()) ||
-      (choice.effect->need == EffectNeed::Order && !scene.hasOrder());
-    if (elsewhere || unplaced || (candidate.known && candidate.known(*choice.effect)))
+    if (!canShow(scene, *choice.effect, choice.medium) ||
+      (candidate.known && candidate.known(*choice.effect)))
     {
       shown.remove(e);
     }
@@ -180,18 +165,11 @@ Eigen::MatrixXd rootOf(const Predictor& predictor, const EffectSet& shown,
       });
     place.push_back(same - all.begin());
   }
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(
-    static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(place.size()));
+  // What is not among all has no variance.
   const auto known = static_cast<Eigen::Index>(all.size());
-  for (Eigen::Index i = 0; i < covariance.rows(); ++i)
-  {
-    for (Eigen::Index j = 0; j < covariance.cols(); ++j)
-    {
-      const Eigen::Index a = place[static_cast<std::size_t>(i)];
-      const Eigen::Index b = place[static_cast<std::size_t>(j)];
-      covariance(i, j) = a < known && b < known ? predictor.covariance(a, b) : 0.0;
-    }
-  }
+  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(known + 1, known + 1);
+  padded.topLeftCorner(known, known) = predictor.covariance;
+  const Eigen::MatrixXd covariance = padded(place, place);
   const Eigen::LDLT<Eigen::MatrixXd> decomposed(covariance);
   return decomposed.transpositionsP().transpose() * Eigen::MatrixXd(decomposed.matrixL()) *
     decomposed.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
@@ -268,11 +246,8 @@ std::vector<CaptureCandidate> captureCandidates(
   const auto flat = [N](const std::vector<double>& levels)
   {
     SceneSamples samples;
-    samples.reflectance.resize(N, static_cast<Eigen::Index>(levels.size()));
-    for (std::size_t i = 0; i < levels.size(); ++i)
-    {
-      samples.reflectance.col(static_cast<Eigen::Index>(i)).setConstant(levels[i]);
-    }
+    samples.reflectance = Eigen::VectorXd::Ones(N) *
+      Eigen::Map<const Eigen::RowVectorXd>(levels.data(), static_cast<Eigen::Index>(levels.size()));
     return samples;
   };
   std::vector<CaptureCandidate> candidates;
@@ -348,7 +323,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion,
   std::uint64_t seed)
 {
-  std::vector<const Explanation*> likely;
+  std::vector<FitPointer> fits;
   std::vector<double> probability;
   std::vector<std::set<std::string>> group;
   std::vector<std::string> effects;
@@ -356,7 +331,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   {
     if (one.probability >= LeastProbability)
     {
-      likely.push_back(&one);
+      fits.push_back(one.fit);
       probability.push_back(one.probability);
       group.emplace_back();
       std::set_intersection(one.effects.begin(), one.effects.end(), inQuestion.begin(),
@@ -368,16 +343,16 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   {
     return {};
   }
-  const double all = std::accumulate(probability.begin(), probability.end(), 0.0);
+  const double all = sumOf(probability);
   for (double& one : probability)
   {
     one /= all;
   }
   std::vector<Predictor> predictors;
-  predictors.reserve(likely.size());
-  for (const Explanation* one : likely)
+  predictors.reserve(fits.size());
+  for (const FitPointer& fit : fits)
   {
-    predictors.push_back(predictorOf(data, *one->fit));
+    predictors.push_back(predictorOf(data, *fit));
   }
   const std::vector<std::string> separates = disputed(explanations, inQuestion);
   const GapData& gap = data.fitter().data();

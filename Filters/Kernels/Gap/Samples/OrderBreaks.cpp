@@ -15,19 +15,13 @@ constexpr double Significant = 5.0;
 constexpr std::size_t ShortestSegment = 4;
 constexpr double Rounding = 1e-16; // squared relative gap that numbers of this length have anyway
 
-std::vector<Eigen::Index> inOrder(const EffectFitter& fitter)
+SampleList inOrder(const EffectFitter& fitter)
 {
   const SampleScene& scene = fitter.data().scene;
-  std::vector<Eigen::Index> order;
+  SampleList order;
   if (scene.hasOrder())
   {
-    for (Eigen::Index j = 0; j < scene.size(); ++j)
-    {
-      if (fitter.training()[static_cast<std::size_t>(j)] != 0)
-      {
-        order.push_back(j);
-      }
-    }
+    order = fitter.training();
     std::stable_sort(order.begin(), order.end(),
       [&scene](Eigen::Index a, Eigen::Index b) { return scene.time()[a] < scene.time()[b]; });
   }
@@ -53,7 +47,7 @@ void OrderBreaks::keepBest(std::vector<Break>& list, const Break& candidate)
 
 OrderBreaks::OrderBreaks(const EffectFitter& fitter, const Eigen::MatrixXd& predicted)
 {
-  const std::vector<Eigen::Index> order = inOrder(fitter);
+  const SampleList order = inOrder(fitter);
   if (order.size() < 4)
   {
     return;
@@ -123,8 +117,8 @@ struct Series
   std::vector<double> value, weight;
 };
 
-Series relativeGaps(const EffectFitter& fitter, const Eigen::MatrixXd& predicted,
-  const std::vector<Eigen::Index>& order)
+Series relativeGaps(
+  const EffectFitter& fitter, const Eigen::MatrixXd& predicted, const SampleList& order)
 {
   const GapData& data = fitter.data();
   Series series;
@@ -195,7 +189,7 @@ std::size_t breakOf(const Series& series, const Segment& segment)
 std::vector<GapChangePoint> OrderBreaks::significant(
   const EffectFitter& fitter, const Eigen::MatrixXd& predicted, int most)
 {
-  const std::vector<Eigen::Index> order = inOrder(fitter);
+  const SampleList order = inOrder(fitter);
   const Series series = relativeGaps(fitter, predicted, order);
   std::vector<std::size_t> places;
   std::vector<Segment> open{ { series, 0, order.size() } };

@@ -2,6 +2,11 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
+#include "Kernels/Gap/Samples/GapEvidence.h"
+#include "Kernels/Gap/Samples/OrderBreaks.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -69,13 +74,109 @@ std::vector<FreeNumber> numbersOf(const EffectFit& fit)
         plain.begin(), plain.end(), [](const EffectParameter& one) { return one.perChannel; });
     };
     numbers.push_back({ parameter.group, perChannel, perChannel && hasCommonForm(),
-      valueOf(fit.set, parameter) - parameter.neutral, parameter.spread, parameter.scale });
+      fit.set.value(parameter) - parameter.neutral, parameter.spread, parameter.scale });
   }
   return numbers;
 }
+
+// The residual and everything the present effects can do, taken out of the way.
+class Remainder
+{
+public:
+  Remainder(const EffectFitter& fitter, const EffectFit& current)
+    : RootWeight(
+        Eigen::Map<const Eigen::ArrayXd>(fitter.weight().data(), fitter.weight().size()).sqrt())
+    , Basis(RootWeight.size(), 0)
+  {
+    if (current.jacobian.cols() > 0)
+    {
+      const Eigen::MatrixXd columns = RootWeight.matrix().asDiagonal() * current.jacobian;
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+      Basis = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+    }
+  }
+  // Of one column, with nothing where there is no weight.
+  Eigen::VectorXd cleared(const Eigen::VectorXd& column) const
+  {
+    const Eigen::VectorXd all = (RootWeight > 0.0).select(RootWeight * column.array(), 0.0);
+    return all - Basis * (Basis.transpose() * all);
+  }
+  // Squared error left of a cleared residual after one linear step with these columns of a jacobian.
+  double leftAfter(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
+    const std::vector<FreeParameter>& free) const
+  {
+    const Eigen::MatrixXd weighted = RootWeight.matrix().asDiagonal() * columns;
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+    normal.selfadjointView<Eigen::Lower>()
+      .rankUpdate(weighted.transpose())
+      .rankUpdate((Basis.transpose() * weighted).transpose(), -1.0);
+    for (Eigen::Index p = 0; p < columns.cols(); ++p)
+    {
+      const double spread = free[static_cast<std::size_t>(p)].spread;
+      normal(p, p) += 1.0 / (spread * spread);
+    }
+    const Eigen::VectorXd gradient = weighted.transpose() * residual;
+    return residual.squaredNorm() - gradient.dot(normal.ldlt().solve(gradient));
+  }
+
+private:
+  Eigen::ArrayXd RootWeight;
+  Eigen::MatrixXd Basis;
+};
+
+// No square yet, and slope and constant of the line through the squared signals of each channel.
+std::vector<double> besideLine(const GapData& data)
+{
+  const Eigen::Index channels = data.channels();
+  std::vector<double> start(static_cast<std::size_t>(1 + 2 * channels), 0.0);
+  for (Eigen::Index k = 0; k < channels; ++k)
+  {
+    double n = 0, x = 0, xx = 0, xxx = 0;
+    for (Eigen::Index j = 0; j < data.samples(); ++j)
+    {
+      if (data.weight(k, j) > 0.0)
+      {
+        const double u = data.simulated(k, j) - data.camera.dark()[k];
+        n += 1.0;
+        x += u;
+        xx += u * u;
+        xxx += u * u * u;
+      }
+    }
+    const double spread = n * xx - x * x;
+    if (spread > 1e-9 * n * xx)
+    {
+      const double slope = (n * xxx - x * xx) / spread;
+      start[static_cast<std::size_t>(1 + k)] = slope;
+      start[static_cast<std::size_t>(1 + channels + k)] = (xx - slope * x) / n;
+    }
+  }
+  return start;
 }
 
-SampleObservation::SampleObservation(const GapData& data, std::vector<char> training,
+std::vector<std::vector<double>> startsOf(
+  const EffectChoice& choice, const GapData& data, const OrderBreaks& breaks)
+{
+  const std::vector<EffectParameter>& parameters = choice.form->parameters;
+  if (std::any_of(parameters.begin(), parameters.end(),
+        [](const EffectParameter& parameter) { return parameter.searched; }))
+  {
+    return breaks.startsFor(*choice.form);
+  }
+  if (choice.form->has(FormTrait::BesideLine))
+  {
+    return { besideLine(data) };
+  }
+  std::vector<std::vector<double>> starts = choice.form->starts;
+  if (choice.effect->has(EffectTrait::LimitsResponse))
+  {
+    starts.push_back({ 0.98 * data.observed.maxCoeff(), starts.front()[1] });
+  }
+  return starts;
+}
+}
+
+SampleObservation::SampleObservation(const GapData& data, SampleList training,
   const std::vector<EffectChoice>& choices, std::uint64_t seed)
   : Fitter(data, std::move(training), seed)
   , Choices(choices)
@@ -96,6 +197,67 @@ EffectFit SampleObservation::linearised(const ObservedFit& fit) const
 EffectFit SampleObservation::whole(const ObservedFit& fit) const
 {
   return Fitter.fit(sampleFit(fit).effects, FinalFit);
+}
+
+std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) const
+{
+  const EffectFit current = linearised(from);
+  const GapData& data = Fitter.data();
+  const Remainder remainder(Fitter, current);
+  const auto flatten = [](const Eigen::MatrixXd& m) -> Eigen::VectorXd
+  { return Eigen::Map<const Eigen::VectorXd>(m.data(), m.size()); };
+  const Eigen::VectorXd residual = remainder.cleared(flatten(data.observed - current.predicted));
+  const double before = residual.squaredNorm();
+  const OrderBreaks breaks(Fitter, current.predicted);
+  const std::size_t position = current.set.size();
+  const std::optional<StagedResponse> present =
+    stagedResponse(data.camera, data.scene, current.set);
+  std::vector<GapPreview> previews;
+  for (std::size_t option = 0; present && option < Choices.size(); ++option)
+  {
+    const EffectChoice& choice = Choices[option];
+    if (current.set.has(choice))
+    {
+      continue;
+    }
+    std::vector<std::vector<double>> starts = startsOf(choice, data, breaks);
+    if (starts.empty())
+    {
+      starts.emplace_back();
+    }
+    GapPreview best{ option, {}, 0.0, 0.0 };
+    for (const std::vector<double>& start : starts)
+    {
+      EffectSet set = current.set;
+      set.add(choice, data.camera, start);
+      std::vector<FreeParameter> free = set.freeParameters(data.camera);
+      free.erase(std::remove_if(free.begin(), free.end(),
+                   [position](const FreeParameter& p) { return p.effect < position; }),
+        free.end());
+      const std::optional<StagedResponse> base = stagedResponse(*present, set);
+      if (!base)
+      {
+        continue;
+      }
+      const bool there =
+        start.empty() && set.whiteAfterEffects() == current.set.whiteAfterEffects();
+      const Eigen::VectorXd here =
+        there ? residual : remainder.cleared(flatten(data.observed - base->response()));
+      const Eigen::MatrixXd columns = jacobian(*base, set, free);
+      const double gain = before - remainder.leftAfter(here, columns, free);
+      best.parameters = static_cast<double>(columns.cols()) +
+        static_cast<double>(set.steps() - current.set.steps());
+      if (gain > best.gain)
+      {
+        best.gain = gain;
+        best.start = start;
+      }
+    }
+    previews.push_back(std::move(best));
+  }
+  std::stable_sort(previews.begin(), previews.end(),
+    [](const GapPreview& a, const GapPreview& b) { return a.gain > b.gain; });
+  return previews;
 }
 
 FitPointer SampleObservation::extended(const ObservedFit& from, const GapPreview& with) const
@@ -134,7 +296,7 @@ FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> 
     : 1.0;
   for (const FreeParameter& parameter : fit.free)
   {
-    const double value = valueOf(fit.set, parameter);
+    const double value = fit.set.value(parameter);
     described->atBound = described->atBound || value <= parameter.lower || value >= parameter.upper;
   }
   const LearnedPrior prior(numbersOf(fit));
@@ -142,7 +304,8 @@ FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> 
   described->surprise = prior.surprise;
   described->chanceOfCurve = prior.chanceOfCurve;
   // The place of a step is a number, too, found among those of the samples.
-  described->surprise += static_cast<double>(fit.set.steps()) * std::log(Fitter.trainingSamples());
+  described->surprise +=
+    static_cast<double>(fit.set.steps()) * std::log(static_cast<double>(Fitter.training().size()));
   described->effects = std::move(fit.set);
   return described;
 }
@@ -155,20 +318,8 @@ GroupEnergies SampleObservation::energies(const ObservedFit& fit) const
 GroupEnergies SampleObservation::energies(const EffectFit& fit) const
 {
   const GapData& data = Fitter.data();
-  GroupEnergies energies;
-  for (Eigen::Index i = 0; i < data.samples(); ++i)
-  {
-    const auto with = Fitter.weight().col(i).array() > 0.0;
-    if (with.any())
-    {
-      const auto sum = [&with](const auto& values) { return with.select(values, 0.0).sum(); };
-      energies.before.push_back(
-        sum((data.observed.col(i) - data.simulated.col(i)).array().square()));
-      energies.after.push_back(sum(fit.heldOut.col(i).array().square()));
-      energies.noise.push_back(sum(data.variance.col(i).array()));
-    }
-  }
-  return energies;
+  const Eigen::MatrixXd before = measuredOnly(data, data.observed - data.simulated);
+  return energiesOf(data, Fitter.training(), before, fit.heldOut);
 }
 
 std::vector<std::vector<GapParameter>> SampleObservation::parameters(const ObservedFit& fit) const
@@ -188,7 +339,7 @@ std::vector<std::vector<GapParameter>> SampleObservation::parameters(const Obser
       if (parameter.effect == e ||
         (parameter.effect == whole.set.size() && whole.set.choices[e].leveled))
       {
-        all[e].push_back({ parameter.name, valueOf(whole.set, parameter), parameter.unit,
+        all[e].push_back({ parameter.name, whole.set.value(parameter), parameter.unit,
           error[static_cast<Eigen::Index>(p)] });
       }
     }
@@ -196,7 +347,8 @@ std::vector<std::vector<GapParameter>> SampleObservation::parameters(const Obser
     if (const auto place = whole.set.placeOf(e))
     {
       all[e].push_back({ place->parameter->name, whole.set.effects[e].parameters[place->index],
-        place->parameter->unit, 1.0 / (Fitter.trainingSamples() * std::sqrt(12.0)) });
+        place->parameter->unit,
+        1.0 / (static_cast<double>(Fitter.training().size()) * std::sqrt(12.0)) });
     }
   }
   return all;

@@ -16,12 +16,12 @@ public:
   EffectSet effects;
 };
 
-// Samples are the groups; only those with training != 0 are looked at.
+// Samples are the groups; only those for training are looked at.
 class SampleObservation : public Observation
 {
 public:
   // Hold references to data.
-  SampleObservation(const GapData& data, std::vector<char> training,
+  SampleObservation(const GapData& data, SampleList training,
     const std::vector<EffectChoice>& choices, std::uint64_t seed);
 
   const std::vector<GapOption>& options() const override { return Options; }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <ostream>
@@ -104,11 +105,10 @@ TEST(EffectFit, CrossValidationOfALinearEffectIsThatOfFitsWithoutTheFold)
   const std::vector<int> fold = msi::foldsOf(data, data.usable, 5, 1);
   for (int left = 0; left < 5; ++left)
   {
-    std::vector<char> training = data.usable;
-    for (std::size_t i = 0; i < training.size(); ++i)
-    {
-      training[i] = fold[i] != left ? training[i] : 0;
-    }
+    msi::SampleList training = data.usable;
+    training.erase(std::remove_if(training.begin(), training.end(),
+                     [&](Eigen::Index i) { return fold[static_cast<std::size_t>(i)] == left; }),
+      training.end());
     const msi::EffectFitter without(data, training, 1);
     const msi::EffectFit other = without.fit(set, msi::FinalFit);
     for (Eigen::Index i = 0; i < data.samples(); ++i)
@@ -141,8 +141,8 @@ TEST(EffectSet, JacobianIsTheDerivative)
   ASSERT_EQ(columns.cols(), 7);
   msi::EffectSet up = set;
   msi::EffectSet down = set;
-  msi::setValue(up, free[2], 0.01);
-  msi::setValue(down, free[2], -0.01);
+  up.value(free[2]) = 0.01;
+  down.value(free[2]) = -0.01;
   const Eigen::MatrixXd central = (msi::respond(sevenChannels(), rasterScene(), up) -
                                     msi::respond(sevenChannels(), rasterScene(), down)) /
     0.02;
@@ -212,8 +212,14 @@ TEST(HeldOut, ASampleBesideAStepMayLieOnEitherSide)
   const double place = 40.5 / 95.0;
   const msi::GapData data =
     dataOf(captureWith({ { "session_drift", "step", "", { 0.05, place, 0.001 } } }));
-  std::vector<char> training(96, 1);
-  training[40] = training[41] = training[60] = 0;
+  msi::SampleList training;
+  for (Eigen::Index i = 0; i < 96; ++i)
+  {
+    if (i != 40 && i != 41 && i != 60)
+    {
+      training.push_back(i);
+    }
+  }
   const msi::EffectDefinition* drift = msi::findEffect("session_drift");
   for (const double guess : { 39.4, 41.6 })
   {

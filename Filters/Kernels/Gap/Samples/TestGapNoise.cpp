@@ -26,9 +26,7 @@ TEST(GapData, AveragesRepeatsAndLeavesOutWhatWasNotMeasured)
   EXPECT_NEAR(data.observed(0, 0), 0.3, 1e-15);
   EXPECT_NEAR(data.scatter(0, 0), 0.02, 1e-15);
   EXPECT_EQ(data.count(1, 0), 1.0);
-  EXPECT_EQ(data.usable[0], 1);
-  EXPECT_EQ(data.usable[1], 0);
-  EXPECT_EQ(data.usable[3], 0);
+  EXPECT_EQ(data.usable, (msi::SampleList{ 0, 2, 4, 5, 6, 7 }));
   EXPECT_EQ(data.fold[1], -1);
   EXPECT_EQ(data.elements, 6 * 7);
 }
@@ -36,7 +34,7 @@ TEST(GapData, AveragesRepeatsAndLeavesOutWhatWasNotMeasured)
 TEST(GapNoise, MeansOfRepeatsScatterLessByTheirNumber)
 {
   const msi::GapData data = msi::prepareGapData(captureOf(rasterSamples(8), {}, 4), {});
-  const msi::ReadingNoise noise{ 0.002, 0.01 };
+  const msi::CameraNoise noise{ 0.002, 0.01 };
   const Eigen::MatrixXd variance = msi::readingVariance(data, noise);
   for (Eigen::Index i = 0; i < variance.size(); ++i)
   {
@@ -59,11 +57,11 @@ TEST(GapNoise, RepeatsGiveTheNoiseWhereNoModelIsGiven)
 TEST(GapNoise, RepeatsThatScatterMoreThanTheModelOverruleIt)
 {
   msi::GapCapture capture = captureOf(rasterSamples(96), {}, 3, 0.002);
-  capture.noise = msi::ReadingNoise{ 0.001, 0.0 };
+  capture.noise = msi::CameraNoise{ 0.001, 0.0 };
   const msi::NoiseFinding found = msi::findNoise(msi::prepareGapData(capture, {}), capture.noise);
   EXPECT_NEAR(found.excess, 2.0, 0.1);
   EXPECT_TRUE(found.fromRepeats);
-  capture.noise = msi::ReadingNoise{ 0.002, 0.0 };
+  capture.noise = msi::CameraNoise{ 0.002, 0.0 };
   EXPECT_EQ(msi::findNoise(msi::prepareGapData(capture, {}), capture.noise).excess, 1.0);
 }
 
@@ -90,7 +88,7 @@ constexpr double ModelNoise = 0.0005;
 msi::GapCapture understated(double noise, Eigen::Index samples = 96)
 {
   msi::GapCapture capture = captureOf(rasterSamples(samples), {}, 1, noise);
-  capture.noise = msi::ReadingNoise{ ModelNoise, 0.0 };
+  capture.noise = msi::CameraNoise{ ModelNoise, 0.0 };
   return capture;
 }
 

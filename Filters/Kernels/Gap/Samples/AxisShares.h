@@ -1,4 +1,4 @@
-// Along which axes a gap lies.
+// Along which axes the gap of a table lies.
 #pragma once
 
 #include "Kernels/Gap/GapReport.h"
@@ -12,10 +12,11 @@
 namespace msi
 {
 
-// The regressors of one axis on the elements k + K i, one column each.
-struct AxisBasis
+// The regressors of the axes on the elements k + K i, one column each.
+struct AxisBases
 {
-  std::string axis;
+  std::vector<std::string> names;
+  std::vector<Eigen::Index> end; // of each axis: the column behind its last
   Eigen::MatrixXd columns;
 };
 
@@ -30,7 +31,7 @@ struct AxisBasis
 //                   the neighbouring channels' difference
 // A common gain is level's, a common offset channel's. With `contrasts` the bases of medium, scene,
 // position and order leave out what all of their cells have in common.
-std::vector<AxisBasis> axisBases(const GapData& data, bool contrasts);
+AxisBases axisBases(const GapData& data, bool contrasts);
 
 struct AxisShares
 {
@@ -39,9 +40,9 @@ struct AxisShares
   Eigen::MatrixXd heldOutResidual; // what they do not, K x S
 };
 
-// Ridge regression of `gap` on the bases over the folds. Where channel and level alone predict nine tenths of what all
-// axes predict, the other axes are asked only for contrasts: a gap that is the same in every medium is not the medium's.
-// Else they keep their common part: a gap in one of two media is the medium's, not half of it the level's.
+// Ridge regression of `gap` on the bases over the folds. gap: 0 where nothing was measured. Where channel and level alone predict
+// nine tenths of what all axes predict, the other axes are asked only for contrasts: a gap that is the same in every medium is not
+// the medium's. Else they keep their common part: a gap in one of two media is the medium's, not half of it the level's.
 // The axes' shares are Shapley values of the held-out R^2, in parts of the energy beyond noise. `sample` is the rest that goes with single samples: what the
 // mean over one half of the channels tells about the other half.
 AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap, bool withCells);

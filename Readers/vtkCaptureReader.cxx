@@ -14,7 +14,9 @@
 #include "Formats/Capture.h"
 #include "Formats/FileKind.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkCaptureReader);
@@ -106,6 +108,28 @@ void vtkCaptureReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n"
      << indent << "Notes: " << this->Notes << "\n";
+  for (const std::string& name : this->FurtherCaptures)
+  {
+    os << indent << "FurtherCapture: " << name << "\n";
+  }
+}
+
+void vtkCaptureReader::AddFurtherCapture(const char* name)
+{
+  if (name && *name)
+  {
+    this->FurtherCaptures.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkCaptureReader::ClearFurtherCaptures()
+{
+  if (!this->FurtherCaptures.empty())
+  {
+    this->FurtherCaptures.clear();
+    this->Modified();
+  }
 }
 
 int vtkCaptureReader::RequestData(
@@ -120,7 +144,10 @@ int vtkCaptureReader::RequestData(
         throw std::invalid_argument(
           "no capture is given; choose its folder, or the capture.json in it, as File Name");
       }
-      const msi::Capture capture = msi::readCapture(folderOf(this->FileName));
+      std::vector<std::string> folders{ folderOf(this->FileName) };
+      std::transform(this->FurtherCaptures.begin(), this->FurtherCaptures.end(),
+        std::back_inserter(folders), folderOf);
+      const msi::Capture capture = msi::readCaptures(folders);
       msi::write(cameraOf(capture), vtkTable::GetData(outputs, 0));
       auto* samples = vtkTable::GetData(outputs, 1);
       msi::toVTK(capture.samples, samples);

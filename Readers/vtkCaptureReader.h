@@ -16,6 +16,7 @@
 #include "vtkTableAlgorithm.h"
 
 #include <string>
+#include <vector>
 
 class MULTISPECTRALREADERS_EXPORT vtkCaptureReader : public vtkTableAlgorithm
 {
@@ -30,6 +31,15 @@ public:
    */
   vtkSetStdStringFromCharMacro(FileName);
   vtkGetCharFromStdStringMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * Captures of the same camera that are read beside the first one, each as a scene of its own: the capture that a diagnosis
+   * asked for, say. Folders, or the capture.json in them.
+   */
+  void AddFurtherCapture(const char* name);
+  void ClearFurtherCaptures();
   ///@}
 
   /**
@@ -54,6 +64,7 @@ private:
   void operator=(const vtkCaptureReader&) = delete;
 
   std::string FileName;
+  std::vector<std::string> FurtherCaptures;
   std::string Notes;
 };
 

@@ -11,11 +11,15 @@ def arguments():
     parser = command.parser(
         "diagnose", __doc__,
         "capture/",
-        "capture/ --without filter_shift --causes 3 --output gap")
+        "capture/ --without filter_shift --causes 3 --output gap",
+        "capture/ --also gray-scale/")
     parser.add_argument("capture", metavar="CAPTURE_DIR",
                         help="folder with capture.json, camera.csv, samples.csv and responses.csv; or with "
                              "images/ (real* and simulated*; or real*, labels* and patches* of a chart, "
                              "which camera.csv then simulates), or with both")
+    parser.add_argument("--also", metavar="CAPTURE_DIR", action="append", default=[],
+                        help="a further capture of the same camera, such as the one that the report asked for; may be given "
+                             "several times")
     parser.add_argument("--without", metavar="EFFECT", action="append", default=[],
                         help="an effect that may not be blamed; may be given several times")
     parser.add_argument("--causes", metavar="N", type=command.whole_number(1), default=5,
@@ -50,13 +54,14 @@ def main():
     pipeline.load_plugin()
     place = diagnosis.folder_of(options.capture)
     images = image_gap.pair(place)
-    outputs.reads(*(os.path.join(place, name) for name in _INPUTS),
+    outputs.reads(*(os.path.join(folder, name) for name in _INPUTS
+                    for folder in (place, *map(diagnosis.folder_of, options.also))),
                   *(path for paths in (images or {}).values() for path in paths))
     outputs.require_apart(options.output, WRITES)
     choices = {"Without": options.without, "MaximumCauses": options.causes, "Seed": options.seed}
     outcomes = []
     if images is None or os.path.exists(os.path.join(place, "samples.csv")):
-        outcomes.append((diagnosis, diagnosis.diagnose(diagnosis.read_capture(options.capture),
+        outcomes.append((diagnosis, diagnosis.diagnose(diagnosis.read_capture(options.capture, options.also),
                                                        Folds=options.folds, MaximumSamples=options.samples,
                                                        **choices)))
     if images is not None:

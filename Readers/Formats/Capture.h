@@ -63,4 +63,9 @@ RepeatedResponses readRepeatedResponses(const std::string& path);
 // naming the file.
 Capture readCapture(const std::string& folder);
 
+// Captures of one camera as one: the samples and readings of all, each capture a scene of its own (its name) where its samples
+// name none. A sample that has the name of an earlier one gets the scene's name behind it. Noise and images are the first one's.
+// Errors: as readCapture; FormatError where a capture has another simulated camera, channels or wavelengths than the first.
+Capture readCaptures(const std::vector<std::string>& folders);
+
 } // namespace msi

@@ -2,6 +2,8 @@
 
 #include "Support/formats/TestFiles.h"
 
+#include <algorithm>
+
 namespace
 {
 
@@ -222,4 +224,39 @@ TEST_F(Captures, CountsWithoutAWhiteLevelAreRefused)
     "them "
     "by the counts of the perfect white");
 }
+}
+
+TEST_F(Captures, SeveralOfOneCameraAreScenesOfOne)
+{
+  write("d/capture.json", R"({"name": "dark", "white_level": 60000, "dark": 0.01})");
+  write("d/camera.csv", "wavelength,blue,red\n420,0.1,0.2\n400,0.3,0.4\n410,0.5,0.6\n");
+  write("d/samples.csv", "sample,medium,R400,R410,R420\na,cap,0,0,0\nlid,cap,0,0,0\n");
+  write("d/responses.csv", "sample,repeat,C1,C2,light\na,1,0.01,0.02,off\nlid,1,0.03,0.04,off\n");
+  const msi::Capture c = msi::readCaptures({ path("c"), path("d") });
+  const auto cells = [](const std::vector<msi::MetadataColumn>& columns, const std::string& name)
+  {
+    const auto found = std::find_if(
+      columns.begin(), columns.end(), [&](const auto& column) { return column.name == name; });
+    return found != columns.end() ? found->text : std::vector<std::string>{};
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(c.samples.sampleNames(), (Texts{ "a", "b", "a (dark)", "lid" }));
+  EXPECT_EQ(cells(c.samples.metadata, "scene"), (Texts{ "bench", "bench", "dark", "dark" }));
+  EXPECT_EQ(cells(c.samples.metadata, "medium"), (Texts{ "", "", "cap", "cap" }));
+  EXPECT_EQ(c.samples.reflectance.row(2), Eigen::RowVector4d(0.3, 0.6, 0.0, 0.0));
+  EXPECT_EQ(c.readings.sample, (Texts{ "a", "b", "a", "a (dark)", "lid" }));
+  EXPECT_EQ(c.readings.repeat, (std::vector<int>{ 1, 1, 2, 1, 1 }));
+  EXPECT_EQ(
+    c.readings.responses.row(1), (Eigen::RowVectorXd(5) << 0.2, 0.4, 0.6, 0.02, 0.04).finished());
+  EXPECT_EQ(cells(c.readings.metadata, "order"), (Texts{ "7", "8", "9", "", "" }));
+  EXPECT_EQ(cells(c.readings.metadata, "light"), (Texts{ "", "", "", "off", "off" }));
+  EXPECT_EQ(c.description.noise.read, 0.001);
+
+  write("d/camera.csv", "wavelength,blue,red\n420,0.1,0.2\n400,0.3,0.4\n410,0.5,0.7\n");
+  EXPECT_NE(errorOf(
+              [&] {
+                msi::readCaptures({ path("c"), path("d") });
+              })
+              .find("d/camera.csv: is another simulated camera"),
+    std::string::npos);
 }

@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+from random import Random
 
 from odd_captures import DEMO, IMAGE, refused, undecided
 
@@ -73,6 +74,14 @@ def parameter_of(report, effect, name):
                 {"value": float("nan"), "standard_error": float("nan")})
 
 
+def interpolated(at, places, values):
+    if at <= places[0] or at >= places[-1]:
+        return values[0 if at <= places[0] else -1]
+    right = next(number for number, place in enumerate(places) if place > at)
+    part = (at - places[right - 1]) / (places[right] - places[right - 1])
+    return (1 - part) * values[right - 1] + part * values[right]
+
+
 def check_demo(launcher, folder):
     done = run(launcher, DEMO, folder / "demo")
     expect(done.returncode == 0, f"demo capture: status {done.returncode}: {done.stderr}")
@@ -109,6 +118,60 @@ def check_demo(launcher, folder):
     for name in ("report.json", "camera-corrected.json", "samples.csv"):
         expect((folder / "ranks" / name).read_bytes() == (folder / "demo" / name).read_bytes(),
                f"--ranks 2: {name} differs")
+
+
+def check_further_capture(launcher, folder):
+    """An offset of matt samples of one medium may be glare, gloss or a bias; a lid tells which."""
+    rows = [line.split(",") for line in (DEMO / "samples.csv").read_text(encoding="utf-8").splitlines()]
+    first = next(place for place, name in enumerate(rows[0]) if re.fullmatch(r"R\d+", name))
+    wavelengths = [float(name[1:]) for name in rows[0][first:]]
+    lines = (DEMO / "camera.csv").read_text(encoding="utf-8").splitlines()
+    camera = [[float(cell) for cell in line.split(",")] for line in lines[1:]]
+    random = Random(5)
+
+    def responses(spectrum):
+        return [sum(line[k] * value for line, value in zip(camera, spectrum)) + 0.008 for k in range(1, len(camera[0]))]
+
+    def capture(name, medium, spectra):
+        place = folder / name
+        place.mkdir()
+        shutil.copy(DEMO / "camera.csv", place)
+        (place / "capture.json").write_text(json.dumps(
+            {"name": name, "dark": 0, "noise": {"read": 0.0008, "shot": 0.001}}), encoding="utf-8")
+        (place / "samples.csv").write_text("\n".join(
+            [",".join(["sample", "medium", *(f"R{line[0]:g}" for line in camera)])] +
+            [",".join([str(number), medium, *map(str, spectrum)]) for number, spectrum in enumerate(spectra)]) + "\n",
+            encoding="utf-8")
+        answers = [responses(spectrum) for spectrum in spectra]
+        noisy = [[str(number), str(repeat), *(f"{u + random.gauss(0, 0.0009):.6f}" for u in answer)]
+                 for repeat in (1, 2) for number, answer in enumerate(answers)]
+        head = ",".join(["sample", "repeat", *lines[0].split(",")[1:]])
+        (place / "responses.csv").write_text("\n".join([head, *map(",".join, noisy)]) + "\n", encoding="utf-8")
+        return place
+
+    swatches = capture("swatches", "paper",
+                       [[interpolated(line[0], wavelengths, [float(cell) for cell in row[first:]]) for line in camera]
+                        for row in rows[1:41]])
+    lid = capture("lid", "lid", [[0.0] * len(camera)] * 8)
+
+    def result(name, *options):
+        done = run(launcher, swatches, folder / name, *options)
+        expect(done.returncode == 0, f"{name}: status {done.returncode}: {done.stderr}")
+        return json.loads((folder / name / "report.json").read_text(encoding="utf-8"))
+
+    alone, both = result("alone"), result("both", "--also", str(lid))
+    expect(len(alone["causes"][0]["equivalent"]) > 0 and alone["next_capture"]["expected_bits"] > 0.1,
+           f"an offset alone: {alone['causes']}, {alone['next_capture']}")
+    expect([cause["effect"] for cause in both["causes"]] == ["dark_offset"] and not both["causes"][0]["equivalent"],
+           f"an offset and a lid: {both['causes']}")
+    expect(both["probabilities"]["dark_offset"] > alone["probabilities"]["dark_offset"],
+           f"an offset and a lid: {both['probabilities']}, before {alone['probabilities']}")
+    samples = (folder / "both" / "samples.csv").read_text(encoding="utf-8")
+    expect("0 (lid)" in samples, "an offset and a lid: samples.csv")
+
+    (lid / "camera.csv").write_text("\n".join(lines[:-1]) + "\n", encoding="utf-8")
+    done = run(launcher, swatches, folder / "other", "--also", str(lid))
+    expect(done.returncode == 1 and "is another simulated camera" in done.stderr, f"--also, other camera: {done.stderr}")
 
 
 def check_images(launcher, folder):
@@ -189,6 +252,7 @@ def main():
     folder.mkdir(parents=True)
     if part == "demo":
         check_demo(launcher, folder)
+        check_further_capture(launcher, folder)
         check_images(launcher, folder)
         check_chart(launcher, folder)
     else:

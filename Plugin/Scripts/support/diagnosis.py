@@ -91,8 +91,8 @@ def folder_of(capture):
     return os.path.dirname(capture) or "." if os.path.basename(capture) == "capture.json" else capture
 
 
-def read_capture(folder):
-    capture = pipeline.create("CaptureReader", FileName=folder)
+def read_capture(folder, further=()):
+    capture = pipeline.create("CaptureReader", FileName=folder, FurtherCaptures=list(further))
     pipeline.update(capture)
     pipeline.tell_notes(capture)
     return capture
@@ -309,6 +309,9 @@ def undecided_section(figures, causes, notes, gap):
     words = [f"{title_of(cause)}, or {gap.words(cause['equivalent'])}." for cause in causes if cause["equivalent"]]
     if figures["next_capture"]:
         words.append(f"What to capture next: {next_capture(figures, gap)}.")
+        if figures["expected_bits"] > 0:
+            words.append("Afterwards diagnose both captures together: the same command with --also and the folder of the new "
+                         "one.")
     words += [gap.words(note) for note in notes]
     return report.text("What these data cannot decide, and why",
                        *(words or ["Nothing limits the diagnosis."]))

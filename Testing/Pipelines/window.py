@@ -341,9 +341,18 @@ def chart(window):
     state = window.load_chart()
     window.click(state["named"]["MultispectralFindChart"])
     state = window.wait("the dialog of the chart", lambda s: "MultispectralChartReference" in s["named"])
-    window.click(state["named"]["MultispectralChartReference"])
+    field, find = (state["named"][f"MultispectralChart{name}"] for name in ("Reference", "Find"))
+    # The reference of another chart: one message, and nothing of the search stays.
+    window.click(field)
+    window.type(SAMPLES / "demo-chart.csv")
+    window.click(find)
+    now = window.wait("the refusal", lambda s: s["status"].startswith("the reference lists 140 samples"), WORK)
+    window.pass_over_faults()
+    if now["sources"] != state["sources"] or now["output"] != state["output"] or now["corners"]:
+        raise Failed(f"another chart's reference leaves {now['sources']} and the messages {now['output']}")
+    window.click(field)
     window.type(window.folder / "chart-reference.csv")
-    window.click(state["named"]["MultispectralChartFind"])
+    window.click(find)
     found = window.wait("the chart", lambda s: len(s["corners"]) == 4 and "24 patches" in s["status"], WORK)
     if set(found["sources"]) == set(state["sources"]):
         raise Failed("Find makes nothing that Escape could take back")
@@ -484,12 +493,13 @@ def refused_folder(window):
 def unknown_file(window):
     """A file that no reader knows: ParaView then loads readers of its own in Python, some of which fail. The window must not wait for
     itself when that is told."""
+    before = window.state()["output"]
     path = window.folder / "unknown.kind"
     path.write_bytes(bytes(range(256)) * 20)
     type_into_open(window, path)
     window.wait("the question which reader", lambda s: any("Open Data With" in title for title in s["dialogs"]), WORK)
     window.key("Escape")
-    window.wait("the question closed", lambda s: not s["dialogs"])
+    window.wait("the question closed", lambda s: not s["dialogs"] and s["output"] == before)
     window.pass_over_faults()
 
 

@@ -5,7 +5,7 @@ import os
 from PyQt5 import QtCore, QtWidgets
 from paraview import servermanager, simple
 
-from . import messages, pixel
+from . import messages, pixel, view_choice
 from .marks import Marks
 
 # Columns and rows.
@@ -124,6 +124,10 @@ class Placement(QtWidgets.QDialog):
         if not found:
             error = said.errors[0]
             said = self._place()
+            if said.errors:  # no place of the corners would mend that
+                self._put_back()
+                self.save_button.setEnabled(False)
+                return self._say(said.errors[0] + ". Choose the chart and its own reference.")
         self._show()
         self._tell("" if found else f"{error}. Drag the corners onto the chart; the yellow one to its first patch.", said)
 
@@ -164,13 +168,14 @@ class Placement(QtWidgets.QDialog):
                   f"Patches to check: {', '.join(marked)}." if marked else "No patch is clipped or uneven.")
 
     def _show(self):
+        simple.SetActiveSource(self._image)  # the finder's own handles would stand over the corners
+        view_choice.adapt(is_new=True)
         self.view = simple.GetActiveViewOrCreate("RenderView")
         simple.Hide(self._image, self.view)
         display = simple.Show(self.finder, self.view)
         simple.ColorBy(display, ("POINTS", "Overlay"))
         self.view.InteractionMode = "2D"
         simple.ResetCamera(self.view)
-        simple.SetActiveSource(self._image)  # the finder's own handles would stand over the corners
         interactor = self.view.GetInteractor()
         for event, act in (("LeftButtonPressEvent", self._press), ("MouseMoveEvent", self._move),
                            ("LeftButtonReleaseEvent", self._release)):
@@ -254,11 +259,13 @@ class Placement(QtWidgets.QDialog):
         for source in made:
             simple.Delete(source)
         self.finder = self.samples = None
-        if view is not None and self._image.SMProxy.GetGlobalID() in known:
+        if self._image.SMProxy.GetGlobalID() not in known:
+            return
+        if view is not None:
             simple.Show(self._image, view)
             simple.Render(view)
-            if active is None or active.SMProxy in [source.SMProxy for source in made]:
-                simple.SetActiveSource(self._image)
+        if active is None or active.SMProxy in [source.SMProxy for source in made]:
+            simple.SetActiveSource(self._image)
 
     def _end(self):
         self._put_back()

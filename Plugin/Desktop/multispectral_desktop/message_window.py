@@ -9,14 +9,16 @@ from PyQt5 import QtCore, QtGui, QtWidgets
 
 _REMARKS = ("returned failure for request", "Attempted to ShallowCopy from null")
 _OF_A_VIEW = "vtkPVGeometryFilter"  # asks again at each picture, so long as what failed is shown
+# ParaView tries its readers in Python at a file that no other reader knows; those that the system cannot load tell their traces.
+_READERS_IN_PYTHON = ("openpmd.py:", "Failed to import module 'paraview.algorithms.")
 _LOOKED_AT = QtCore.Qt.UserRole + 77
 _SAME = 3.0  # seconds within which the same text tells of the same fault
 
 
 class Tidy(QtCore.QObject):
-    def __init__(self, parent, model):
+    def __init__(self, parent, dock, model):
         super().__init__(parent)
-        self._model, self._seen = model, {}
+        self._dock, self._model, self._seen = dock, model, {}
         self._timer = QtCore.QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._clean)
@@ -26,13 +28,18 @@ class Tidy(QtCore.QObject):
         model.rowsInserted.connect(self._timer.start)
 
     def _clean(self):
-        now, row = time.monotonic(), 0
+        now, row, in_trace = time.monotonic(), 0, False
         while row < self._model.rowCount():
             index = self._model.index(row, 0)
             if index.data(_LOOKED_AT):
                 row += 1
                 continue
             text = self._text(row)
+            # Messages of VTK begin with a space, lines of a trace do not.
+            in_trace = any(part in text for part in _READERS_IN_PYTHON) or (in_trace and not str(index.data()).startswith(" "))
+            if in_trace:
+                self._model.removeRow(row)
+                continue
             last = self._seen.get(text)
             remark = any(part in text for part in _REMARKS) and (
                 _OF_A_VIEW in text and bool(self._seen) or any(now - then < _SAME for then in self._seen.values()))
@@ -43,6 +50,8 @@ class Tidy(QtCore.QObject):
             else:
                 self._model.setData(index, True, _LOOKED_AT)  # a count of rows would not know when the user clears them
                 row += 1
+        if self._model.rowCount() == 0:
+            self._dock.hide()
 
     def _text(self, row):
         return str(self._model.index(row, 0).data()).strip()
@@ -53,4 +62,4 @@ def install(window):
     dock = window.findChild(QtWidgets.QDockWidget, "outputWidgetDock")
     tree = dock and dock.findChild(QtWidgets.QTreeView, "treeView")
     model = tree and tree.model()
-    return Tidy(window, model) if isinstance(model, QtGui.QStandardItemModel) else None
+    return Tidy(window, dock, model) if isinstance(model, QtGui.QStandardItemModel) else None

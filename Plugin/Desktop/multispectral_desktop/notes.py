@@ -35,14 +35,14 @@ def _has_data(source):
 
 def remarks(view):
     """On what it shows."""
-    displays = [display for display in view.Representations if getattr(display, "Visibility", 0) and getattr(display, "Input", None)]
-    return "\n".join(dict.fromkeys(filter(None, map(_remark, displays))))
+    inputs = [display.Input for display in view.Representations if getattr(display, "Visibility", 0) and
+              getattr(display, "Input", None) is not None and list(getattr(display, "ColorArrayName", ()))[1:] == ["sRGB"]]
+    return "\n".join(dict.fromkeys(filter(None, map(of_raw, inputs))))
 
 
-def _remark(display):
-    """On the colors of responses that nothing divides by a white reference; None where there is nothing to say."""
-    source = display.Input
-    if list(getattr(display, "ColorArrayName", ()))[1:] != ["sRGB"] or "Responses" not in pixel.arrays(source, source.Port):
+def of_raw(source):
+    """The remark on responses that nothing divides by a white reference; None where there is nothing to say."""
+    if "Responses" not in pixel.arrays(source, source.Port):
         return None
     while source.SMProxy.GetXMLName() not in _REMARKS:
         before = getattr(source, "Input", None)
@@ -54,6 +54,11 @@ def _remark(display):
     is_raw = notes.startswith(_NO_WHITE) if source.SMProxy.GetXMLName() == "SceneReader" else \
         fields.GetArrayInformation("Wavelength") is not None  # which a picture for the screen does not have
     return _REMARKS[source.SMProxy.GetXMLName()] if is_raw and "Responses" in pixel.arrays(source, source.Port) else None
+
+
+def title_of_responses(source):
+    """Of an axis."""
+    return "Response (1 = white)" if of_raw(source) is None else "Response (as stored)"
 
 
 def _write_remarks(view):

@@ -15,7 +15,6 @@ _COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#9
 _LIVE = "#000000"
 _MOST_MOTION = 3  # pixels between press and release that still are a click
 _PICTURES = ("sRGB", "Display P3", "False Color")
-_TITLES = {"Reflectance": "Reflectance factor", "Responses": "Response (1 = white)"}
 
 
 class SpectrumPanel(QtWidgets.QDockWidget):
@@ -199,7 +198,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         else:
             self.text.setText(describe(shown))
         across = "Wavelength (nm)" if shown is None or shown.wavelengths else "Channel"
-        self.chart.show_curves(curves, (across, _TITLES.get(shown.kind if shown else "Reflectance")))
+        self.chart.show_curves(curves, (across, _title_of(shown)))
 
     # The band that the active view shows.
     def _shown_image(self):
@@ -293,6 +292,14 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             writer = csv.DictWriter(file, names, restval="")
             writer.writeheader()
             writer.writerows(rows)
+
+
+def _title_of(pin):
+    """Of the vertical axis."""
+    if pin is None or pin.kind == "Reflectance":
+        return "Reflectance factor"
+    source = pixel.source_of(pin)
+    return notes.title_of_responses(source) if source is not None else "Response"
 
 
 def curves_of(pin, color):

@@ -130,9 +130,14 @@ def _of_point(source, port, point):
     return _local(source, port, data, point) if data is not None else _remote(source, port, point)
 
 
+def source_of(pin):
+    """The source of its image; None where there is none any more."""
+    return next((source for source in simple.GetSources().values() if source.SMProxy.GetGlobalID() == pin.source), None)
+
+
 def again(pin):
     """The same place as its image is now, or None where it has no spectrum there any more."""
-    source = next((source for source in simple.GetSources().values() if source.SMProxy.GetGlobalID() == pin.source), None)
+    source = source_of(pin)
     if source is None:
         return None
     return _of_point(source, pin.port, pin.point) if pin.region is None else _mean(source, pin.port, pin.region)

@@ -2,6 +2,7 @@
 
 from paraview import simple
 
+from . import notes
 from .memory import first
 
 # The title of the vertical axis; that of a profile depends on its image.
@@ -36,4 +37,4 @@ def _adapt(view, display, source):
 
 def _title_of_profile(source):
     image = source.Input
-    return "Reflectance factor" if image is not None and image.PointData.GetArray("Reflectance") else "Response (1 = white)"
+    return "Reflectance factor" if image is not None and image.PointData.GetArray("Reflectance") else notes.title_of_responses(image)

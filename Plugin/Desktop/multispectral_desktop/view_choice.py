@@ -15,6 +15,8 @@ def adapt(is_new):
     if fits and not (is_new and wanted is not None and has_caption(active)):
         return
     view = free_view(wanted, at_all=not fits)
+    if view is None and is_new and has_caption(active):
+        view = free_view("RenderView", at_all=False)  # which is split: the main job keeps its four views as they are
     if view is not None:
         simple.SetActiveView(view)
 

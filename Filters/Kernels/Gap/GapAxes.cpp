@@ -13,6 +13,7 @@ namespace msi
 namespace
 {
 constexpr std::size_t CellsNamed = 5;
+constexpr double Alike = 1e-9;             // shares
 constexpr std::size_t ChannelAndLevel = 3; // their bits
 
 // The first axis and its worst cell.
@@ -128,8 +129,10 @@ std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes)
   axes.erase(std::remove_if(axes.begin(), axes.end(),
                [](const GapAxis& axis) { return !(axis.share > Decision::FormPart); }),
     axes.end());
-  std::stable_sort(
-    axes.begin(), axes.end(), [](const GapAxis& a, const GapAxis& b) { return a.share > b.share; });
+  // Two axes may be the same: scenes of one medium each. Then rounding does not say which comes first.
+  std::stable_sort(axes.begin(), axes.end(),
+    [](const GapAxis& a, const GapAxis& b)
+    { return std::round(a.share / Alike) > std::round(b.share / Alike); });
   return axes;
 }
 

@@ -233,18 +233,16 @@ BlockLight::BlockLight(const FieldData& data, const FieldModel& model, const Eig
 
 ImagePixel BlockLight::pixel(int number) const
 {
-  const int i = number % Block.window.width;
-  const int j = number / Block.window.width;
-  const int x = Block.window.x + i;
-  const int y = Block.window.y + j;
+  const int x = Block.window.x + number % Block.window.width;
+  const int y = Block.window.y + number / Block.window.width;
   ImagePixel pixel;
   pixel.x = Data.pair.fieldX(x);
   pixel.y = Data.pair.fieldY(y);
   pixel.fromMiddleX = Data.pair.offX(x);
   pixel.fromMiddleY = Data.pair.offY(y);
-  pixel.right = Near.right(i, j);
-  pixel.down = Near.down(i, j);
-  pixel.blur = Near.blur(i, j);
+  pixel.right = Near.right(number);
+  pixel.down = Near.down(number);
+  pixel.blur = Near.blur(number);
   pixel.surround = Surround.data() + std::size_t{ TailPasses } * static_cast<std::size_t>(number);
   pixel.tailWeights = Weights.data();
   pixel.mean = Glare;
@@ -253,13 +251,12 @@ ImagePixel BlockLight::pixel(int number) const
 
 double BlockLight::near(int number, const ImagePixel& pixel) const
 {
-  const int i = number % Block.window.width;
-  const int j = number / Block.window.width;
-  double value = Near.value(i, j);
+  double value = Near.value(number);
   if (Where.varies())
   {
-    const FieldDisplacement::Place more =
-      Where.beyondMiddle(Block.window, Block.window.x + i, Block.window.y + j);
+    const int row = number / Block.window.width;
+    const FieldDisplacement::Place more = Where.beyondMiddle(
+      Block.window, Block.window.x + number % Block.window.width, Block.window.y + row);
     value += more.right * pixel.right + more.down * pixel.down;
   }
   return value;

@@ -63,7 +63,7 @@ public:
 
 struct FieldNeighbourhood
 {
-  Eigen::ArrayXXd value, right, down, blur; // width x height
+  Eigen::ArrayXXd value, right, down, blur; // width x height: by pixel number, too
 
   FieldNeighbourhood(const FieldData& data, const ImageWindow& window, Eigen::Index channel,
     const AxisKernels& x, const AxisKernels& y);

@@ -2,7 +2,7 @@
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldBlockLight.h"
-#include "Kernels/Gap/Field/FieldScene.h"
+#include "Kernels/Gap/Field/FieldData.h"
 
 #include <cmath>
 #include <limits>

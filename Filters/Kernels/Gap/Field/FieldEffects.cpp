@@ -32,14 +32,14 @@ std::string harmonicName(Eigen::Index n)
 
 // Lines of stripes' parameters, errors from `next` on.
 std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const FieldModel& model,
-  double periodError, const std::vector<std::string>& channels, const Eigen::VectorXd& error,
-  Eigen::Index& next)
+  const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next)
 {
   const auto K = static_cast<Eigen::Index>(channels.size());
   const BandingSines sines = bandingSines(choice, model);
   const bool profile = isProfile(choice);
   std::vector<GapParameter> parameters;
-  parameters.push_back({ "period", sines.period, "pixels", profile ? 0.0 : periodError });
+  parameters.push_back({ "period", sines.period, "pixels",
+    profile ? 0.0 : model.stripes(isOfRows(choice)).periodError });
   for (Eigen::Index k = 0; k < K; ++k)
   {
     const std::string& channel = channels[static_cast<std::size_t>(k)];
@@ -195,14 +195,13 @@ Eigen::Index parameterCount(const FieldChoice& choice, Eigen::Index channels)
 }
 
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,
-  double periodError, const std::vector<std::string>& channels, const Eigen::VectorXd& error,
-  Eigen::Index& next)
+  const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next)
 {
   std::vector<GapParameter> parameters;
   const auto K = static_cast<Eigen::Index>(channels.size());
   if (isBanding(choice))
   {
-    return bandingParameters(choice, model, periodError, channels, error, next);
+    return bandingParameters(choice, model, channels, error, next);
   }
   if (isFree(choice))
   {
@@ -250,7 +249,7 @@ std::vector<CameraEffect> fieldCorrection(
       numbersOf({ choice }, static_cast<Eigen::Index>(channels.size())).size();
     const Eigen::VectorXd exact = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers));
     Eigen::Index next = 0;
-    for (const GapParameter& found : fieldParameters(*choice, model, 0.0, channels, exact, next))
+    for (const GapParameter& found : fieldParameters(*choice, model, channels, exact, next))
     {
       for (std::size_t i = 0; i < names.size(); ++i)
       {

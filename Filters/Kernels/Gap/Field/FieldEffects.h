@@ -65,10 +65,8 @@ AskedSteps stepsOf(const FieldSet& set);
 Eigen::Index parameterCount(const FieldChoice& choice, Eigen::Index channels);
 
 // error: standard errors of the choice's numbers, from `next` on (FieldFitter::standardErrors), which moves on.
-// periodError: of the period of stripes.
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,
-  double periodError, const std::vector<std::string>& channels, const Eigen::VectorXd& error,
-  Eigen::Index& next);
+  const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next);
 
 // The set as a list for CameraSimulator and ImageSimulator.
 std::vector<CameraEffect> fieldCorrection(

@@ -177,18 +177,19 @@ FieldLines::FieldLines(
   , gain(sine)
   , offset(sine)
 {
-  const auto& [period, profile] = model.stripes(ofRows);
-  if (period > 0.0)
+  const FieldStripes& stripes = model.stripes(ofRows);
+  if (stripes.period > 0.0)
   {
     const Eigen::ArrayXd angle =
-      TwoPi / period * Eigen::ArrayXd::LinSpaced(count, first, first + count - 1);
+      TwoPi / stripes.period * Eigen::ArrayXd::LinSpaced(count, first, first + count - 1);
     sine = angle.sin();
     cosine = angle.cos();
   }
-  if (profile != nullptr)
+  if (stripes.profile != nullptr)
   {
-    gain = FieldProfile::without(fold, profile->gain).col(channel).segment(first, count);
-    offset = FieldProfile::without(fold, profile->offset).col(channel).segment(first, count);
+    gain = FieldProfile::without(fold, stripes.profile->gain).col(channel).segment(first, count);
+    offset =
+      FieldProfile::without(fold, stripes.profile->offset).col(channel).segment(first, count);
   }
 }
 

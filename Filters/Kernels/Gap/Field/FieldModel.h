@@ -29,7 +29,8 @@ struct FieldProfile
 
 struct FieldStripes
 {
-  double period = 0.0;                         // 0: none
+  double period = 0.0; // pixels; 0: none
+  double periodError = 0.0;
   std::shared_ptr<const FieldProfile> profile; // null: none
 };
 

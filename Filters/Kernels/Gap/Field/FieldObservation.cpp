@@ -89,8 +89,8 @@ bool FieldObservation::hasStart(const FieldModel& model, const FieldChoice& choi
 {
   if (isBanding(choice))
   {
-    const auto& [period, profile] = model.stripes(isOfRows(choice));
-    return isProfile(choice) ? profile != nullptr : period > 0.0;
+    const FieldStripes& stripes = model.stripes(isOfRows(choice));
+    return isProfile(choice) ? stripes.profile != nullptr : stripes.period > 0.0;
   }
   return !clips(choice) || !model.isNeutral(clippingTerms()[1].parameter);
 }
@@ -109,9 +109,7 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   {
     if (!hasSine(hypothesis.set, rows))
     {
-      const FieldPeriod found = findPeriod(Data, residuals, rows, Loop);
-      PeriodError[found.period] = found.standardError;
-      model.stripes(rows).period = found.period;
+      findPeriod(Data, residuals, rows, Loop, model.stripes(rows));
     }
   }
   findProfiles(model, residuals, hypothesis.set, false);
@@ -292,18 +290,11 @@ std::vector<std::vector<GapParameter>> FieldObservation::parameters(const Observ
   const Eigen::VectorXd error =
     FieldFitter(Data, *hypothesis.statistics).standardErrors(hypothesis.set);
   const FieldModel& model = hypothesis.statistics->model;
-  const auto deviation = [this](double period)
-  {
-    const auto known = PeriodError.find(period);
-    return known == PeriodError.end() ? 0.0 : known->second;
-  };
   Eigen::Index next = 0;
   std::vector<std::vector<GapParameter>> parameters;
   for (const FieldChoice* choice : hypothesis.set)
   {
-    const double period = model.stripes(isOfRows(*choice)).period;
-    parameters.push_back(fieldParameters(*choice, model,
-      isBanding(*choice) ? deviation(period) : 0.0, Data.pair.channels, error, next));
+    parameters.push_back(fieldParameters(*choice, model, Data.pair.channels, error, next));
   }
   return parameters;
 }

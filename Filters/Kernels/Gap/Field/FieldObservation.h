@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,7 +61,6 @@ private:
   double Elements = 0.0;
   double NoiseEnergy = 0.0;
   FitPointer Nominal;
-  mutable std::map<double, double> PeriodError;
 };
 
 } // namespace msi

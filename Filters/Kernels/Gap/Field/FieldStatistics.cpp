@@ -51,9 +51,9 @@ void addDifferences(const ChannelColumns& found, const ImageWindow& window, Bloc
       const int x = i % window.width + right;
       const int y = i / window.width + down;
       const int self = at[static_cast<std::size_t>(i)];
-      const int other = x < window.width && y < window.height
-        ? at[static_cast<std::size_t>(y * window.width + x)]
-        : -1;
+      const int place = y * window.width + x;
+      const int other =
+        x < window.width && y < window.height ? at[static_cast<std::size_t>(place)] : -1;
       if (self >= 0 && other >= 0)
       {
         sum += std::pow(residual[self] - residual[other], 2);

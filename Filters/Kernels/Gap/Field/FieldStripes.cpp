@@ -109,11 +109,8 @@ void cutDefects(Eigen::ArrayXXd& values)
   const Eigen::Index cut = values.rows() / DefectPart + 1;
   for (Eigen::Index k = 0; k < values.cols(); ++k)
   {
-    std::vector<double> sizes;
-    for (Eigen::Index line = 0; line < values.rows(); ++line)
-    {
-      sizes.push_back(std::fabs(values(line, k)));
-    }
+    const Eigen::ArrayXd size = values.col(k).abs();
+    std::vector<double> sizes(size.begin(), size.end());
     const auto next = sizes.end() - 1 - std::min(cut, values.rows() - 1);
     std::nth_element(sizes.begin(), next, sizes.end());
     values.col(k) = values.col(k).max(-*next).min(*next);
@@ -212,16 +209,17 @@ double gammaSurvival(double x, Eigen::Index channels)
 }
 }
 
-FieldPeriod findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals,
-  bool alongRows, const FieldLoop& loop)
+void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals, bool alongRows,
+  const FieldLoop& loop, FieldStripes& stripes)
 {
+  stripes.period = stripes.periodError = 0.0;
   LineValues profile = meansWithout(
     lineSums(data, residuals, alongRows, Eigen::ArrayXd()), FieldFolds, &LineSums::gain);
   const Eigen::Index lines = profile.value.rows();
   const Eigen::Index K = profile.value.cols();
   if (lines < FewestLines)
   {
-    return {};
+    return;
   }
   detrend(profile, 3);
   const double span = static_cast<double>(lines);
@@ -259,7 +257,7 @@ FieldPeriod findPeriod(const FieldData& data, const std::vector<FieldResidual>& 
   }
   if (gammaSurvival(most, K) * span > FalseAlarm)
   {
-    return {};
+    return;
   }
   double low = frequencyOf(best) - 1.0 / (PeriodOversampling * span);
   double high = std::fmin(frequencyOf(best) + 1.0 / (PeriodOversampling * span), 0.5);
@@ -272,7 +270,8 @@ FieldPeriod findPeriod(const FieldData& data, const std::vector<FieldResidual>& 
   const double frequency = 0.5 * (low + high);
   // Cramer-Rao for a sine of this power in white noise: var f = 6 / (power (2 pi span)^2) x 2.
   const double error = std::sqrt(6.0 / std::fmax(total(frequency), 1e-9)) / (TwoPi * span);
-  return { 1.0 / frequency, error / (frequency * frequency) };
+  stripes.period = 1.0 / frequency;
+  stripes.periodError = error / (frequency * frequency);
 }
 
 namespace

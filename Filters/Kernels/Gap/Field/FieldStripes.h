@@ -17,20 +17,14 @@ namespace msi
 FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>& residuals,
   bool alongRows, bool keepTrend, const Eigen::ArrayXd& limit);
 
-struct FieldPeriod
-{
-  double period = 0.0; // pixels; 0: nothing beyond chance
-  double standardError = 0.0;
-};
-
-// The period of a gain that goes with the row (or column), the same in all channels, phases and sizes free.
+// Finds the period of a gain that goes with the row (or column), the same in all channels, phases and sizes free.
 //
 // Method: least-squares periodogram (N. R. Lomb, 1976, doi:10.1007/BF00648343) of the relative gain of each row of the
 //   training blocks, quadratic trend taken off; the channels' powers add. The largest power counts where noise
 //   of the same median power would reach it anywhere in the spectrum with a probability below 1e-3.
-// Range: 2 pixels to half the span.
-FieldPeriod findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals,
-  bool alongRows, const FieldLoop& loop);
+// Range: 2 pixels to half the span. 0 where there is nothing beyond chance.
+void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals, bool alongRows,
+  const FieldLoop& loop, FieldStripes& stripes);
 
 inline constexpr Eigen::Index BandingHarmonics = 3;
 

@@ -83,7 +83,7 @@ Eigen::MatrixXd EffectFit::informationOfData() const
   for (std::size_t p = 0; p < free.size(); ++p)
   {
     const auto at = static_cast<Eigen::Index>(p);
-    ofData(at, at) -= 1.0 / (free[p].spread * free[p].spread);
+    ofData(at, at) -= free[p].precision();
   }
   return ofData;
 }
@@ -130,7 +130,7 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   for (Eigen::Index p = 0; p < count; ++p)
   {
     const FreeParameter& parameter = fit.free[static_cast<std::size_t>(p)];
-    prior[p] = 1.0 / (parameter.spread * parameter.spread);
+    prior[p] = parameter.precision();
     lower[p] = parameter.lower;
     upper[p] = parameter.upper;
     neutral[p] = parameter.neutral;

@@ -79,15 +79,14 @@ bool EffectSet::leveled() const noexcept
       [](const EffectChoice& choice) { return choice.effect->has(EffectTrait::CommonGain); });
 }
 
-std::size_t EffectSet::steps() const noexcept
+std::size_t EffectSet::steps() const
 {
-  return static_cast<std::size_t>(std::count_if(choices.begin(), choices.end(),
-    [](const EffectChoice& choice)
-    {
-      const auto& parameters = choice.form->parameters;
-      return std::any_of(parameters.begin(), parameters.end(),
-        [](const EffectParameter& parameter) { return parameter.searched; });
-    }));
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < size(); ++e)
+  {
+    count += placeOf(e) ? 1 : 0;
+  }
+  return count;
 }
 
 Eigen::Index EffectSet::reach() const noexcept

@@ -43,6 +43,8 @@ struct FreeParameter
   double neutral, lower, upper, scale;
   double spread; // standard deviation about neutral before the data speak
   std::string name, unit;
+
+  double precision() const noexcept { return 1.0 / (spread * spread); }
 };
 
 // The parameter that says when a step takes place: its index in CameraEffect::parameters, that of its width behind it.
@@ -62,8 +64,8 @@ struct EffectSet
   std::size_t size() const noexcept { return effects.size(); }
   bool has(const EffectChoice& cause) const noexcept;
   bool whiteAfterEffects() const noexcept;
-  bool leveled() const noexcept;      // and no gain of all channels is there to do it
-  std::size_t steps() const noexcept; // places of steps in time: found by search, not by derivative
+  bool leveled() const noexcept; // and no gain of all channels is there to do it
+  std::size_t steps() const;     // places of steps in time: found by search, not by derivative
   // How many channels away the parameters of one channel act.
   Eigen::Index reach() const noexcept;
   // What the simulator is to run with.

@@ -193,7 +193,6 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
   {
     // The gap is what the given model does not allow; with the effect in the simulator it does.
     cause.share = 1.0;
-    cause.shrink = 1.0;
     report.verdict = GapVerdict::Explained;
     report.gap.noiseFloor = std::sqrt(expected2);
     report.gap.rmsAfter = std::sqrt(std::fmax(before2 - excess, expected2));
@@ -215,7 +214,6 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     const double gap = std::sqrt(std::fmax(before2 - floor2, 0.0));
     const double part = size / (size + gap);
     cause.share = part;
-    cause.shrink = 0.0;
     for (GapCause& other : report.causes)
     {
       other.share *= 1.0 - part;

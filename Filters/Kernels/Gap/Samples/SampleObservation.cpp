@@ -112,8 +112,7 @@ public:
       .rankUpdate((Basis.transpose() * weighted).transpose(), -1.0);
     for (Eigen::Index p = 0; p < columns.cols(); ++p)
     {
-      const double spread = free[static_cast<std::size_t>(p)].spread;
-      normal(p, p) += 1.0 / (spread * spread);
+      normal(p, p) += free[static_cast<std::size_t>(p)].precision();
     }
     const Eigen::VectorXd gradient = weighted.transpose() * residual;
     return residual.squaredNorm() - gradient.dot(normal.ldlt().solve(gradient));

@@ -6,7 +6,7 @@ import os
 from PyQt5 import QtCore, QtGui, QtWidgets
 from paraview import servermanager, simple
 
-from . import captions, changes, first_views, notes, pixel, profile_chart
+from . import captions, changes, first_views, memory, notes, pixel, profile_chart
 from .chart import Curve, SpectrumChart
 from .marks import Marks, rectangle
 
@@ -24,6 +24,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         self.live, self.pins, self._watched, self._pressed = None, [], {}, None
         self._kept = []  # of which pins are those that their images have at present
         self._changes = changes.Changes()
+        self._manager = servermanager.ProxyManager().SMProxyManager
         self._marks, self._marked, self._marked_grids = Marks(), {}, {}
         self.chart = SpectrumChart()
         self.text = QtWidgets.QLabel("Move the cursor over an image; click to keep a spectrum.")
@@ -73,6 +74,12 @@ class SpectrumPanel(QtWidgets.QDockWidget):
         manager = servermanager.ProxyManager().SMProxyManager
         if manager is None or manager.GetInLoadXMLState():  # a state file that is half read
             return
+        if manager is not self._manager:  # File > Connect: another server counts its objects anew
+            self._manager = manager
+            memory.forget()
+            pixel.forget(())
+            self.live, self._marked = None, {}
+            self.clear()
         for view in simple.GetRenderViews():
             interactor = view.GetInteractor()
             if interactor is not None and self._watched.get(view.SMProxy.GetGlobalID()) is not interactor:

@@ -2,7 +2,6 @@
 
 #include "Formats/Text/NumberText.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>
@@ -41,14 +40,19 @@ int typeCode(SampleType type)
     "ENVI has no sample type int8; expected uint8, int16 or another type");
 }
 
-// Text that cannot end the value it stands in.
+// Text that cannot end the value it stands in. No blank stands for a brace or comma: "450{nm" would become a wavelength.
 std::string plain(std::string text, bool inList)
 {
-  std::replace_if(
-    text.begin(), text.end(),
-    [inList](char c)
-    { return c == '{' || c == '}' || c == '\n' || c == '\r' || (inList && c == ','); },
-    ' ');
+  constexpr std::string_view Ending = "{}\n\r,";
+  constexpr std::string_view Harmless = "()  ;";
+  for (char& c : text)
+  {
+    const std::size_t at = Ending.find(c);
+    if (at != std::string_view::npos && (c != ',' || inList))
+    {
+      c = Harmless[at];
+    }
+  }
   return text;
 }
 

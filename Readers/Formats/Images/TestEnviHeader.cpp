@@ -178,7 +178,11 @@ TEST(EnviHeader, WhatIsWrittenReadsBack)
     back.info.metadata.count("x start"), 0u); // what is written may be another part of the image
   header.info.bandNames = { "brace } comma , end\n", "b" };
   EXPECT_EQ(parseEnviHeader("b.hdr", enviHeaderText(header)).info.bandNames,
-    (Names{ "brace   comma   end", "b" }));
+    (Names{ "brace ) comma ; end", "b" }));
+  // Names that hold no wavelength do not get one.
+  auto unknown = parseEnviHeader("a.hdr", Minimal + "band names = {450{nm, 550{nm}\n");
+  EXPECT_TRUE(unknown.info.wavelengths.empty());
+  EXPECT_TRUE(parseEnviHeader("b.hdr", enviHeaderText(unknown)).info.wavelengths.empty());
   header.type = msi::SampleType::Int8;
   EXPECT_THROW(enviHeaderText(header), std::invalid_argument);
 }

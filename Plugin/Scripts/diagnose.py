@@ -60,7 +60,11 @@ def main():
     outputs.require_apart(options.output, WRITES)
     choices = {"Without": options.without, "MaximumCauses": options.causes, "Seed": options.seed}
     outcomes = []
-    if images is None or os.path.exists(os.path.join(place, "samples.csv")):
+    has_tables = images is None or os.path.exists(os.path.join(place, "samples.csv"))
+    if options.also and not has_tables:
+        raise command.Failure(f"--also: {options.capture} has images alone; expected samples.csv and responses.csv beside them; "
+                              "diagnose the images without --also")
+    if has_tables:
         outcomes.append((diagnosis, diagnosis.diagnose(diagnosis.read_capture(options.capture, options.also),
                                                        Folds=options.folds, MaximumSamples=options.samples,
                                                        **choices)))

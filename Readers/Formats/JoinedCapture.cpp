@@ -16,8 +16,9 @@ namespace fs = std::filesystem;
 
 std::string nameOf(const Capture& capture, const std::string& folder)
 {
-  return capture.description.name.empty() ? fs::path(folder).lexically_normal().filename().string()
-                                          : capture.description.name;
+  return capture.description.name.empty()
+    ? (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string()
+    : capture.description.name;
 }
 
 MetadataColumn& columnOf(SampleTable& table, const std::string& name, std::size_t rows)

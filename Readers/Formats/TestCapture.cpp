@@ -252,6 +252,11 @@ TEST_F(Captures, SeveralOfOneCameraAreScenesOfOne)
   EXPECT_EQ(cells(c.readings.metadata, "light"), (Texts{ "", "", "", "off", "off" }));
   EXPECT_EQ(c.description.noise.read, 0.001);
 
+  // A capture without a name has that of its folder.
+  write("d/capture.json", R"({"white_level": 60000, "dark": 0.01})");
+  EXPECT_EQ(cells(msi::readCaptures({ path("c"), path("d/") }).samples.metadata, "scene"),
+    (Texts{ "bench", "bench", "d", "d" }));
+
   write("d/camera.csv", "wavelength,blue,red\n420,0.1,0.2\n400,0.3,0.4\n410,0.5,0.7\n");
   EXPECT_NE(errorOf(
               [&] {

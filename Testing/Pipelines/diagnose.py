@@ -10,6 +10,7 @@ import subprocess
 import sys
 from random import Random
 
+import numpy as np
 from odd_captures import DEMO, IMAGE, refused, undecided
 
 root = pathlib.Path(os.environ["MULTISPECTRAL_ROOT"])
@@ -74,14 +75,6 @@ def parameter_of(report, effect, name):
                 {"value": float("nan"), "standard_error": float("nan")})
 
 
-def interpolated(at, places, values):
-    if at <= places[0] or at >= places[-1]:
-        return values[0 if at <= places[0] else -1]
-    right = next(number for number, place in enumerate(places) if place > at)
-    part = (at - places[right - 1]) / (places[right] - places[right - 1])
-    return (1 - part) * values[right - 1] + part * values[right]
-
-
 def check_demo(launcher, folder):
     done = run(launcher, DEMO, folder / "demo")
     expect(done.returncode == 0, f"demo capture: status {done.returncode}: {done.stderr}")
@@ -126,11 +119,8 @@ def check_further_capture(launcher, folder):
     first = next(place for place, name in enumerate(rows[0]) if re.fullmatch(r"R\d+", name))
     wavelengths = [float(name[1:]) for name in rows[0][first:]]
     lines = (DEMO / "camera.csv").read_text(encoding="utf-8").splitlines()
-    camera = [[float(cell) for cell in line.split(",")] for line in lines[1:]]
+    camera = np.array([[float(cell) for cell in line.split(",")] for line in lines[1:]])
     random = Random(5)
-
-    def responses(spectrum):
-        return [sum(line[k] * value for line, value in zip(camera, spectrum)) + 0.008 for k in range(1, len(camera[0]))]
 
     def capture(name, medium, spectra):
         place = folder / name
@@ -139,20 +129,18 @@ def check_further_capture(launcher, folder):
         (place / "capture.json").write_text(json.dumps(
             {"name": name, "dark": 0, "noise": {"read": 0.0008, "shot": 0.001}}), encoding="utf-8")
         (place / "samples.csv").write_text("\n".join(
-            [",".join(["sample", "medium", *(f"R{line[0]:g}" for line in camera)])] +
+            [",".join(["sample", "medium", *(f"R{place:g}" for place in camera[:, 0])])] +
             [",".join([str(number), medium, *map(str, spectrum)]) for number, spectrum in enumerate(spectra)]) + "\n",
             encoding="utf-8")
-        answers = [responses(spectrum) for spectrum in spectra]
-        noisy = [[str(number), str(repeat), *(f"{u + random.gauss(0, 0.0009):.6f}" for u in answer)]
-                 for repeat in (1, 2) for number, answer in enumerate(answers)]
+        noisy = [[str(number), str(repeat), *(f"{u + random.gauss(0, 0.0009):.6f}" for u in camera[:, 1:].T @ spectrum + 0.008)]
+                 for repeat in (1, 2) for number, spectrum in enumerate(spectra)]
         head = ",".join(["sample", "repeat", *lines[0].split(",")[1:]])
         (place / "responses.csv").write_text("\n".join([head, *map(",".join, noisy)]) + "\n", encoding="utf-8")
         return place
 
     swatches = capture("swatches", "paper",
-                       [[interpolated(line[0], wavelengths, [float(cell) for cell in row[first:]]) for line in camera]
-                        for row in rows[1:41]])
-    lid = capture("lid", "lid", [[0.0] * len(camera)] * 8)
+                       [np.interp(camera[:, 0], wavelengths, [float(cell) for cell in row[first:]]) for row in rows[1:41]])
+    lid = capture("lid", "lid", np.zeros((8, len(camera))))
 
     def result(name, *options):
         done = run(launcher, swatches, folder / name, *options)
@@ -201,6 +189,8 @@ def check_chart(launcher, folder):
     expect(done.returncode == 1 and "images/patches.csv is missing" in done.stderr
            and len(done.stderr.splitlines()) == 1, f"chart without patches: {done.stderr}")
     shutil.copy(IMAGE / "patches.csv", capture / "images")
+    done = run(launcher, capture, output, "--also", str(DEMO))
+    expect(done.returncode == 1 and "has images alone" in done.stderr, f"chart with --also: {done.stderr}")
     done = run(launcher, capture, output)
     expect(done.returncode == 0, f"chart: status {done.returncode}: {done.stderr}")
     report = json.loads((output / "report.json").read_text(encoding="utf-8"))

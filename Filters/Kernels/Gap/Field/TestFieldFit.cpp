@@ -27,7 +27,7 @@ const FieldChoice& choiceOf(
 }
 
 // A falloff about a center of its own and a gradient that bends are nearly the same: linear steps lead far away.
-TEST(FieldHypothesis, TheEnergyToldIsThatOfTheModelReached)
+TEST(FieldFit, TheEnergyToldIsThatOfTheModelReached)
 {
   const FieldLoop loop = [](int count, const std::function<void(int)>& body)
   {

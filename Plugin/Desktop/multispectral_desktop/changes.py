@@ -9,13 +9,13 @@ class Changes:
 
     def any(self):
         """Since it was asked last."""
-        for source in simple.GetSources().values():
-            proxy = source.SMProxy
+        sources = {source.SMProxy.GetGlobalID(): source.SMProxy for source in simple.GetSources().values()}
+        for number, proxy in sources.items():
             # A source that was deleted and brought back by Undo has the same number.
-            if self._watched.get(proxy.GetGlobalID()) is not proxy:
-                self._watched[proxy.GetGlobalID()] = proxy
+            if self._watched.get(number) is not proxy:
                 proxy.AddObserver("UpdateDataEvent", self._tell)
                 self._changed = True
+        self._watched = sources  # no others, which would keep deleted sources and their data alive
         changed, self._changed = self._changed, False
         return changed
 

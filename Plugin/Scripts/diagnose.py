@@ -54,8 +54,8 @@ def main():
     pipeline.load_plugin()
     place = diagnosis.folder_of(options.capture)
     images = image_gap.pair(place)
-    outputs.reads(*(os.path.join(folder, name) for name in _INPUTS
-                    for folder in (place, *map(diagnosis.folder_of, options.also))),
+    places = [place, *map(diagnosis.folder_of, options.also)]
+    outputs.reads(*(os.path.join(folder, name) for name in _INPUTS for folder in places),
                   *(path for paths in (images or {}).values() for path in paths))
     outputs.require_apart(options.output, WRITES)
     choices = {"Without": options.without, "MaximumCauses": options.causes, "Seed": options.seed}
@@ -79,8 +79,8 @@ def main():
         kind.write(gap, target)
         sections += kind.sections(gap, target)
         diagnosis.print_summary(gap)
-    report.write(folder, f"Sim-to-real gap: {os.path.basename(os.path.abspath(place))}", sections,
-                 diagnosis.lead(outcomes[0][1]), pipeline.warnings)
+    names = " and ".join(os.path.basename(os.path.abspath(folder)) for folder in places)
+    report.write(folder, f"Sim-to-real gap: {names}", sections, diagnosis.lead(outcomes[0][1]), pipeline.warnings)
     command.say(f"report, pictures and tables: {os.path.join(folder, 'report.html')}")
 
 

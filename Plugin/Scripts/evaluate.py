@@ -47,10 +47,8 @@ def main():
     command.require_files(options.calibration, options.target, *colors.files(options))
     folder = command.make_folder(options.output, WRITES)
     chosen = methods.chosen(options.methods)
-    def counted(number, noun):
-        return f"{number} {noun}{'' if number == 1 else 's'}"
-    command.say(f"{counted(len(chosen), 'method')}, {counted(options.draws, 'draw')} of {options.tuning} tuning samples, "
-                "the rest held out")
+    draws = f"{command.counted(options.draws, 'draw')} of {options.tuning} tuning samples"
+    command.say(f"{command.counted(len(chosen), 'method')}, {draws}, the rest held out")
     pipeline.load_plugin()
     judged = colors.Colors(options)
     tables = [pipeline.create("SampleTableReader", FileName=path)
@@ -61,8 +59,8 @@ def main():
                                             draws=options.draws, seed=options.seed, colors=judged)
     report.write(folder, "Methods compared", [
         report.table("Errors of the held-out samples", *comparison.condensed(names, rows),
-                     note=f"Mean / median / largest over the held-out samples, mean over {counted(options.draws, 'draw')} of "
-                          f"{options.tuning} tuning samples; rms of reflectance factor, {judged.label}. "
+                     note=f"Mean / median / largest over the held-out samples, mean over {draws}; rms of reflectance factor, "
+                          f"{judged.label}. "
                           + comparison.explained(names, rows)),
         report.table("Is the best method better?", *comparison.against_best(names, rows, pairs),
                      note="Ratio of the mean errors with its 95 % interval, and in how many held-out samples the error is "

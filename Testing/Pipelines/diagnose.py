@@ -155,6 +155,8 @@ def check_further_capture(launcher, folder):
     expect(both["probabilities"]["dark_offset"] > alone["probabilities"]["dark_offset"],
            f"an offset and a lid: {both['probabilities']}, before {alone['probabilities']}")
     samples = (folder / "both" / "samples.csv").read_text(encoding="utf-8")
+    page = (folder / "both" / "report.html").read_text(encoding="utf-8")
+    expect("Sim-to-real gap: swatches and lid" in page and "1 minutes" not in page, "an offset and a lid: report.html")
     expect("0 (lid)" in samples, "an offset and a lid: samples.csv")
 
     (lid / "camera.csv").write_text("\n".join(lines[:-1]) + "\n", encoding="utf-8")

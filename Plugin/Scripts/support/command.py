@@ -99,6 +99,10 @@ def printable(text):
     return _CONTROL.sub(lambda found: f"\\x{ord(found[0]) & 0xff:02X}", text)
 
 
+def counted(number, noun):
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
 def say(text):
     if rank() == 0:
         try:

@@ -136,7 +136,8 @@ def print_summary(gap):
 def next_capture(figures, gap):
     worth = ""
     if figures["expected_bits"] > 0:
-        worth = f", expected {figures['expected_bits']:.1f} bits about the causes in {figures['minutes']:.0f} minutes"
+        worth = f", expected {figures['expected_bits']:.1f} bits about the causes in " + \
+            command.counted(round(figures["minutes"]), "minute")
     return f"{gap.words(figures['next_capture'])} (separates {gap.words(figures['separates'])}{worth})"
 
 

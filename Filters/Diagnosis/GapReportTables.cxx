@@ -131,14 +131,16 @@ void writeSummary(const GapReport& report, vtkTable* table)
       { "shrink_high", NumberColumn }, { "unexplained_share", NumberColumn },
       { "unexplained_where", TextColumn }, { "unknown_probability", NumberColumn },
       { "next_capture", TextColumn }, { "separates", TextColumn },
-      { "expected_bits", NumberColumn }, { "minutes", NumberColumn } });
+      { "expected_bits", NumberColumn }, { "minutes", NumberColumn },
+      { "rms_with_rest", NumberColumn } });
   const GapFigures& gap = report.gap;
   const GapNextCapture next =
     report.nextCaptures.empty() ? GapNextCapture{} : report.nextCaptures.front();
   rows.add({ nameOf(report.verdict), gap.rmsBefore, gap.rmsAfter, gap.noiseFloor, gap.shrink,
     gap.shrinkInterval[0], gap.shrinkInterval[1], report.unexplained.share,
     report.unexplained.where, report.probabilityOf("unknown"), next.capture, joined(next.separates),
-    next.expectedBits.value_or(Nothing), next.minutes.value_or(Nothing) });
+    next.expectedBits.value_or(Nothing), next.minutes.value_or(Nothing),
+    report.unexplained.rmsWithRest.value_or(Nothing) });
   vtkNew<vtkStringArray> text;
   text->SetName("Report");
   text->InsertNextValue(gapReportText(report));

@@ -109,7 +109,8 @@ void vtkImageSimToRealGap::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << "\n"
      << indent << "MaximumCauses: " << this->MaximumCauses << "\n"
-     << indent << "Seed: " << this->Seed << "\n";
+     << indent << "Seed: " << this->Seed << "\n"
+     << indent << "AddRest: " << this->AddRest << "\n";
 }
 
 void vtkImageSimToRealGap::AddWithout(const char* effect)
@@ -215,6 +216,7 @@ int vtkImageSimToRealGap::RequestData(
       options.without = this->Without;
       options.maximumCauses = this->MaximumCauses;
       options.seed = static_cast<std::uint64_t>(this->Seed);
+      options.addRest = this->AddRest;
       const msi::FieldGap found = msi::runDiagnosis(this, pair, options);
 
       auto* output = vtkImageData::GetData(outputs, GAP_MAP);

@@ -57,6 +57,15 @@ public:
 
   ///@{
   /**
+   * Whether the corrected simulator has what is regular in the rest, too: the effect unmodelled_response. Default off.
+   */
+  vtkSetMacro(AddRest, bool);
+  vtkGetMacro(AddRest, bool);
+  vtkBooleanMacro(AddRest, bool);
+  ///@}
+
+  ///@{
+  /**
    * Seed of blocks, folds and resampling; the same seed gives the same result on every machine. Default 1.
    */
   vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
@@ -83,6 +92,7 @@ private:
   std::vector<std::string> Without;
   int MaximumCauses = 5;
   int Seed = 1;
+  bool AddRest = false;
 };
 
 #endif

@@ -56,6 +56,7 @@ void vtkSimToRealGap::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "MaximumSamples: " << this->MaximumSamples << "\n"
      << indent << "Folds: " << this->Folds << "\n"
      << indent << "Seed: " << this->Seed << "\n"
+     << indent << "AddRest: " << this->AddRest << "\n"
      << indent << "ReflectanceNoise: " << this->ReflectanceNoise << "\n";
 }
 
@@ -113,6 +114,7 @@ int vtkSimToRealGap::RequestData(
       options.maximumCauses = this->MaximumCauses;
       options.folds = this->Folds;
       options.seed = static_cast<std::uint64_t>(this->Seed);
+      options.addRest = this->AddRest;
       if (this->ReflectanceNoise >= 0.0)
       {
         options.reflectanceNoise = this->ReflectanceNoise;

@@ -79,6 +79,15 @@ public:
 
   ///@{
   /**
+   * Whether the corrected simulator has what is regular in the rest, too: the effect unmodelled_response. Default off.
+   */
+  vtkSetMacro(AddRest, bool);
+  vtkGetMacro(AddRest, bool);
+  vtkBooleanMacro(AddRest, bool);
+  ///@}
+
+  ///@{
+  /**
    * Seed of folds and resampling; the same seed gives the same result on every machine. Default 1.
    */
   vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
@@ -113,6 +122,7 @@ private:
   int MaximumSamples = 2000;
   int Folds = 5;
   int Seed = 1;
+  bool AddRest = false;
   double ReflectanceNoise = -1.0;
 };
 

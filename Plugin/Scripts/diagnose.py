@@ -24,6 +24,8 @@ def arguments():
                         help="an effect that may not be blamed; may be given several times")
     parser.add_argument("--causes", metavar="N", type=command.whole_number(1), default=5,
                         help="largest number of causes, up to 8 (default: %(default)s)")
+    parser.add_argument("--add-rest", action="store_true",
+                        help="put what is regular in the rest that no cause explains into the corrected simulator, too")
     parser.add_argument("--samples", metavar="N", type=command.whole_number(0), default=2000,
                         help="largest number of samples that are used, spread over media, scenes and levels; 0: all "
                              "(default: %(default)s)")
@@ -58,7 +60,8 @@ def main():
     outputs.reads(*(os.path.join(folder, name) for name in _INPUTS for folder in places),
                   *(path for paths in (images or {}).values() for path in paths))
     outputs.require_apart(options.output, WRITES)
-    choices = {"Without": options.without, "MaximumCauses": options.causes, "Seed": options.seed}
+    choices = {"Without": options.without, "MaximumCauses": options.causes, "Seed": options.seed,
+               "AddRest": options.add_rest}
     outcomes = []
     has_tables = images is None or os.path.exists(os.path.join(place, "samples.csv"))
     if options.also and not has_tables:

@@ -73,6 +73,17 @@ OrderedJson candidatesOf(const GapReport& report)
   return candidates;
 }
 
+OrderedJson unexplainedOf(const GapRemainder& rest)
+{
+  OrderedJson json = { { "share", rest.share }, { "where", rest.where },
+    { "depends_on", namedNumbers(rest.dependsOn) } };
+  if (rest.rmsWithRest)
+  {
+    json["rms_with_rest"] = *rest.rmsWithRest;
+  }
+  return json;
+}
+
 OrderedJson captureOf(const GapNextCapture& next)
 {
   OrderedJson json = { { "capture", next.capture }, { "separates", next.separates } };
@@ -119,10 +130,7 @@ std::string gapReportText(const GapReport& report)
         { "shrink_interval", gap.shrinkInterval } } },
     { "where", whereOf(report) }, { "change_points", changePointsOf(report) },
     { "causes", causesOf(report) }, { "probabilities", namedNumbers(report.probabilities) },
-    { "candidates", candidatesOf(report) },
-    { "unexplained",
-      { { "share", report.unexplained.share }, { "where", report.unexplained.where },
-        { "depends_on", namedNumbers(report.unexplained.dependsOn) } } },
+    { "candidates", candidatesOf(report) }, { "unexplained", unexplainedOf(report.unexplained) },
     { "next_capture", nextCaptureOf(report) }, { "notes", report.notes } };
   // Names come from the user's tables: bytes that are no UTF-8 must not end the writing.
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";

@@ -20,7 +20,7 @@ msi::GapReport filledReport()
   report.probabilities = { { "filter_shift", 0.6 }, { "illuminant_drift", 0.3 },
     { "unknown", 0.1 } };
   report.candidates = { { "filter_shift", "common", "", 0.85, { 0.8, 0.9 } } };
-  report.unexplained = { 0.06, "medium fabric", { { "medium", 0.8 }, { "level", 0.1 } } };
+  report.unexplained = { 0.06, "medium fabric", { { "medium", 0.8 }, { "level", 0.1 } }, 0.0015 };
   report.nextCaptures = { { "lamp spectrum", { "filter_shift", "illuminant_drift" }, 0.75, 5.0 },
     { "monochromator", { "filter_shift", "illuminant_drift" }, 0.5, 60.0 } };
   report.notes = { "One medium only." };
@@ -45,7 +45,8 @@ TEST(GapReportText, WritesTheContract)
     "probabilities": {"filter_shift": 0.6, "illuminant_drift": 0.3, "unknown": 0.1},
     "candidates": [{"effect": "filter_shift", "form": "common", "medium": "", "shrink": 0.85,
                     "shrink_interval": [0.8, 0.9]}],
-    "unexplained": {"share": 0.06, "where": "medium fabric", "depends_on": {"medium": 0.8, "level": 0.1}},
+    "unexplained": {"share": 0.06, "where": "medium fabric", "depends_on": {"medium": 0.8, "level": 0.1},
+                    "rms_with_rest": 0.0015},
     "next_capture": {"capture": "lamp spectrum", "separates": ["filter_shift", "illuminant_drift"],
                      "expected_bits": 0.75, "minutes": 5.0,
                      "others": [{"capture": "monochromator", "separates": ["filter_shift", "illuminant_drift"],

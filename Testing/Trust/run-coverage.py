@@ -49,7 +49,7 @@ def main():
                           stdout=subprocess.PIPE, text=True)
     print("\n".join(done.stdout.strip().splitlines()[-4:]))
     (BUILD / "files.txt").write_text(gcovr("--branches"), encoding="utf-8")
-    found = json.loads(gcovr("--json-summary"))
+    found = json.loads(gcovr("--json-summary", "-"))
     folders = collections.defaultdict(lambda: [0, 0, 0, 0])
     for file in found["files"]:
         counts = [file[key] for key in ("line_covered", "line_total", "branch_covered", "branch_total")]

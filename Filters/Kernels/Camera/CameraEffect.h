@@ -72,7 +72,8 @@ enum Bit : unsigned
   ActsOnEdges = 1U << 2,     // its forms approximate point spreads and resampling
   CommonGain = 1U << 3,      // one gain of all channels
   SpectralGain = 1U << 4,    // gains that follow a smooth curve over the channels
-  LimitsResponse = 1U << 5   // its first parameter is the largest response that passes
+  LimitsResponse = 1U << 5,  // its first parameter is the largest response that passes
+  Remainder = 1U << 6        // what all others leave: fitted last, and no cause
 };
 }
 

@@ -98,6 +98,10 @@ struct GapRemainder
   // What the rest depends on, the largest part of its energy first: level, wavelength, order, position, medium, scene,
   // neighbour, sample.
   std::vector<std::pair<std::string, double>> dependsOn;
+  // Root mean square of the gap, as GapFigures::rmsAfter, once what is regular in the rest is simulated, too: the effect of the
+  // trait Remainder, linear in response, neighbouring channels, place and time. Empty where the interval of how far the rest
+  // shrinks by it contains 0.
+  std::optional<double> rmsWithRest = std::nullopt;
 };
 
 struct GapNextCapture

@@ -12,7 +12,9 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
 #include "Kernels/Gap/Samples/SampleObservation.h"
+#include "Kernels/Gap/Samples/SampleRest.h"
 #include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/UnmodelledPart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +60,47 @@ private:
   double Steps;
 };
 
+// The samples of a fold, or all but those.
+SampleList samplesOf(const GapData& data, int fold, bool inside)
+{
+  SampleList some;
+  for (const Eigen::Index i : data.usable)
+  {
+    if ((data.fold[static_cast<std::size_t>(i)] == fold) == inside)
+    {
+      some.push_back(i);
+    }
+  }
+  return some;
+}
+
+// Adds the regular part of what is left of samples held out. predicted: of each fold, and last by all samples.
+void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::MatrixXd>& predicted,
+  const GapOptions& options, Eigen::MatrixXd& after)
+{
+  Eigen::MatrixXd left = after;
+  for (int fold = 0; fold < data.folds; ++fold)
+  {
+    const SampleList heldOut = samplesOf(data, fold, true);
+    const Eigen::MatrixXd& here = predicted[static_cast<std::size_t>(fold)];
+    const CameraEffect rest = restOf(data, here, samplesOf(data, fold, false), options.seed);
+    left(Eigen::all, heldOut) -= (withRest(data, rest, here) - here)(Eigen::all, heldOut);
+  }
+  left = measuredOnly(data, left);
+  const GroupEnergies energies = energiesOf(data, data.usable, after, left);
+  if (!(shrinkInterval(energies, options.seed)[0] > 0.0))
+  {
+    return;
+  }
+  report.unexplained.rmsWithRest =
+    std::sqrt(sumOf(energies.after) / static_cast<double>(data.elements));
+  if (options.addRest)
+  {
+    after = left;
+    report.correction.push_back(restOf(data, predicted.back(), data.usable, options.seed));
+  }
+}
+
 // Takes over what was found.
 void credit(
   GapReport& report, const SampleObservation& observation, const FoundSets& found, double shrink)
@@ -99,6 +142,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const SampleObservation observation(data, data.usable, choices, options.seed);
   FoundSets found;
   Eigen::MatrixXd after = before;
+  std::vector<Eigen::MatrixXd> predicted(static_cast<std::size_t>(data.folds) + 1);
   const std::function<bool()> stop = [&progress] { return progress("searching for effects"); };
   const auto job = [&](int number)
   {
@@ -110,19 +154,17 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
       progress("effects found", 2.0);
       return;
     }
-    SampleList training;
-    SampleList heldOut;
-    for (const Eigen::Index i : data.usable)
-    {
-      (data.fold[static_cast<std::size_t>(i)] == number - 1 ? heldOut : training).push_back(i);
-    }
+    const SampleList training = samplesOf(data, number - 1, false);
+    const SampleList heldOut = samplesOf(data, number - 1, true);
     const SampleObservation fold(
       data, training, choices, options.seed + static_cast<std::uint64_t>(number));
     limits.beamWidth = 1;
     limits.optionsFitted = 5;
     limits.exchange = false;
     const FoundSets result = searchSets(fold, limits, stop);
-    const Eigen::MatrixXd left = leftOfHeldOut(data, fold.whole(*result.best), training);
+    const EffectFit whole = fold.whole(*result.best);
+    predicted[static_cast<std::size_t>(number - 1)] = whole.predicted;
+    const Eigen::MatrixXd left = leftOfHeldOut(data, whole, training);
     after(Eigen::all, heldOut) = left(Eigen::all, heldOut);
     progress("checked on samples left out", 1.0);
   };
@@ -204,6 +246,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     leaveAsItWas(report.gap);
     after = before;
   }
+  predicted.back() = best.predicted;
+  if (report.correction.empty())
+  {
+    std::fill(predicted.begin(), predicted.end(), data.simulated);
+  }
   report.candidates = foundCandidates(observation, found, options.seed);
   const bool gap = report.verdict != GapVerdict::NoGap;
   const std::vector<Explanation> explanations = explanationsOf(observation, found);
@@ -212,6 +259,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
       explanations, gap, unknownProbability(observation, found, report.gap.shrink)));
   if (gap)
   {
+    addRest(report, data, predicted, options, after);
     std::set<std::string> inQuestion;
     for (const GapCause& cause : report.causes)
     {

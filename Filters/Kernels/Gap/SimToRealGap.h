@@ -36,6 +36,9 @@ struct GapOptions
   int maximumCauses = 5;
   int folds = 5;
   std::uint64_t seed = 1; // of folds and resampling
+  // The corrected simulator has what is regular in the rest, too (GapRemainder::rmsWithRest), and so has
+  // GapReport::gapAfter.
+  bool addRest = false;
   // Standard deviation of the measured reflectance. Empty: what the capture itself shows, up to 0.003.
   std::optional<double> reflectanceNoise;
   // Called with a fraction 0..1 and what is being done; false stops the diagnosis. May be called from

@@ -86,6 +86,51 @@ TEST(SimToRealGap, OneEffectIsNamedMeasuredAndPutBack)
   EXPECT_LT(report.gapAfter.norm(), 0.2 * report.gapBefore.norm());
 }
 
+// A curve of its own in each channel is in no effect; it is in the corrected simulator where that is asked for.
+TEST(SimToRealGap, WhatNoCauseExplainsCanBeAdded)
+{
+  msi::GapCapture capture = captureWith({});
+  const auto bend = [](Eigen::MatrixXd& response)
+  {
+    const double square[] = { 0.06, -0.05, 0.04, -0.06, 0.05, -0.04, 0.06 };
+    for (Eigen::Index k = 0; k < response.rows(); ++k)
+    {
+      response.row(k).array() += square[k] * response.row(k).array().square();
+    }
+  };
+  bend(capture.readings);
+  msi::GapReport report = diagnosisOf(capture);
+  EXPECT_NE(report.verdict, GapVerdict::NoGap);
+  ASSERT_TRUE(report.unexplained.rmsWithRest);
+  EXPECT_GT(report.gap.rmsAfter, 3.0 * TestReadNoise);
+  EXPECT_LT(*report.unexplained.rmsWithRest, TestReadNoise);
+  Eigen::MatrixXd real = msi::CameraSimulator(capture.camera, {}).respond(rasterScene(96));
+  bend(real);
+  const auto error = [&]
+  {
+    return (msi::CameraSimulator(capture.camera, report.correction, { report.whiteAfterEffects })
+              .respond(rasterScene(96)) -
+      real)
+      .norm();
+  };
+  const double byCauses = error();
+  msi::GapOptions options;
+  options.addRest = true;
+  report = diagnosisOf(capture, options);
+  EXPECT_EQ(report.correction.back().name, "unmodelled_response");
+  EXPECT_LT(error(), 0.2 * byCauses);
+}
+
+TEST(SimToRealGap, WhereTheCausesLeaveNothingNothingIsAdded)
+{
+  msi::GapOptions options;
+  options.addRest = true;
+  const msi::GapReport report =
+    diagnosisOf(captureWith({ { "dark_offset", "", "", { 0.01 } } }), options);
+  EXPECT_FALSE(report.unexplained.rmsWithRest);
+  EXPECT_EQ(report.correction.size(), 1U);
+}
+
 TEST(SimToRealGap, TwoEffectsShareTheGap)
 {
   const msi::GapReport report = diagnosisOf(captureWith(

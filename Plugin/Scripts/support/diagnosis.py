@@ -241,6 +241,10 @@ def verdict_section(figures, causes, gap):
     lines += [f"Cause {number}: {cause_line(cause, gap)}." for number, cause in enumerate(causes, 1)]
     if causes:
         lines += uncredited_lines(figures, gap)
+    if figures["rms_with_rest"] > 0:
+        lines.append("A part of the rest goes with the response, the neighbouring channels, the place or the time. If it is "
+                     f"simulated, too, the rms is {figures['rms_with_rest']:.4f}; it is in the corrected simulator where "
+                     "--add-rest (Add Rest in ParaView) is set.")
     if figures["next_capture"]:
         lines.append(f"Next capture: {next_capture(figures, gap)}.")
     return report.text(f"Verdict: {figures['verdict']}", *lines)

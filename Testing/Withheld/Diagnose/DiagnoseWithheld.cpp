@@ -53,6 +53,11 @@ std::string lineOf(const msi::GapReport& report, double seconds)
     line << separator << name << ':' << probability;
     separator = ";";
   }
+  line << ',';
+  if (report.unexplained.rmsWithRest)
+  {
+    line << *report.unexplained.rmsWithRest;
+  }
   line << ',' << seconds;
   return line.str();
 }
@@ -103,7 +108,7 @@ int main(int argc, char** argv)
   if (done.empty())
   {
     output << "case,verdict,axis,where,rms_before,rms_after,noise_floor,shrink,shrink_low,shrink_"
-              "high,causes,unexplained,candidates,probabilities,seconds"
+              "high,causes,unexplained,candidates,probabilities,rms_with_rest,seconds"
            << std::endl;
   }
   std::atomic<std::size_t> next{ 0 };

@@ -101,6 +101,7 @@ struct CurveOfImage
   enum Number : std::size_t
   {
     Square,
+    Cube,
     Anchored,
     Exponent,
     Compression
@@ -125,23 +126,25 @@ struct CurveOfImage
     const double bent = power / divisor;
     const double square = numbers[Square] + numbers[Anchored];
     const double linear = 1.0 - numbers[Anchored];
-    const double inner = linear + 2.0 * square * bent;
+    const double cube = numbers[Cube];
+    const double inner = linear + bent * (2.0 * square + 3.0 * cube * bent);
     const double outer = inner / (divisor * divisor);
     if (by != nullptr)
     {
       by[Square] = bent * bent;
+      by[Cube] = bent * bent * bent;
       by[Anchored] = bent * bent - bent;
       by[Exponent] = outer * byExponent;
       by[Compression] = -bent * bent * inner;
     }
-    signal = bent * (linear + square * bent);
+    signal = bent * (linear + bent * (square + cube * bent));
     return outer * slope;
   }
 
   static const ImageStep& step()
   {
     static const ImageStep made{ ImageStage::Detector,
-      { { 0.0, ImageAxis::Level }, {}, { 1.0 }, {} }, bend };
+      { { 0.0, ImageAxis::Level }, {}, {}, { 1.0 }, {} }, bend };
     return made;
   }
 };
@@ -175,7 +178,9 @@ Effect detectorNonlinearity()
     { { "quadratic", { imageTerm(CurveOfImage::Square, square) } },
       { "anchored", { imageTerm(CurveOfImage::Anchored, square) } },
       { "gamma", { imageTerm(CurveOfImage::Exponent, exponent) } },
-      { "compressive", { imageTerm(CurveOfImage::Compression, compression) } } } };
+      { "compressive", { imageTerm(CurveOfImage::Compression, compression) } },
+      { "cubic",
+        { imageTerm(CurveOfImage::Square, square), imageTerm(CurveOfImage::Cube, cube) } } } };
   effect.makeBlock = makeBlockOperator<DetectorNonlinearity>;
   effect.onImage.step = &CurveOfImage::step();
   return effect;

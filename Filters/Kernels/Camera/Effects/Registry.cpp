@@ -17,7 +17,7 @@ MakeEffect specularComponent, translucency, fluorescence, interreflection, mediu
 MakeEffect filterBandwidth, filterShift, filterLeak, illuminantDrift;
 MakeEffect illuminationGradient, vignetting, veilingGlare, localStrayLight;
 MakeEffect exposureGain, channelGain, channelCrosstalk, sessionDrift;
-MakeEffect detectorNonlinearity, darkOffset, saturation, excessNoise;
+MakeEffect detectorNonlinearity, darkOffset, saturation, unmodelledResponse, excessNoise;
 MakeEffect misregistration, defocus, ghostReflection, lag, banding;
 
 namespace
@@ -93,11 +93,12 @@ const Library& library()
   {
     Library made;
     // In the order in which they act.
-    for (MakeEffect* make : { specularComponent, translucency, fluorescence, interreflection,
-           mediumGain, filterBandwidth, filterShift, filterLeak, illuminantDrift,
-           illuminationGradient, vignetting, veilingGlare, localStrayLight, exposureGain,
-           channelGain, channelCrosstalk, sessionDrift, detectorNonlinearity, darkOffset,
-           saturation, excessNoise, misregistration, defocus, ghostReflection, lag, banding })
+    for (MakeEffect* make :
+      { specularComponent, translucency, fluorescence, interreflection, mediumGain, filterBandwidth,
+        filterShift, filterLeak, illuminantDrift, illuminationGradient, vignetting, veilingGlare,
+        localStrayLight, exposureGain, channelGain, channelCrosstalk, sessionDrift,
+        detectorNonlinearity, darkOffset, saturation, unmodelledResponse, excessNoise,
+        misregistration, defocus, ghostReflection, lag, banding })
     {
       made.effects.push_back(make());
     }

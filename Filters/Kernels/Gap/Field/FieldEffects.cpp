@@ -108,9 +108,11 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
   std::vector<FieldChoice> choices;
   for (const EffectDefinition& effect : effectLibrary())
   {
+    const bool barred = effect.has(EffectTrait::Remainder) ||
+      std::find(without.begin(), without.end(), effect.name) != without.end();
     for (const ImageForm& form : effect.imageForms)
     {
-      if (std::find(without.begin(), without.end(), effect.name) == without.end())
+      if (!barred)
       {
         choices.push_back({ &effect, form.form, form.terms, form.twice });
       }

@@ -9,11 +9,13 @@
 #include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/UnmodelledPart.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numeric>
 
 namespace msi
 {
@@ -68,6 +70,63 @@ GroupEnergies energiesOf(
   return { groupSums(data, nominal.ofBlocks(&BlockSums::energy), false),
     groupSums(data, corrected.ofBlocks(&BlockSums::energy), false),
     groupSums(data, corrected.ofBlocks(&BlockSums::noise), false) };
+}
+
+const PlacedStep& remainderStep()
+{
+  return stepOf(effectWith(EffectTrait::Remainder).imageForms.front().terms.front().parameter);
+}
+
+// The regular part of what a model leaves.
+CameraEffect regularPartOf(const FieldData& data, const FieldStatistics& left)
+{
+  const auto count = static_cast<Eigen::Index>(remainderStep().step->width());
+  std::vector<Eigen::Index> columns(static_cast<std::size_t>(count));
+  std::iota(columns.begin(), columns.end(), static_cast<Eigen::Index>(remainderStep().column));
+  columns.push_back(FieldColumn::residual());
+  std::vector<std::vector<Eigen::MatrixXd>> products(static_cast<std::size_t>(data.channels()),
+    std::vector<Eigen::MatrixXd>(FieldFolds, Eigen::MatrixXd::Zero(count + 1, count + 1)));
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    const int fold = data.blocks[b].fold;
+    for (Eigen::Index k = 0; fold >= 0 && k < data.channels(); ++k)
+    {
+      products[static_cast<std::size_t>(k)][static_cast<std::size_t>(fold)] +=
+        left.at(b, k).normal()(columns, columns);
+    }
+  }
+  return unmodelledPart(regularPart(products), data.pair.channels);
+}
+
+// Adds it, where it predicts test blocks.
+void addRest(FieldGap& gap, const FieldData& data, const FieldWeights& weights,
+  const GapOptions& options, const FieldLoop& loop)
+{
+  const PlacedStep& step = remainderStep();
+  AskedSteps asked(imageSteps().size(), 0);
+  asked[static_cast<std::size_t>(&step - imageSteps().data())] = 1;
+  const FieldStatistics left = fieldStatistics(data, gap.model, &weights, loop, asked);
+  const CameraEffect effect = regularPartOf(data, left);
+  FieldModel model = gap.model;
+  const Eigen::Map<const Eigen::ArrayXXd> numbers(effect.parameters.data(), data.channels(),
+    static_cast<Eigen::Index>(effect.parameters.size()) / data.channels());
+  for (std::size_t n = 0; n < step.step->numbers.size(); ++n)
+  {
+    model[step.number + n] = numbers.col(static_cast<Eigen::Index>(n));
+  }
+  const FieldStatistics less = fieldStatistics(data, model, &weights, loop, AskedSteps{});
+  const GroupEnergies energies = energiesOf(data, left, less);
+  if (!(shrinkInterval(energies, options.seed)[0] > 0.0))
+  {
+    return;
+  }
+  const double pixels = sumOf(groupSums(data, less.ofBlocks(&BlockSums::pixels), false));
+  gap.report.unexplained.rmsWithRest = std::sqrt(sumOf(energies.after) / std::fmax(pixels, 1.0));
+  if (options.addRest)
+  {
+    gap.model = std::move(model);
+    gap.report.correction.push_back(effect);
+  }
 }
 
 // Mean over test blocks and channels of the squared block mean of the residual over what white noise allows.
@@ -269,6 +328,10 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
       report.unexplained = remainderOf(1.0, report.where);
     }
     leaveAsItWas(report.gap);
+  }
+  if (report.verdict != GapVerdict::NoGap)
+  {
+    addRest(*gap, data, finding.weights, options, loop);
   }
   report.candidates = foundCandidates(*finding.observation, finding.found, options.seed);
   believe(report,

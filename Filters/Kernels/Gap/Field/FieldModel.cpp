@@ -75,7 +75,12 @@ bool FieldModel::isNeutral(const PlacedStep& step) const
 
 AskedSteps everyStep()
 {
-  return AskedSteps(imageSteps().size(), 1);
+  AskedSteps asked;
+  for (const PlacedStep& step : imageSteps())
+  {
+    asked.push_back(step.step->remainder ? 0 : 1);
+  }
+  return asked;
 }
 
 ChannelSteps FieldModel::steps(

@@ -1,6 +1,6 @@
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 #include "Kernels/Gap/Field/FieldCorrection.h"
-#include "Kernels/Gap/Field/FieldTestScene.h"
+#include "Kernels/Gap/Field/TestFieldReport.h"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +61,31 @@ std::vector<float> correctedImage(
   }
   return image;
 }
+}
+
+// A curve of its own in each channel is in no effect.
+TEST(FieldCorrection, WhatNoCauseExplainsCanBeAdded)
+{
+  const TestScene scene(22, 3, 120, 100);
+  const double square[] = { 0.06, -0.05, 0.04 };
+  const TestPair test =
+    changed(scene, 32, [&](double u, int k, int, int, double) { return u + square[k] * u * u; });
+  const msi::FieldPair pair = test.pair();
+  msi::GapOptions options;
+  options.addRest = true;
+  const FieldGap found = *msi::diagnoseField(pair, options);
+  SCOPED_TRACE(describe(found.report));
+  ASSERT_TRUE(found.report.unexplained.rmsWithRest);
+  EXPECT_GT(found.report.gap.rmsAfter, 1.2 * found.report.gap.noiseFloor);
+  EXPECT_LT(*found.report.unexplained.rmsWithRest, 1.05 * found.report.gap.noiseFloor);
+  EXPECT_EQ(found.report.correction.back().name, "unmodelled_response");
+  const std::vector<float> corrected = correctedImage(pair, found.model, 64);
+  double left = 0.0;
+  for (std::size_t i = 0; i < corrected.size(); ++i)
+  {
+    left += std::pow(pair.real[i] - corrected[i], 2) / static_cast<double>(corrected.size());
+  }
+  EXPECT_LT(std::sqrt(left), 1.05 * found.report.gap.noiseFloor);
 }
 
 // A camera that sees each of three wavelengths in one channel turns the simulated image, taken as reflectance, into itself; with

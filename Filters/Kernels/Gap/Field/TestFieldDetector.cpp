@@ -50,6 +50,18 @@ TEST(FieldGap, CurveThatKeepsWhite)
   expectFirst(report, "detector_nonlinearity", "level");
 }
 
+// A curve with a toe and a shoulder: no plain one comes near.
+TEST(FieldGap, CurveWithATurn)
+{
+  const TestScene scene(47);
+  const TestPair pair = changed(
+    scene, 57, [](double u, int, int, int, double) { return u + 0.3 * u * u - 0.3 * u * u * u; });
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "detector_nonlinearity", "level");
+  expectParameter(report, "detector_nonlinearity", "square", 0.3, 0.01);
+  expectParameter(report, "detector_nonlinearity", "cube", -0.3, 0.01);
+}
+
 TEST(FieldGap, OffsetsOfChannelsMayBeGlare)
 {
   const TestScene scene(4);

@@ -330,7 +330,7 @@ std::vector<EffectChoice> choicesFor(
   for (const EffectDefinition& effect : effectLibrary())
   {
     if (effect.stage == EffectStage::Noise || effect.stage == EffectStage::Image ||
-      barred(effect.name))
+      effect.has(EffectTrait::Remainder) || barred(effect.name))
     {
       continue;
     }

@@ -56,8 +56,9 @@ enum Bit : unsigned
   KeepsWhite = 1U << 0, // of lamp and filters: the response to white does not change
   Brightens = 1U << 1,  // unless the white is balanced, it contains a gain common to all channels
   Adds = 1U << 2,       // adds to the response instead of multiplying it
-  BesideLine =
-    1U << 3 // its given parameters are slope and constant of the line through the squared responses
+  // Its given parameters are slope and constant of the line through the squared responses. It acts before the effect's other
+  // forms and may stand beside one of them: it is a matter of how the camera was fitted.
+  BesideLine = 1U << 3
 };
 }
 

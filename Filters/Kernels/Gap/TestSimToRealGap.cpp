@@ -161,13 +161,12 @@ TEST(SimToRealGap, WhatIsTheSameForGaussianPassbandsIsSaidToBe)
   EXPECT_GT(report.probabilityOf("filter_shift") + report.probabilityOf("illuminant_drift"), 0.9);
 }
 
-// A camera that was fitted as linear to a curved detector differs from it by the curve less its line alone.
-TEST(SimToRealGap, ACurveBehindALinearFitIsOneCause)
+// A camera that was fitted as linear to a curved detector differs from it by the curve less its line alone: that, with this
+// weight of the square, in the readings.
+void curveBehindLinearFit(msi::GapCapture& capture, double square)
 {
-  msi::GapCapture capture = captureWith({}, 96);
   const Eigen::MatrixXd straight =
     msi::CameraSimulator(sevenChannels(), {}).respond(rasterScene(96));
-  constexpr double Square = 0.1;
   for (Eigen::Index k = 0; k < straight.rows(); ++k)
   {
     const Eigen::ArrayXd u = straight.row(k).transpose().array() - sevenChannels().dark()[k];
@@ -177,15 +176,38 @@ TEST(SimToRealGap, ACurveBehindALinearFitIsOneCause)
     for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
     {
       const Eigen::Index sample = capture.sampleOf[static_cast<std::size_t>(j)];
-      capture.readings(k, j) += Square * (squared[sample] - squared.mean() - slope * off[sample]);
+      capture.readings(k, j) += square * (squared[sample] - squared.mean() - slope * off[sample]);
     }
   }
+}
+
+TEST(SimToRealGap, ACurveBehindALinearFitIsOneCause)
+{
+  msi::GapCapture capture = captureWith({}, 96);
+  curveBehindLinearFit(capture, 0.1);
   const msi::GapReport report = diagnosisOf(capture);
   ASSERT_EQ(report.causes.size(), 1U);
   EXPECT_EQ(report.causes.front().effect, "detector_nonlinearity");
   EXPECT_EQ(report.causes.front().form, "fitted");
-  EXPECT_NEAR(report.causes.front().parameters.front().value, Square, 0.01);
+  EXPECT_NEAR(report.causes.front().parameters.front().value, 0.1, 0.01);
   EXPECT_TRUE(says(report.notes, "linear fit to responses that are curved"));
+}
+
+// The detector has changed its curve since the camera was fitted as linear: one effect, and no offset to mend it.
+TEST(SimToRealGap, ACurveMayChangeBehindALinearFit)
+{
+  msi::GapCapture capture = captureWith({}, 96);
+  curveBehindLinearFit(capture, 0.1);
+  capture.readings.array() -= 0.1 * capture.readings.array().square();
+  const msi::GapReport report = diagnosisOf(capture);
+  ASSERT_EQ(report.correction.size(), 2U);
+  for (const msi::CameraEffect& effect : report.correction)
+  {
+    EXPECT_EQ(effect.name, "detector_nonlinearity");
+  }
+  EXPECT_NE(report.correction[0].form, report.correction[1].form);
+  EXPECT_EQ(report.causes.front().form, "quadratic");
+  EXPECT_NEAR(report.causes.front().parameters.front().value, -0.1, 0.01);
 }
 
 // With one medium a gain of the medium and of the exposure are the same numbers.

@@ -59,6 +59,11 @@ protected:
   }
 };
 
+// What level 4 has, too.
+class Matrices : public ArrayFiles
+{
+};
+
 TEST_P(ArrayFiles, ACubeIsAnImage)
 {
   writer().add("cube", { 2, 3, 4 }, cube()).add("lambda", { 1, 4 }, Numbers{ 700, 600, 500, 400 });
@@ -167,7 +172,7 @@ TEST_P(ArrayFiles, ImageErrorsListTheArrays)
     "a.mat: 5 wavelengths were given; expected 2, one for each band; complete the list");
 }
 
-TEST_P(ArrayFiles, MatricesAreASampleTable)
+TEST_P(Matrices, AreASampleTable)
 {
   // 2 wavelengths x 3 samples, 4 channels x 3 samples.
   writer()
@@ -181,6 +186,19 @@ TEST_P(ArrayFiles, MatricesAreASampleTable)
   EXPECT_EQ(table.responses.col(1), Eigen::Vector4d(2, 5, 8, 11));
   EXPECT_EQ(table.sampleNames(), (Names{ "red", "blue", "tan" }));
   EXPECT_EQ(table.notes.back(), "wavelengths are those of 'wavelengths'");
+}
+
+TEST_P(Matrices, CutShortAreTold)
+{
+  writer().add("refl", { 31, 3 }, Numbers(93, 0.5)).add("more", { 31, 200 }, Numbers(6200, 0.25));
+  const std::string whole = read("a.mat");
+  for (const std::size_t size : { whole.size() / 2, whole.size() - 100 })
+  {
+    write("a.mat", whole.substr(0, size));
+    const std::string message = tableError();
+    EXPECT_EQ(message.substr(0, 7), "a.mat: ") << size << ": " << message;
+    EXPECT_NE(message.find("; expected "), std::string::npos) << size << ": " << message;
+  }
 }
 
 TEST_P(ArrayFiles, TableErrorsListTheArrays)
@@ -251,8 +269,14 @@ TEST_P(ArrayFiles, CutOffAfterOpening)
   EXPECT_NE(errorOf([&] { allOf(*file); }).find("the file "), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(Mat, ArrayFiles, ::testing::Values(MAT_FT_MAT5, MAT_FT_MAT73),
-  [](const auto& tested) { return tested.param == MAT_FT_MAT5 ? "Level5" : "Hdf5"; });
+std::string levelOf(const ::testing::TestParamInfo<mat_ft>& tested)
+{
+  return tested.param == MAT_FT_MAT4 ? "Level4" : tested.param == MAT_FT_MAT5 ? "Level5" : "Hdf5";
+}
+
+INSTANTIATE_TEST_SUITE_P(Mat, ArrayFiles, ::testing::Values(MAT_FT_MAT5, MAT_FT_MAT73), levelOf);
+INSTANTIATE_TEST_SUITE_P(
+  Mat, Matrices, ::testing::Values(MAT_FT_MAT4, MAT_FT_MAT5, MAT_FT_MAT73), levelOf);
 
 class PublishedMat : public msi::testing::TemporaryFolder
 {

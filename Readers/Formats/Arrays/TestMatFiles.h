@@ -1,4 +1,4 @@
-// Small MAT files of level 5 and 7.3 (HDF5) for the tests, written by MatIO.
+// Small MAT files of level 4, 5 and 7.3 (HDF5) for the tests, written by MatIO.
 #pragma once
 
 #include <cstddef>

@@ -51,7 +51,11 @@ void EffectChain::build(const EffectChain* related)
   }
   // In the order of the library, whatever the order in which they were given.
   std::stable_sort(Steps.begin(), Steps.end(),
-    [](const Step& a, const Step& b) { return a.definition < b.definition; });
+    [](const Step& a, const Step& b)
+    {
+      return a.definition == b.definition ? a.besideLine && !b.besideLine
+                                          : a.definition < b.definition;
+    });
   requireOnce();
   for (const Step& step : Steps)
   {
@@ -99,7 +103,8 @@ EffectChain::Step EffectChain::bind(std::size_t effect)
   const bool newMedium = !name.empty() && mediumNumber(name) < 0;
   const int medium = newMedium ? static_cast<int>(Media.size()) : mediumNumber(name);
   const BoundEffect bound(Effects[effect], *Camera, medium);
-  Step step{ effect, &bound.definition(), bound.isNeutral(), medium, nullptr, nullptr, nullptr };
+  Step step{ effect, &bound.definition(), bound.form().has(FormTrait::BesideLine),
+    bound.isNeutral(), medium, nullptr, nullptr, nullptr };
   if (step.neutral)
   {
     return step;
@@ -142,8 +147,10 @@ void EffectChain::requireOnce() const
   {
     const CameraEffect& mine = Effects[step->effect];
     const bool twice = std::any_of(Steps.begin(), step,
-      [&](const Step& other) {
-        return other.definition == step->definition && Effects[other.effect].medium == mine.medium;
+      [&](const Step& other)
+      {
+        return other.definition == step->definition && other.besideLine == step->besideLine &&
+          Effects[other.effect].medium == mine.medium;
       });
     if (twice)
     {

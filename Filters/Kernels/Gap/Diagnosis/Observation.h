@@ -23,11 +23,12 @@ struct GapOption
   std::string medium;
   bool perChannel = false;    // a number for every channel
   double improbability = 0.0; // minus the logarithm of its probability before the data speak
+  bool besideLine = false;    // FormTrait::BesideLine
 
-  // The same effect on the same medium, whatever the form.
+  // The same effect on the same medium, whatever the form; but for FormTrait::BesideLine.
   bool sameCause(const GapOption& other) const noexcept
   {
-    return effect == other.effect && medium == other.medium;
+    return effect == other.effect && medium == other.medium && besideLine == other.besideLine;
   }
 };
 

@@ -27,10 +27,11 @@ struct EffectChoice
   // such an effect hold the brightness; a gain of all channels carries it in the simulator.
   bool leveled = false;
 
-  // The same effect on the same medium, whatever the form.
+  // The same effect on the same medium, whatever the form; but for FormTrait::BesideLine.
   bool sameCause(const EffectChoice& other) const noexcept
   {
-    return effect == other.effect && medium == other.medium;
+    return effect == other.effect && medium == other.medium &&
+      form->has(FormTrait::BesideLine) == other.form->has(FormTrait::BesideLine);
   }
 };
 

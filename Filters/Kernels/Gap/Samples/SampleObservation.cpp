@@ -36,12 +36,15 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, cons
         [](const EffectParameter& parameter) { return parameter.perChannel && !parameter.given; }),
       Decision::EffectImprobability +
         Decision::FormImprobability *
-          static_cast<double>(
-            choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0)) +
+          (choice.form->has(FormTrait::BesideLine)
+              ? 0.0
+              : static_cast<double>(
+                  choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0))) +
         (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter
             ? Decision::EffectImprobability
             : 0.0) +
-        (onlyMedium ? Decision::EffectImprobability : 0.0) });
+        (onlyMedium ? Decision::EffectImprobability : 0.0),
+      choice.form->has(FormTrait::BesideLine) });
   }
   return options;
 }

@@ -108,7 +108,7 @@ struct GapNextCapture
 {
   std::string capture;
   std::vector<std::string> separates; // effects that it tells apart
-  // Of information about which effects are the causes, and of work. Empty: the capture was looked up, not simulated.
+  // Of information about which effects are the causes, and of work. Empty: not computed.
   std::optional<double> expectedBits, minutes;
 };
 

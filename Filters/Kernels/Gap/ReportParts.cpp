@@ -137,18 +137,6 @@ std::vector<std::string> cheapestOf(std::vector<Rival> rivals)
   return names;
 }
 
-void recommendCapture(GapReport& report)
-{
-  const auto ambiguous = std::find_if(report.causes.begin(), report.causes.end(),
-    [](const GapCause& cause) { return !cause.equivalent.empty(); });
-  if (ambiguous != report.causes.end())
-  {
-    std::vector<std::string> separates{ ambiguous->effect };
-    separates.insert(separates.end(), ambiguous->equivalent.begin(), ambiguous->equivalent.end());
-    report.nextCaptures = { { separatingCapture(ambiguous->effect), separates, {}, {} } };
-  }
-}
-
 void leaveAsItWas(GapFigures& figures)
 {
   figures.rmsAfter = figures.rmsBefore;

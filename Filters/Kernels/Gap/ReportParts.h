@@ -52,9 +52,6 @@ struct Rival
 // The cheapest two, by name.
 std::vector<std::string> cheapestOf(std::vector<Rival> rivals);
 
-// The capture that the library names for the first cause with equivalents.
-void recommendCapture(GapReport& report);
-
 // Figures of a gap that nothing corrects.
 void leaveAsItWas(GapFigures& figures);
 

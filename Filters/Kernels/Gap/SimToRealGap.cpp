@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace msi
 {
@@ -260,13 +259,8 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   if (gap)
   {
     addRest(report, data, predicted, options, after);
-    std::set<std::string> inQuestion;
-    for (const GapCause& cause : report.causes)
-    {
-      inQuestion.insert(cause.effect);
-      inQuestion.insert(cause.equivalent.begin(), cause.equivalent.end());
-    }
-    report.nextCaptures = nextCaptures(observation, explanations, inQuestion, options.seed);
+    report.nextCaptures =
+      nextCaptures(observation, explanations, inQuestion(report.causes), options.seed);
   }
   addExcessNoise(report, data, noise, capture.noise, options.without);
   report.notes = notesOn(data, capture, noise, reflectanceNoise, report);

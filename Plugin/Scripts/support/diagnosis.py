@@ -314,7 +314,7 @@ def undecided_section(figures, causes, notes, gap):
     words = [f"{title_of(cause)}, or {gap.words(cause['equivalent'])}." for cause in causes if cause["equivalent"]]
     if figures["next_capture"]:
         words.append(f"What to capture next: {next_capture(figures, gap)}.")
-        if figures["expected_bits"] > 0:
+        if "samples" in gap.ports:
             words.append("Afterwards diagnose both captures together: the same command with --also and the folder of the new "
                          "one.")
     words += [gap.words(note) for note in notes]

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -16,6 +17,8 @@ namespace msi
 
 namespace
 {
+constexpr double MinutesToGetReady = 10.0;
+
 // Of every subset of the positions, fitted anew.
 std::vector<double> subsetShrinksOf(const Observation& data, const ObservedFit& best)
 {
@@ -267,6 +270,72 @@ std::vector<std::string> disputed(
     }
   }
   return cheapestOf(std::move(rivals));
+}
+
+std::set<std::string> inQuestion(const std::vector<GapCause>& causes)
+{
+  std::set<std::string> effects;
+  for (const GapCause& cause : causes)
+  {
+    effects.insert(cause.effect);
+    effects.insert(cause.equivalent.begin(), cause.equivalent.end());
+  }
+  return effects;
+}
+
+double minutesOf(const std::string& capture)
+{
+  static const std::map<std::string, double> minutes = { { "lens cap", 1.0 },
+    { "repeated white", 2.0 }, { "more repeats", 2.0 }, { "shorter exposure", 2.0 },
+    { "flat field", 3.0 }, { "black trap, second scene", 5.0 },
+    { "chart rotated by 180 degrees", 5.0 }, { "exposure series of one patch", 5.0 },
+    { "flat field at two exposure times", 5.0 }, { "grey ramp", 5.0 }, { "interleaved white", 5.0 },
+    { "lamp spectrum, white tile", 5.0 }, { "patch with black and with white surround", 5.0 },
+    { "narrow-band source", 30.0 }, { "monochromator", 60.0 } };
+  const auto known = minutes.find(capture);
+  return known == minutes.end() ? 10.0 : known->second;
+}
+
+void sortByWorth(std::vector<GapNextCapture>& captures)
+{
+  const auto rate = [](const GapNextCapture& one)
+  { return *one.expectedBits / (*one.minutes + MinutesToGetReady); };
+  std::stable_sort(captures.begin(), captures.end(),
+    [&rate](const GapNextCapture& a, const GapNextCapture& b) { return rate(a) > rate(b); });
+}
+
+std::vector<GapNextCapture> separatingCaptures(
+  const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion)
+{
+  std::map<std::string, std::set<std::string>> shown;
+  for (const std::string& name : inQuestion)
+  {
+    shown[separatingCapture(name)].insert(name);
+  }
+  const std::vector<std::string> separates = disputed(explanations, inQuestion);
+  std::vector<GapNextCapture> captures;
+  for (const auto& [capture, effects] : shown)
+  {
+    std::map<std::set<std::string>, double> chance; // of the effects that it would show
+    for (const Explanation& one : explanations)
+    {
+      std::set<std::string> there;
+      std::set_intersection(one.effects.begin(), one.effects.end(), effects.begin(), effects.end(),
+        std::inserter(there, there.end()));
+      chance[there] += one.probability;
+    }
+    double bits = 0.0;
+    for (const auto& [there, probability] : chance)
+    {
+      bits -= probability > 0.0 ? probability * std::log2(probability) : 0.0;
+    }
+    if (bits >= LeastBits)
+    {
+      captures.push_back({ capture, separates, bits, minutesOf(capture) });
+    }
+  }
+  sortByWorth(captures);
+  return captures;
 }
 
 std::vector<std::pair<std::string, double>> effectProbabilities(

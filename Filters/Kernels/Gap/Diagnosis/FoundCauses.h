@@ -50,6 +50,21 @@ std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets
 std::vector<std::string> disputed(
   const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion);
 
+// The causes and their equivalents.
+std::set<std::string> inQuestion(const std::vector<GapCause>& causes);
+
+inline constexpr double LeastBits = 0.1; // that a capture is worth being named for
+
+// Of work that a capture takes, getting ready for it left out: an estimate.
+double minutesOf(const std::string& capture);
+// By bits per minute, getting ready included; the most first.
+void sortByWorth(std::vector<GapNextCapture>& captures);
+
+// The captures that show an effect in question by itself (EffectDefinition::separatingCapture), each with the information in bits
+// about the explanations if it tells without doubt whether its effects are there; sorted by worth.
+std::vector<GapNextCapture> separatingCaptures(
+  const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion);
+
 // Of "nothing", of "unknown", and of each effect being a cause; the largest first.
 // gap: whether there is one beyond noise. unknown: unknownProbability.
 std::vector<std::pair<std::string, double>> effectProbabilities(

@@ -334,11 +334,11 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     addRest(*gap, data, finding.weights, options, loop);
   }
   report.candidates = foundCandidates(*finding.observation, finding.found, options.seed);
+  const std::vector<Explanation> explanations = explanationsOf(*finding.observation, finding.found);
   believe(report,
-    effectProbabilities(explanationsOf(*finding.observation, finding.found),
-      report.verdict != GapVerdict::NoGap,
+    effectProbabilities(explanations, report.verdict != GapVerdict::NoGap,
       unknownProbability(*finding.observation, finding.found, explained)));
-  recommendCapture(report);
+  report.nextCaptures = separatingCaptures(explanations, inQuestion(report.causes));
   report.notes = notesOn(data, finding, choices);
   noteUncredited(report.notes, report.uncredited);
   say(1.0, "done");

@@ -20,8 +20,6 @@ constexpr std::uint32_t DrawStream = 77;
 constexpr int Draws = 64;                   // of each explanation
 constexpr Eigen::Index MostElements = 2000; // of a chart that is simulated again
 constexpr double LeastProbability = 0.02;   // of an explanation that is looked at
-constexpr double LeastBits = 0.1;           // that a capture is worth being named for
-constexpr double MinutesToGetReady = 10.0;
 
 // An explanation made ready to predict.
 struct Predictor
@@ -251,10 +249,10 @@ std::vector<CaptureCandidate> captureCandidates(
     return samples;
   };
   std::vector<CaptureCandidate> candidates;
-  candidates.push_back({ "lens cap", 1.0, flat({ 0.0 }) });
+  candidates.push_back({ "lens cap", flat({ 0.0 }) });
   candidates.push_back(
-    { "exposure series of one patch", 5.0, flat({ 0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05 }) });
-  candidates.push_back({ "black trap, second scene", 5.0, flat({ 0.0, 0.03, 0.03, 0.03 }) });
+    { "exposure series of one patch", flat({ 0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05 }) });
+  candidates.push_back({ "black trap, second scene", flat({ 0.0, 0.03, 0.03, 0.03 }) });
 
   SceneSamples narrow;
   const Eigen::Index bands = std::min<Eigen::Index>(N, 40);
@@ -267,7 +265,7 @@ std::vector<CaptureCandidate> captureCandidates(
       narrow.reflectance(n, i) = std::exp(-0.5 * std::pow((grid[n] - center) / 5.0, 2));
     }
   }
-  candidates.push_back({ "narrow-band source", 30.0, narrow });
+  candidates.push_back({ "narrow-band source", narrow });
 
   const SceneSamples chart = chartOf(data);
   if (data.scene.hasPositions())
@@ -275,17 +273,17 @@ std::vector<CaptureCandidate> captureCandidates(
     SceneSamples even = chart;
     even.reflectance.setConstant(0.9);
     even.medium.clear();
-    candidates.push_back({ "flat field", 3.0, even });
+    candidates.push_back({ "flat field", even });
     SceneSamples turned = chart;
     turned.x = (chart.x.minCoeff() + chart.x.maxCoeff()) - chart.x.array();
     turned.y = (chart.y.minCoeff() + chart.y.maxCoeff()) - chart.y.array();
-    candidates.push_back({ "chart rotated by 180 degrees", 5.0, turned });
+    candidates.push_back({ "chart rotated by 180 degrees", turned });
     SceneSamples board = even;
     for (Eigen::Index i = 0; i < board.reflectance.cols(); i += 2)
     {
       board.reflectance.col(i).setConstant(0.03);
     }
-    candidates.push_back({ "patch with black and with white surround", 5.0, board });
+    candidates.push_back({ "patch with black and with white surround", board });
   }
   if (data.scene.hasOrder())
   {
@@ -294,16 +292,16 @@ std::vector<CaptureCandidate> captureCandidates(
     white.medium.clear();
     white.x.resize(0);
     white.y.resize(0);
-    candidates.push_back({ "interleaved white", 5.0, white });
+    candidates.push_back({ "interleaved white", white });
   }
   else
   {
-    candidates.push_back({ "repeated white", 2.0, flat({ 0.9, 0.9 }) });
+    candidates.push_back({ "repeated white", flat({ 0.9, 0.9 }) });
   }
 
-  candidates.push_back({ effectWith(EffectTrait::SpectralGain).separatingCapture, 5.0, chart,
+  candidates.push_back({ effectWith(EffectTrait::SpectralGain).separatingCapture, chart,
     [](const EffectDefinition& effect) { return effect.has(EffectTrait::SpectralGain); } });
-  candidates.push_back({ "monochromator", 60.0, chart, [](const EffectDefinition& effect) {
+  candidates.push_back({ "monochromator", chart, [](const EffectDefinition& effect) {
                           return effect.stage == EffectStage::Responsivity &&
                             !effect.has(EffectTrait::SpectralGain);
                         } });
@@ -312,7 +310,7 @@ std::vector<CaptureCandidate> captureCandidates(
     const bool named = std::find(effects.begin(), effects.end(), effect.name) != effects.end();
     if (named && effect.stage == EffectStage::Reflectance)
     {
-      candidates.push_back({ effect.separatingCapture, 10.0, chart,
+      candidates.push_back({ effect.separatingCapture, chart,
         [&effect](const EffectDefinition& other) { return &other == &effect; } });
     }
   }
@@ -374,13 +372,10 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
       : 0.0;
     if (bits >= LeastBits)
     {
-      captures.push_back({ candidate.name, separates, bits, candidate.minutes });
+      captures.push_back({ candidate.name, separates, bits, minutesOf(candidate.name) });
     }
   }
-  const auto rate = [](const GapNextCapture& one)
-  { return *one.expectedBits / (*one.minutes + MinutesToGetReady); };
-  std::stable_sort(captures.begin(), captures.end(),
-    [&rate](const GapNextCapture& a, const GapNextCapture& b) { return rate(a) > rate(b); });
+  sortByWorth(captures);
   return captures;
 }
 

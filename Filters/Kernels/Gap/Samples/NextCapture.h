@@ -17,7 +17,6 @@ namespace msi
 struct CaptureCandidate
 {
   std::string name;
-  double minutes;
   SceneSamples samples;                                         // reflectances on the camera's grid
   std::function<bool(const EffectDefinition&)> known = nullptr; // empty: none
 };

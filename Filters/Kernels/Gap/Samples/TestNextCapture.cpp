@@ -128,3 +128,22 @@ TEST(NextCapture, TellsWhatTheFirstCaptureLeavesOpen)
 }
 
 }
+
+// Four sets of effects, each as likely: what shows two effects apart from each other tells more than what shows one.
+TEST(NextCapture, OfCapturesThatShowEffectsTheOneThatTellsMost)
+{
+  const std::vector<msi::Explanation> explanations{ { { "defocus" }, nullptr, 0.25 },
+    { { "misregistration" }, nullptr, 0.25 }, { { "lag" }, nullptr, 0.25 },
+    { { "dark_offset" }, nullptr, 0.25 } };
+  const auto captures =
+    msi::separatingCaptures(explanations, { "defocus", "misregistration", "lag", "dark_offset" });
+  // 1 bit and a half in 20 minutes, .81 in 11, .81 in 20.
+  ASSERT_EQ(captures.size(), 3U);
+  const double oneOfFour = 2.0 - 0.75 * std::log2(3.0);
+  EXPECT_EQ(captures[0].capture, "grid target for each filter");
+  EXPECT_NEAR(captures[0].expectedBits.value(), 1.5, 1e-12);
+  EXPECT_EQ(captures[1].capture, "lens cap");
+  EXPECT_NEAR(captures[1].expectedBits.value(), oneOfFour, 1e-12);
+  EXPECT_NEAR(captures[2].expectedBits.value(), oneOfFour, 1e-12);
+  EXPECT_TRUE(msi::separatingCaptures(explanations, { "banding" }).empty());
+}

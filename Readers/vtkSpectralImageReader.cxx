@@ -226,9 +226,23 @@ int vtkSpectralImageReader::RequestInformation(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      this->Open();
-      const auto& info = this->File->info();
       auto* out = outputs->GetInformationObject(0);
+      try
+      {
+        this->Open();
+      }
+      catch (const std::exception&)
+      {
+        // Which of several variables is asked in the panel: without an answer reading is what fails.
+        if (!this->Variable.empty() || this->Variables.find('\n') == std::string::npos)
+        {
+          throw;
+        }
+        const int onePixel[6] = {};
+        out->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), onePixel, 6);
+        return;
+      }
+      const auto& info = this->File->info();
       const int extent[] = { 0, info.width - 1, 0, info.height - 1, 0, 0 };
       const double spacing[] = { static_cast<double>(this->Stride[0]),
         static_cast<double>(this->Stride[1]), 1.0 };

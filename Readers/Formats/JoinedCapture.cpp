@@ -140,6 +140,18 @@ void append(Capture& to, Capture more, const std::string& scene)
 
 Capture readCaptures(const std::vector<std::string>& folders)
 {
+  for (std::size_t f = 1; f < folders.size(); ++f)
+  {
+    std::error_code error; // of folders that are not there: they are read below, which says so
+    const auto same = std::find_if(folders.begin(), folders.begin() + f,
+      [&](const std::string& other)
+      { return std::filesystem::equivalent(other, folders[f], error); });
+    if (same != folders.begin() + f)
+    {
+      throw FormatError(folders[f], "is the same capture as " + *same,
+        "another capture of the same camera", "name each capture once");
+    }
+  }
   Capture joined = readCapture(folders.front());
   std::set<std::string> scenes{ nameOf(joined, folders.front()) };
   if (folders.size() > 1)

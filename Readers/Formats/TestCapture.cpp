@@ -257,6 +257,13 @@ TEST_F(Captures, SeveralOfOneCameraAreScenesOfOne)
   EXPECT_EQ(cells(msi::readCaptures({ path("c"), path("d/") }).samples.metadata, "scene"),
     (Texts{ "bench", "bench", "d", "d" }));
 
+  EXPECT_EQ(errorOf(
+              [&] {
+                msi::readCaptures({ path("c"), path("d"), path("d/../d") });
+              }),
+    "d/../d: is the same capture as d; expected another capture of the same camera; name each "
+    "capture once");
+
   write("d/camera.csv", "wavelength,blue,red\n420,0.1,0.2\n400,0.3,0.4\n410,0.5,0.7\n");
   EXPECT_NE(errorOf(
               [&] {

@@ -164,6 +164,8 @@ def check_further_capture(launcher, folder):
     expect("0 (lid)" in samples, "an offset and a lid: samples.csv")
 
     (lid / "camera.csv").write_text("\n".join(lines[:-1]) + "\n", encoding="utf-8")
+    done = run(launcher, swatches, folder / "twice", "--also", str(lid), "--also", f"{lid}/capture.json")
+    expect(done.returncode == 1 and "is the same capture as" in done.stderr and done.stderr.count("\n") == 1, f"--also, twice: {done.stderr}")
     done = run(launcher, swatches, folder / "other", "--also", str(lid))
     expect(done.returncode == 1 and "is another simulated camera" in done.stderr, f"--also, other camera: {done.stderr}")
 

@@ -13,6 +13,8 @@
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
 
+#include <cmath>
+#include <cstdlib>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -38,6 +40,25 @@ msi::SpectralAxis subset(const msi::SpectralAxis& axis, const std::vector<std::s
     result.wavelengths = msi::WavelengthGrid(std::move(wavelengths));
   }
   return result;
+}
+
+std::size_t indexOf(const msi::SpectralAxis& axis, const std::string& channel)
+{
+  char* unit = nullptr;
+  const double number = std::strtod(channel.c_str(), &unit);
+  const bool inNanometres = std::string(unit) == " nm";
+  for (std::size_t i = 0; i < axis.size(); ++i)
+  {
+    const bool found = inNanometres && axis.wavelengths
+      ? std::abs(axis.wavelengths->values()[i] - number) < 0.005
+      : channel == axis.names[i] || channel == std::to_string(i + 1);
+    if (found)
+    {
+      return i;
+    }
+  }
+  throw std::invalid_argument(
+    "channel " + channel + " was chosen; the input has " + msi::describe(axis, "channels"));
 }
 
 // The chosen values of a field that has one a channel.
@@ -69,16 +90,16 @@ void vtkChannelSelection::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Preview: " << this->Preview << "\n";
   os << indent << "Channels:";
-  for (const int channel : this->Channels)
+  for (const std::string& channel : this->Channels)
   {
     os << " " << channel;
   }
   os << "\n";
 }
 
-void vtkChannelSelection::AddChannel(int channel)
+void vtkChannelSelection::AddChannel(const char* channel)
 {
-  this->Channels.push_back(channel);
+  this->Channels.emplace_back(channel ? channel : "");
   this->Modified();
 }
 
@@ -96,21 +117,16 @@ int vtkChannelSelection::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-std::vector<std::size_t> vtkChannelSelection::Chosen(std::size_t channels) const
+std::vector<std::size_t> vtkChannelSelection::Chosen(const msi::SpectralAxis& axis) const
 {
   std::set<std::size_t> chosen;
-  for (const int channel : this->Channels)
+  for (const std::string& channel : this->Channels)
   {
-    if (channel < 1 || static_cast<std::size_t>(channel) > channels)
-    {
-      throw std::invalid_argument("channel " + std::to_string(channel) +
-        " was chosen; the input has channels 1 to " + std::to_string(channels));
-    }
-    chosen.insert(static_cast<std::size_t>(channel - 1));
+    chosen.insert(indexOf(axis, channel));
   }
   if (chosen.empty())
   {
-    for (std::size_t i = 0; i < channels; ++i)
+    for (std::size_t i = 0; i < axis.size(); ++i)
     {
       chosen.insert(i);
     }
@@ -130,7 +146,7 @@ int vtkChannelSelection::RequestData(
         output->ShallowCopy(table);
         const auto responses =
           msi::requireSpectra(table, msi::SampleQuantity::Response, "the sample table");
-        const auto chosen = this->Chosen(responses.axis.size());
+        const auto chosen = this->Chosen(responses.axis);
         const std::set<std::size_t> kept(chosen.begin(), chosen.end());
         for (std::size_t i = 0; i < responses.axis.size(); ++i)
         {
@@ -144,7 +160,7 @@ int vtkChannelSelection::RequestData(
       auto* image = vtkImageData::GetData(inputs[0]);
       auto* array = msi::requireSpectralArray(image, "the image");
       const auto axis = msi::axisOf(image, array);
-      const auto chosen = this->Chosen(axis.size());
+      const auto chosen = this->Chosen(axis);
       auto cut = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
       cut->SetName(array->GetName());
       cut->SetNumberOfComponents(static_cast<int>(chosen.size()));

@@ -11,7 +11,13 @@
 #include "MultispectralFiltersSamplingModule.h"
 #include "vtkPassInputTypeAlgorithm.h"
 
+#include <string>
 #include <vector>
+
+namespace msi
+{
+struct SpectralAxis;
+}
 
 class MULTISPECTRALFILTERSSAMPLING_EXPORT vtkChannelSelection : public vtkPassInputTypeAlgorithm
 {
@@ -22,9 +28,10 @@ public:
 
   ///@{
   /**
-   * The channels to keep, counted from 1 in order of wavelength. None given (default): all.
+   * The channels to keep: by wavelength ("550 nm"), by name ("C2"), or counted from 1 in order of wavelength ("2"). None
+   * given (default): all.
    */
-  void AddChannel(int channel);
+  void AddChannel(const char* channel);
   void ClearChannels();
   ///@}
 
@@ -51,9 +58,9 @@ private:
   void operator=(const vtkChannelSelection&) = delete;
 
   // 0-based, increasing, within the number of channels.
-  std::vector<std::size_t> Chosen(std::size_t channels) const;
+  std::vector<std::size_t> Chosen(const msi::SpectralAxis& axis) const;
 
-  std::vector<int> Channels;
+  std::vector<std::string> Channels;
 
   bool Preview = true;
 };

@@ -1,5 +1,6 @@
 #include "vtkSMChannelDomain.h"
 
+#include "OfferedNames.h"
 #include "SampleColumns.h"
 #include "SpectralImage.h"
 
@@ -84,33 +85,18 @@ void vtkSMChannelDomain::Update(vtkSMProperty*)
   {
     return;
   }
-  const auto names = channelNames(data);
-  std::vector<std::string> known;
-  for (unsigned int i = 0; i < this->GetNumberOfEntries(); ++i)
-  {
-    known.emplace_back(this->GetEntryText(i));
-  }
-  if (names == known)
-  {
-    return; // who listens need not build its list anew
-  }
-  const DeferDomainModifiedEvents once(this);
-  this->RemoveAllEntries();
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    this->AddEntry(names[i].c_str(), static_cast<int>(i) + 1);
-  }
+  this->Names = channelNames(data);
+  this->SetStrings(msi::withOwnNames(nullptr, this->Names, this->GetProperty()));
 }
 
 int vtkSMChannelDomain::SetDefaultValues(vtkSMProperty* property, bool use_unchecked_values)
 {
-  std::vector<int> all;
-  for (unsigned int i = 0; i < this->GetNumberOfEntries(); ++i)
-  {
-    all.push_back(this->GetEntryValue(i));
-  }
   vtkSMPropertyHelper helper(property);
   helper.SetUseUnchecked(use_unchecked_values);
-  helper.Set(all.data(), static_cast<unsigned int>(all.size()));
+  helper.SetNumberOfElements(static_cast<unsigned int>(this->Names.size()));
+  for (unsigned int i = 0; i < this->Names.size(); ++i)
+  {
+    helper.Set(i, this->Names[i].c_str());
+  }
   return 1;
 }

@@ -1,6 +1,6 @@
 /**
  * @class   vtkSMChannelDomain
- * @brief   The channels of a spectral image or of a sample table, counted from 1 and named as the data name them
+ * @brief   The channels of a spectral image or of a sample table to tick, named as the data name them
  *
  * The required property "Input" is the one that takes the data. A property that was not set yet starts with all channels.
  */
@@ -8,13 +8,13 @@
 #define vtkSMChannelDomain_h
 
 #include "MultispectralDomainsModule.h"
-#include "vtkSMEnumerationDomain.h"
+#include "vtkSMNameTicksDomain.h"
 
-class MULTISPECTRALDOMAINS_EXPORT vtkSMChannelDomain : public vtkSMEnumerationDomain
+class MULTISPECTRALDOMAINS_EXPORT vtkSMChannelDomain : public vtkSMNameTicksDomain
 {
 public:
   static vtkSMChannelDomain* New();
-  vtkTypeMacro(vtkSMChannelDomain, vtkSMEnumerationDomain);
+  vtkTypeMacro(vtkSMChannelDomain, vtkSMNameTicksDomain);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   void Update(vtkSMProperty* property) override;

@@ -33,13 +33,13 @@ protected:
 
   int ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElement* element) override;
 
+  std::vector<std::string> Names;
+
 private:
   vtkSMNameTicksDomain(const vtkSMNameTicksDomain&) = delete;
   void operator=(const vtkSMNameTicksDomain&) = delete;
 
   void OnPropertyModified() { this->Update(nullptr); }
-
-  std::vector<std::string> Names;
 };
 
 #endif

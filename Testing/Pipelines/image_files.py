@@ -101,7 +101,7 @@ def check_fields(folder):
     check("bbl is field data", field(whole, "GoodBands") == [int(not b) for b in bad])
     check("bands without the bad ones", (array(good, "Responses") == values.astype("f4")[:, :, chosen]).all())
     flat = pipeline.create("FlatFieldCorrection", Input=whole, WhiteLevel=2.0)
-    selected = pipeline.create("ChannelSelection", Input=whole, Channels=[i + 1 for i in chosen])
+    selected = pipeline.create("ChannelSelection", Input=whole, Channels=[str(i + 1) for i in chosen])
     pipeline.update(flat, selected)
     for name, source, bands in (("good bands", good, chosen), ("flat field", flat, range(len(nm))),
                                 ("selection", selected, chosen)):

@@ -114,9 +114,16 @@ mat = os.path.join(sys.argv[1], "two.mat")
 with open(mat, "wb") as file:
     for name, height in ((b"first", 3), (b"second", 5)):
         file.write(struct.pack("<5i", 0, height, 4, 0, len(name) + 1) + name + b"\0" + struct.pack(f"<{4 * height}d", *range(4 * height)))
-reader = simple.SpectralImageReader(FileNames=[mat])
+reader, said = simple.SpectralImageReader(), []
+reader.SMProxy.GetClientSideObject().AddObserver("ErrorEvent", lambda *_: said.append("an error"))
+reader.FileNames = [mat]
 reader.UpdatePipelineInformation()
 reader.UpdatePropertyInformation()
+if said:
+    faults.append("the reader complains of several variables before one can be chosen")
+reader.UpdatePipeline()
+if not said:
+    faults.append("the reader reads one of several variables without a choice")
 if strings(reader, "Variable", "names") != ["", "first", "second"] or reader.Variable != "":
     faults.append(f"the reader offers the variables {strings(reader, 'Variable', 'names')} and starts with {reader.Variable}")
 found = factory.GetReaders(mat, session)
@@ -138,6 +145,8 @@ fit = simple.ReflectanceCalibration(Input=chart)
 channels = simple.ChannelSelection(Input=chart)
 if list(channels.Channels) != [f"{nm} nm" for nm in range(400, 720, 20)]:
     faults.append(f"Channel Selection starts with {channels.Channels}")
+# A state file of Python sets them before anything is read.
+channels = simple.ChannelSelection(Input=simple.SampleTableReader(FileName=chart.FileName))
 channels.Channels = ["400 nm", "700 nm"]
 channels.UpdatePipeline()
 table = servermanager.Fetch(channels)

@@ -22,7 +22,7 @@ TEST(ChannelSelection, KeepsTheChosenComponentsInOrderOfWavelength)
   const auto image = newImage(3, 2, ResponsesArray, values, ChannelGrid);
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputData(image);
-  for (const int channel : { 4, 1, 4 })
+  for (const char* channel : { "4", "400 nm", "650 nm" })
   {
     selection->AddChannel(channel);
   }
@@ -46,7 +46,7 @@ TEST(ChannelSelection, KeepsAllWhereNoneIsChosen)
   const auto image = newImage(3, 2, ResponsesArray, patternValues(4, 6), ChannelGrid);
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputData(image);
-  selection->AddChannel(2);
+  selection->AddChannel("2");
   selection->ClearChannels();
   selection->SetPreview(false);
   ASSERT_EQ(errorOf(selection), "");
@@ -58,8 +58,8 @@ TEST(ChannelSelection, CutsNumberedChannelsOfAnImage)
   const auto image = newImage(2, 1, ResponsesArray, patternValues(3, 2));
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputData(image);
-  selection->AddChannel(2);
-  selection->AddChannel(3);
+  selection->AddChannel("2");
+  selection->AddChannel("C3");
   ASSERT_EQ(errorOf(selection), "");
   auto* output = vtkImageData::SafeDownCast(selection->GetOutputDataObject(0));
   auto* array = requireSpectralArray(output, "the output");
@@ -72,7 +72,7 @@ TEST(ChannelSelection, CutsTheResponsesOfATableAndNothingElse)
     { "x", { 7.0 } }, { "C450", { 2.0 } } });
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputData(table);
-  selection->AddChannel(2);
+  selection->AddChannel("2");
   ASSERT_EQ(errorOf(selection), "");
   auto* output = vtkTable::SafeDownCast(selection->GetOutputDataObject(0));
   EXPECT_EQ(columnNames(output), (std::vector<std::string>{ "R400", "x", "C450" }));
@@ -84,7 +84,7 @@ TEST(ChannelSelection, CutsColumnsWhoseNamesAreWrittenOtherwise)
   const auto table = newTable({ { "C400.0", { 1.0 } }, { "C450.50", { 2.0 } } });
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputData(table);
-  selection->AddChannel(2);
+  selection->AddChannel("2");
   ASSERT_EQ(errorOf(selection), "");
   auto* output = vtkTable::SafeDownCast(selection->GetOutputDataObject(0));
   EXPECT_EQ(columnNames(output), (std::vector<std::string>{ "C450.50" }));
@@ -92,13 +92,13 @@ TEST(ChannelSelection, CutsColumnsWhoseNamesAreWrittenOtherwise)
 
 TEST(ChannelSelection, NamesAChannelThatIsNotThere)
 {
-  for (const int channel : { 0, 5, -1 })
+  for (const std::string channel : { "0", "5", "-1", "555 nm", "", "1.5" })
   {
     vtkNew<vtkChannelSelection> selection;
     selection->SetInputData(newImage(3, 2, ResponsesArray, patternValues(4, 6), ChannelGrid));
-    selection->AddChannel(channel);
+    selection->AddChannel(channel.c_str());
     EXPECT_EQ(errorOf(selection),
-      "channel " + std::to_string(channel) + " was chosen; the input has channels 1 to 4");
+      "channel " + channel + " was chosen; the input has 4 channels (400, 450, 500, 650 nm)");
   }
 }
 
@@ -123,15 +123,15 @@ TEST(ChannelSelection, GivesTheSameBytesInPieces)
   source->SetImage(newImage(7, 5, ResponsesArray, patternValues(4, 35), ChannelGrid));
   vtkNew<vtkChannelSelection> selection;
   selection->SetInputConnection(source->GetOutputPort());
-  selection->AddChannel(3);
+  selection->AddChannel("3");
   expectSameBytesInPieces(selection, 3);
 }
 
 TEST(ChannelSelection, PrintsItsChannels)
 {
   vtkNew<vtkChannelSelection> selection;
-  selection->AddChannel(3);
-  selection->AddChannel(12);
+  selection->AddChannel("3");
+  selection->AddChannel("12");
   EXPECT_NE(printed(selection).find("Channels: 3 12\n"), std::string::npos);
 }
 }

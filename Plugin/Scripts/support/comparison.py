@@ -28,7 +28,7 @@ def select_channels(table, count):
     if len(chosen) != count:
         raise Failure(f"--channels {count}: the table has {available} channels; expected "
                       f"{available} (all) or {len(chosen)} (every second and the last)")
-    selection = pipeline.create("ChannelSelection", Input=table, Channels=chosen)
+    selection = pipeline.create("ChannelSelection", Input=table, Channels=list(map(str, chosen)))
     pipeline.update(selection)
     return selection
 

@@ -520,6 +520,30 @@ def failed_filter(window):
     window.wait("the result in view", lambda s: s["shown"] == ["FlatFieldCorrection1"] and pictures(s) == before)
 
 
+def without_input(window):
+    """An input that was not chosen is one message, which names it; chosen in the panel, it brings the result."""
+    ask_file(window, SAMPLES / "demo-chart.csv")
+    apply(window)
+    before = window.state()["output"]
+    (window.folder / "trigger-entry").write_text(json.dumps(["Filters", "Method Comparison", "demo-chart.csv"]), encoding="utf-8")
+    window.click(window.wait("the dialog for inputs", lambda s: "Change Input Dialog" in s["dialogs"] and "OK" in s["buttons"])["buttons"]["OK"])
+    window.wait("the filter", lambda s: "MethodComparison1" in s["sources"] and not s["dialogs"])
+    apply(window)
+    window.settle()
+    if (said := window.state()["output"]) != [*before, "MethodComparison1: no Target is chosen; choose it in the panel Properties"]:
+        raise Failed(f"without a target Method Comparison says {said}")
+    across, down = window.state()["panel"]["Target"]["middle"]
+    window.click([min(across, 180), down])  # long names make the panel wider than what is seen of it
+    time.sleep(0.5)
+    window.xdotool("type", "--delay", "20", "demo-chart")
+    window.key("Return")
+    apply(window)
+    window.wait("the comparison", lambda s: "MethodComparison1" in s["shown in tables"] and "method" in s["first columns"], WORK)
+    if window.state()["output"] != said:
+        raise Failed(f"with a target Method Comparison says {window.state()['output']}")
+    window.pass_over_faults()
+
+
 def scene_without_white(window):
     """Raw counts are shown, and the view says whose colors those are, as long as they are shown."""
     window.click(window.state()["named"]["MultispectralOpenScene"])
@@ -586,6 +610,8 @@ def panels(window):
         raise Failed(f"the channels that are ticked are {channels}")
     window.picture("panel of channels")
 
+    if (kind := window.panel("CaptureReader", {})["FurtherCaptures"]["kind"]) != "pqFileListPropertyWidget":
+        raise Failed(f"further captures are asked by {kind}")
     shown(window.panel("SpectralToColor", {"Input": chart}), ["Illuminant", "ObserverFile"], ["OtherIlluminant", "IlluminantFile"])
     shown(window.panel("SpectralToColor", {"Input": chart}, Illuminant="other"), ["Illuminant", "OtherIlluminant", "IlluminantFile"])
     if (box := window.panel("SpectralToColor", {"Input": chart}, Illuminant="D5300")["Illuminant"])["text"] != "D5300":
@@ -728,7 +754,7 @@ def main():
     else:
         fault = in_window(folder, (one_message, main_job, spectra, cancelled, region_and_files, help_page, what_follows, menus, refused_folder,
                                    open_files, several_at_once, panels, own_lamp, chart, page_names_what_is_there, reset, open_channels, failed_filter,
-                                   scene_without_white, unknown_file))
+                                   scene_without_white, unknown_file, without_input))
     print(fault or "the window does as a user expects")
     sys.exit(1 if fault else 0)
 

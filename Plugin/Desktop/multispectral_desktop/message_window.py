@@ -3,14 +3,18 @@
 A filter that fails is asked again by every view and by the filters behind it, and each time VTK adds its own remark to the filter's
 message: the window would show a dozen lines for one fault."""
 
+import re
 import time
 
 from PyQt5 import QtCore, QtGui, QtWidgets
+from paraview import simple
 
 _REMARKS = ("returned failure for request", "Attempted to ShallowCopy from null")
 _OF_A_VIEW = "vtkPVGeometryFilter"  # asks again at each picture, so long as what failed is shown
 # ParaView tries its readers in Python at a file that no other reader knows; those that the system cannot load tell their traces.
 _READERS_IN_PYTHON = ("openpmd.py:", "Failed to import module 'paraview.algorithms.")
+# Said dozens of times, at each question that the window has for the filter.
+_NO_INPUT = re.compile(r"Input port (\d+) of algorithm (\w+) \(0x\w+\) has 0 connections")
 _LOOKED_AT = QtCore.Qt.UserRole + 77
 _SAME = 3.0  # seconds within which the same text tells of the same fault
 
@@ -40,6 +44,14 @@ class Tidy(QtCore.QObject):
             if in_trace:
                 self._model.removeRow(row)
                 continue
+            missing = _missing_input(text)
+            if missing is not None:
+                text = missing
+                if any(self._text(other) == text for other in range(row)):
+                    self._seen[text] = now
+                    self._model.removeRow(row)
+                    continue
+                self._model.setData(index, text)
             last = self._seen.get(text)
             remark = any(part in text for part in _REMARKS) and (
                 _OF_A_VIEW in text and bool(self._seen) or any(now - then < _SAME for then in self._seen.values()))
@@ -55,6 +67,18 @@ class Tidy(QtCore.QObject):
 
     def _text(self, row):
         return str(self._model.index(row, 0).data()).strip()
+
+
+def _missing_input(text):
+    """In words, where a filter says that it has none; else None."""
+    found = _NO_INPUT.search(text)
+    for (name, _), source in simple.GetSources().items() if found else ():
+        known = [source.SMProxy.GetProperty(name) for name in source.ListProperties()] if source.SMProxy.GetVTKClassName() == found[2] else ()
+        for inputs in known:
+            if inputs is not None and inputs.IsA("vtkSMInputProperty") and inputs.GetPortIndex() == int(found[1]) and \
+                    not any(inputs.GetProxy(i) for i in range(inputs.GetNumberOfProxies())):
+                return f"{name}: no {inputs.GetXMLLabel()} is chosen; choose it in the panel Properties"
+    return None
 
 
 def install(window):

@@ -18,6 +18,8 @@ _PICTURES = ("sRGB", "Display P3", "False Color")
 
 
 class SpectrumPanel(QtWidgets.QDockWidget):
+    connected = QtCore.pyqtSignal()  # to another server, by File > Connect
+
     def __init__(self, parent):
         super().__init__("Spectrum", parent)
         self.setObjectName("MultispectralSpectrum")
@@ -80,6 +82,7 @@ class SpectrumPanel(QtWidgets.QDockWidget):
             pixel.forget(())
             self.live, self._marked = None, {}
             self.clear()
+            self.connected.emit()
         for view in simple.GetRenderViews():
             interactor = view.GetInteractor()
             if interactor is not None and self._watched.get(view.SMProxy.GetGlobalID()) is not interactor:

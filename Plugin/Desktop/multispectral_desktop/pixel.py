@@ -48,16 +48,6 @@ def data_of(source, port):
     return data if data is not None and data.IsA("vtkImageData") else None
 
 
-def _index(data, point):
-    """Column, row and number of the pixel at a point, or None outside."""
-    extent, origin, spacing = data.GetExtent(), data.GetOrigin(), data.GetSpacing()
-    column = math.floor((point[0] - origin[0]) / spacing[0] + 0.5)
-    row = math.floor((point[1] - origin[1]) / spacing[1] + 0.5)
-    if not (extent[0] <= column <= extent[1] and extent[2] <= row <= extent[3]):
-        return None
-    return column, row, (row - extent[2]) * (extent[1] - extent[0] + 1) + column - extent[0]
-
-
 def _spectral_array(data):
     for name in SPECTRA:
         array = data.GetPointData().GetArray(name)
@@ -126,8 +116,49 @@ def at(view, x, y):
 
 
 def _of_point(source, port, point):
-    data = data_of(source, port)
-    return _local(source, port, data, point) if data is not None else _remote(source, port, point)
+    extent, origin, spacing = grid(source, port)
+    if extent is None:
+        return None
+    column, row = (math.floor((point[i] - origin[i]) / spacing[i] + 0.5) for i in range(2))
+    if not (extent[0] <= column <= extent[1] and extent[2] <= row <= extent[3]):
+        return None
+    number = (row - extent[2]) * (extent[1] - extent[0] + 1) + column - extent[0]
+
+    def read(image, image_port, name=None):
+        """What this image or one of its size holds there."""
+        data = data_of(image, image_port)
+        if data is None:
+            return _profile(image, image_port, name, Points=list(point[:2]))
+        array = data.GetPointData().GetArray(name) if name else _spectral_array(data)
+        return _Profile(array.GetName(), wavelengths_of(data, array), list(array.GetTuple(number)), None, 1) if array is not None else None
+
+    profile = read(source, port)
+    if profile is None:
+        return None
+    deviation = read(source, port, "Uncertainty") if "Uncertainty" in arrays(source, port) else None
+    evaluators, reference = _companions(source)
+    errors = {}
+    for evaluator in evaluators:
+        data = data_of(evaluator, 0)
+        if grid(evaluator, 0)[0] != extent or data is not None and not _is_up_to_date(evaluator, data):
+            continue
+        for name in arrays(evaluator, 0):
+            error = read(evaluator, 0, name) if name.startswith("dE") and name not in errors else None
+            if error is not None and math.isfinite(error.values[0]):
+                errors[name] = error.values[0]
+    top = extent[3] - row  # as images count rows: from the top
+    return Pixel(name_of(source), column, top, list(point), profile.kind, profile.across, profile.values, deviation and deviation.values,
+                 _measured(reference, profile, extent, read), errors, source.SMProxy.GetGlobalID(), port, grid_of(source, port))
+
+
+def _measured(reference, profile, extent, read):
+    """The wavelengths and values of the reference in the same place, where all of it was measured."""
+    if reference is None or profile.kind != "Reflectance" or grid(reference, reference.Port)[0] != extent:
+        return None
+    known = read(reference, reference.Port, "Reflectance")
+    if known is None or known.count != profile.count or not any(map(math.isfinite, known.values)):
+        return None
+    return known.across or profile.across, known.values
 
 
 def source_of(pin):
@@ -141,38 +172,6 @@ def again(pin):
     if source is None:
         return None
     return _of_point(source, pin.port, pin.point) if pin.region is None else _mean(source, pin.port, pin.region)
-
-
-def _local(source, port, data, point):
-    place, array = _index(data, point), _spectral_array(data)
-    if place is None or array is None:
-        return None
-    column, row, number = place
-    wavelengths = wavelengths_of(data, array)
-    values = list(array.GetTuple(number))
-    uncertainty = data.GetPointData().GetArray("Uncertainty")
-    deviation = list(uncertainty.GetTuple(number)) if uncertainty is not None and \
-        uncertainty.GetNumberOfComponents() == len(values) else None
-    measured, errors = None, {}
-    evaluators, reference = _companions(source)
-    content = data_of(reference, reference.Port) if reference is not None else None
-    known = content.GetPointData().GetArray("Reflectance") if content is not None else None
-    if known is not None and array.GetName() == "Reflectance" and content.GetDimensions() == data.GetDimensions():
-        spectrum = list(known.GetTuple(number))
-        if any(math.isfinite(value) for value in spectrum):
-            measured = wavelengths_of(content, known) or wavelengths, spectrum
-    for evaluator in evaluators:
-        content = data_of(evaluator, 0)
-        if content is None or content.GetDimensions() != data.GetDimensions() or not _is_up_to_date(evaluator, content):
-            continue
-        arrays = content.GetPointData()
-        for i in range(arrays.GetNumberOfArrays()):
-            name = arrays.GetArrayName(i)
-            if name.startswith("dE") and math.isfinite(arrays.GetArray(i).GetTuple1(number)):
-                errors.setdefault(name, arrays.GetArray(i).GetTuple1(number))
-    top = data.GetExtent()[3] - row  # as images count rows: from the top
-    return Pixel(name_of(source), column, top, point, array.GetName(), wavelengths, values, deviation, measured, errors,
-                 source.SMProxy.GetGlobalID(), port, grid_of(source, port))
 
 
 def region(view, start, end):
@@ -197,15 +196,14 @@ def _mean(source, port, ends):
     low, high = ([min(max(choose(place[i] for place in ends), first[i]), last[i]) for i in range(2)] for choose in (min, max))
     if any(low[i] >= high[i] for i in range(2)):
         return None
-    profile = _profile(source, port, Points=[], Region=[low[0], high[0], low[1], high[1]])
+
+    def read(image, image_port, name=None):
+        return _profile(image, image_port, name, Points=[], Region=[low[0], high[0], low[1], high[1]])
+
+    profile = read(source, port)
     if profile is None:
         return None
-    measured = None
-    _, reference = _companions(source)
-    if reference is not None and profile.kind == "Reflectance" and grid(reference, reference.Port)[0] == extent:
-        known = _profile(reference, reference.Port, "Reflectance", Points=[], Region=[low[0], high[0], low[1], high[1]])
-        if known is not None and known.count == profile.count:  # all of its pixels were measured
-            measured = known.across, known.values
+    measured = _measured(_companions(source)[1], profile, extent, read)
     place = [(low[i] + high[i]) / 2 for i in range(2)]
     column, up = (math.floor((place[i] - origin[i]) / spacing[i] + 0.5) for i in range(2))
     return Pixel(name_of(source), column, extent[3] - up, place, profile.kind, profile.across, profile.values,
@@ -214,8 +212,12 @@ def _mean(source, port, ends):
 
 def grid(source, port):
     """Extent, origin and spacing of an image; (None, None, None) where there is none."""
+    data = data_of(source, port)
+    if data is not None:  # what ParaView gathered of it may be of a part that a filter has asked for
+        extent, origin, spacing = data.GetExtent(), data.GetOrigin(), data.GetSpacing()
+        return (extent, origin, spacing) if extent[0] <= extent[1] else (None, None, None)
     information = source.GetDataInformation(port).DataInformation
-    extent = list(information.GetExtent())
+    extent = information.GetExtent()
     if information.GetDataSetTypeAsString() != "vtkImageData" or extent[0] > extent[1]:
         return None, None, None
     bounds = information.GetBounds()
@@ -275,34 +277,6 @@ def _profile(source, port, array=None, **places):
     counts = table.GetFieldData().GetAbstractArray("Count")
     return _Profile(kind, columns[0] if names[0] == "wavelength" else None, columns[1],
                     columns[2] if len(columns) > 2 else None, counts.GetValue(0) if counts is not None else 1)
-
-
-def _remote(source, port, point):
-    """The same of data that a server holds."""
-    extent, origin, spacing = grid(source, port)
-    if extent is None:
-        return None
-    column, row = (math.floor((point[i] - origin[i]) / spacing[i] + 0.5) for i in range(2))
-    if not (extent[0] <= column <= extent[1] and extent[2] <= row <= extent[3]):
-        return None
-    here = {"Points": list(point[:2])}
-    profile = _profile(source, port, **here)
-    if profile is None:
-        return None
-    deviation = _profile(source, port, "Uncertainty", **here) if "Uncertainty" in arrays(source, port) else None
-    measured, errors = None, {}
-    evaluators, reference = _companions(source)
-    if reference is not None and profile.kind == "Reflectance" and grid(reference, reference.Port)[0] == extent:
-        known = _profile(reference, reference.Port, "Reflectance", **here)
-        if known is not None and any(map(math.isfinite, known.values)):
-            measured = known.across, known.values
-    for evaluator in evaluators:
-        for name in arrays(evaluator, 0):
-            error = _profile(evaluator, 0, name, **here) if name.startswith("dE") and name not in errors else None
-            if error is not None and math.isfinite(error.values[0]):
-                errors[name] = error.values[0]
-    return Pixel(name_of(source), column, extent[3] - row, list(point), profile.kind, profile.across, profile.values,
-                 deviation and deviation.values, measured, errors, source.SMProxy.GetGlobalID(), port, grid_of(source, port))
 
 
 def name_of(source):

@@ -7,19 +7,15 @@ from . import first_views, stack_choice, view_choice
 
 
 class Watch(QtCore.QObject):
-    """File > Connect brings a session with a selection of its own."""
-
     def __init__(self, window):
         super().__init__(window)
         self._window, self._manager, self._model = window, None, None
-        self._look()
-        self._timer = QtCore.QTimer(self)
-        self._timer.timeout.connect(self._look)
-        self._timer.start(1000)
+        self.follow()
 
-    def _look(self):
+    def follow(self):
+        """File > Connect brings a session with a selection of its own."""
         manager = servermanager.ProxyManager()
-        if manager.SMProxyManager is self._manager or manager.SMProxyManager is None:
+        if manager.SMProxyManager is None:
             return
         self._manager, self._model = manager.SMProxyManager, manager.GetSelectionModel("ActiveSources")
         self._model.AddObserver("CurrentChangedEvent", lambda *_: QtCore.QTimer.singleShot(0, self._act))

@@ -32,8 +32,10 @@ def install(window):
         action.triggered.connect(lambda _checked, act=act: _guarded(window, act))
     window.addToolBar(toolbar)
     first_views.listen(window)
+    watch = selection.Watch(window)
+    panel.connected.connect(watch.follow)
     return (panel, toolbar, help.install(window), message_window.install(window), reader_choice.ReaderChoice(window),
-            menus.Order(window), selection.Watch(window))
+            menus.Order(window), watch)
 
 
 def _guarded(window, act):

@@ -54,7 +54,9 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import cameras, estimation, pipeline, report  # noqa: E402
+import numpy  # noqa: E402
+
+from support import cameras, estimation, pictures, pipeline, report  # noqa: E402
 
 
 def look_at_scene(options, effects, folder):
@@ -74,12 +76,14 @@ def look_at_scene(options, effects, folder):
     shown = {name: estimation.read_image([path], stride=stride) for name, path in written.items()}
     difference = pipeline.create("ResponseDifference", Input=shown["responses"], Simulated=shown["ideal"])
     pipeline.update(difference, *shown.values())
+    apart = pictures.values(difference, "Difference").astype(float)
     cameras.draw_responsivities(camera, os.path.join(folder, "responsivities.png"))
     report.write(folder, "The camera looks at a scene", [
         report.pictures("The camera", folder, {"responsivities.png": "Responsivity of each channel"}),
         report.pictures("The scene, channel by channel", folder, cameras.draw_channels(
             shown["ideal"], shown["responses"], difference, folder,
-            titles=("ideal", "with effects and noise", "difference")))])
+            titles=("ideal", "with effects and noise", "difference")))],
+                 changed(float(numpy.sqrt(numpy.nanmean(apart ** 2))), apart.shape[2]), pipeline.warnings)
     command.say(f"responses.img, ideal.img, pictures and report.html: {folder}")
 
 
@@ -90,6 +94,10 @@ WRITES = (
     "channel-??.png", "ideal.img", "ideal.hdr", "responses.img", "responses.hdr", "report.html")
 
 
+def changed(rms, channels):
+    return f"Noise and effects change the responses of the ideal camera by rms {rms:.4f} (1 = white) over {channels} channels."
+
+
 def lead_of(difference, fit, measured):
     """The result in one sentence."""
     names, rows = pipeline.table(pipeline.port(difference, 1))
@@ -97,7 +105,7 @@ def lead_of(difference, fit, measured):
         return ""
     rms = math.sqrt(sum(row[names.index("rms")] ** 2 for row in rows) / len(rows))
     if not measured:
-        return f"Noise and effects change the responses of the ideal camera by rms {rms:.4f} (1 = white) over {len(rows)} channels."
+        return changed(rms, len(rows))
     text = f"The simulated camera differs from the real one by rms {rms:.4f} (response, 1 = white) over {len(rows)} channels"
     if fit is not None:
         titles, figures = pipeline.table(pipeline.port(fit, 2))
@@ -132,8 +140,8 @@ def main():
     if options.fit:
         fit = cameras.fit(samples, designed, options.draws, folder, options.detector_curve)
         camera, uncertainty = pipeline.port(fit, 0), pipeline.port(fit, 1)
-        pages.append(report.figures("The fit", *pipeline.table(pipeline.port(fit, 2))))
-        pages.append(report.table("Channels", *pipeline.table(pipeline.port(fit, 3))))
+        pages += [report.figures("The fit", *pipeline.table(pipeline.port(fit, 2))),
+                  report.table("Channels", *pipeline.table(pipeline.port(fit, 3)))]
     else:
         cameras.save(camera, os.path.join(folder, "camera.json"))
     simulated = cameras.simulate(samples, camera, **effects)
@@ -142,8 +150,6 @@ def main():
     if options.fit and designed is not None:
         cameras.draw_responsivities(designed, os.path.join(folder, "designed.png"))
         shown["designed.png"] = "Responsivity as designed"
-    pages.insert(0, report.pictures("The camera", folder, shown))
-
     pipeline.save_table(simulated, os.path.join(folder, "simulated.csv"))
     measured = bool(cameras.responses(samples))
     real, title = samples, "real minus simulated"
@@ -158,17 +164,17 @@ def main():
     difference = cameras.compare(real, simulated, "difference", folder)
     cameras.draw_samples(difference, title, os.path.join(folder, "samples.png"))
     cameras.draw_figures(difference, title, os.path.join(folder, "difference-channels.png"))
-    pages += [report.table(title.capitalize(), *pipeline.table(pipeline.port(difference, 1))),
-              report.pictures("The difference", folder, {"difference-channels.png": "Each channel: " + title,
+    pages.append(report.table(title.capitalize(), *pipeline.table(pipeline.port(difference, 1))))
+    first = [report.pictures("The camera", folder, shown),
+             report.pictures("The difference", folder, {"difference-channels.png": "Each channel: " + title,
                                                         "samples.png": "Every sample: " + title})]
-
     if image is not None:
         chart = cameras.simulate(cameras.chart_image(labels, patches), camera, **effects)
         maps = pipeline.create("ResponseDifference", Input=image, Simulated=chart)
         pipeline.update(maps)
-        pages.append(report.pictures("The chart, channel by channel", folder,
+        first.append(report.pictures("The chart, channel by channel", folder,
                                      cameras.draw_channels(chart, image, maps, folder)))
-    report.write(folder, "The camera, simulated and real", pages, lead_of(difference, fit, measured))
+    report.write(folder, "The camera, simulated and real", first + pages, lead_of(difference, fit, measured), pipeline.warnings)
     command.say(f"camera, tables, pictures and report.html: {folder}")
 
 

@@ -6,7 +6,7 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command  # noqa: E402
+from support import command, frames  # noqa: E402
 
 # Columns and rows.
 CHARTS = {"colorchecker": (6, 4), "colorchecker-sg": (14, 10), "colorchecker-passport": (6, 4)}
@@ -35,10 +35,7 @@ def arguments():
         "chart", __doc__,
         "--image channel_*.tif --white white/*.tif --dark dark/*.tif --chart colorchecker --reference chart.cie",
         "--image cube.hdr --chart 10x14 --reference sg.csv --corners 120,80 900,95 890,640 110,610")
-    parser.add_argument("--image", metavar="FILE", nargs="+", required=True,
-                        help="the photograph: one file, or one file per channel")
-    parser.add_argument("--white", metavar="FILE", nargs="+", help="white reference, like --image")
-    parser.add_argument("--dark", metavar="FILE", nargs="+", help="dark frame, like --image")
+    frames.add_options(parser)
     parser.add_argument("--chart", metavar="NAME|ROWSxCOLUMNS", type=chart, required=True,
                         help=f"the chart: {', '.join(CHARTS)}, or rows x columns such as 4x6")
     parser.add_argument("--reference", metavar="FILE", required=True,
@@ -48,9 +45,8 @@ def arguments():
                              "row, last patch, start of the last row (default: the chart is searched for)")
     parser.add_argument("--fraction", metavar="F", type=float, default=0.5,
                         help="part of a patch's cell that is sampled, around its middle (default: %(default)s)")
-    parser.add_argument("--wavelengths", metavar="NM", nargs="+", type=float,
-                        help="wavelengths of the image's channels in nm; overrides those in the files")
     options = parser.parse_args()
+    frames.check(parser, options)
     if not 0.01 <= options.fraction <= 1.0:
         parser.error(f"--fraction {options.fraction}: expected 0.01 to 1")
     return options
@@ -58,7 +54,7 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import estimation, pictures, pipeline, report  # noqa: E402
+from support import pictures, pipeline, report  # noqa: E402
 
 
 def find(options, image, reference):
@@ -99,13 +95,10 @@ def say_what_was_found(options, found, samples):
 
 def main():
     options = OPTIONS
-    command.require_files(*options.image, *(options.white or []), *(options.dark or []), options.reference)
+    command.require_files(*frames.files(options), options.reference)
     folder = command.make_folder(options.output)
     pipeline.load_plugin()
-
-    def read(files):
-        return estimation.read_image(files, options.wavelengths) if files else None
-    image = estimation.flat_field(read(options.image), read(options.white), read(options.dark))
+    image = frames.responses(options)
     reference = pipeline.create("SampleTableReader", FileName=options.reference)
     pipeline.update(image, reference)
     found = find(options, image, reference)
@@ -122,7 +115,7 @@ def main():
     report.write(folder, "A chart in an image", [
         report.pictures("The patches", folder, {"overlay.png": caption}),
         report.table("Patches", *pipeline.table(pipeline.port(found, 1)),
-                     columns=patch_columns(pipeline.table(pipeline.port(found, 1))[0]))], lead=" ".join(lines))
+                     columns=patch_columns(pipeline.table(pipeline.port(found, 1))[0]))], " ".join(lines), pipeline.warnings)
     command.say(f"chart.csv, labels.png, overlay.png and report.html: {folder}")
 
 

@@ -4,7 +4,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import command  # noqa: E402
+from support import command, frames  # noqa: E402
 
 
 def arguments():
@@ -16,44 +16,34 @@ def arguments():
                         help="sample table of the medium: camera responses, no reflectance needed")
     parser.add_argument("--count", metavar="N", type=command.whole_number(1), default=8,
                         help="samples to choose (default: %(default)s)")
-    book = parser.add_argument_group("an image of the swatches in place of --candidates")
-    book.add_argument("--image", metavar="FILE", nargs="+", help="one file, or one file per channel")
-    book.add_argument("--labels", metavar="FILE", help="label image of the swatches; 'chart' makes one of a regular grid")
-    book.add_argument("--white", metavar="FILE", nargs="+", help="white reference, like --image")
-    book.add_argument("--dark", metavar="FILE", nargs="+", help="dark frame, like --image")
-    book.add_argument("--wavelengths", metavar="NM", nargs="+", type=float,
-                      help="wavelengths of the image's channels in nm; overrides those in the files")
+    parser.add_argument("--labels", metavar="FILE", help="label image of the swatches in --image, which replaces "
+                        "--candidates; 'chart' makes one of a regular grid")
+    frames.add_options(parser, required=False)
     options = parser.parse_args()
     if (options.candidates is None) == (options.image is None):
         parser.error("give --candidates, or --image with --labels")
     if (options.image is None) != (options.labels is None):
         parser.error("--image and --labels go together")
-    if options.image is None and (options.white or options.dark or options.wavelengths):
-        parser.error("--white, --dark and --wavelengths go with --image")
+    frames.check(parser, options)
     return options
 
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import estimation, pipeline  # noqa: E402
+from support import estimation, pipeline, report  # noqa: E402
 
 
 def candidates_of(options):
     """A table with the responses of what may be measured."""
     if options.candidates:
         return pipeline.create("SampleTableReader", FileName=options.candidates)
-
-    def read(files):
-        return estimation.read_image(files, options.wavelengths) if files else None
-    image = estimation.flat_field(read(options.image), read(options.white), read(options.dark))
-    return pipeline.create("PatchSampler", Input=image, Labels=estimation.read_labels(options.labels))
+    return pipeline.create("PatchSampler", Input=frames.responses(options), Labels=estimation.read_labels(options.labels))
 
 
 def main():
     options = OPTIONS
-    command.require_files(options.calibration, options.candidates, options.labels, *(options.image or []),
-                          *(options.white or []), *(options.dark or []))
-    folder = command.make_folder(options.output, ("choice.csv",))
+    command.require_files(options.calibration, options.candidates, options.labels, *frames.files(options))
+    folder = command.make_folder(options.output, ("choice.csv", "report.html"))
     pipeline.load_plugin()
     chart, candidates = pipeline.create("SampleTableReader", FileName=options.calibration), candidates_of(options)
     pipeline.update(chart, candidates)
@@ -70,7 +60,15 @@ def main():
         command.say(f"{row[names.index('rank')]:4.0f}  {100 * row[names.index('explained')]:7.1f} %{label}")
     command.say("(explained: share of the expected squared error over all candidates that measuring this sample and "
                 "those before it takes away)")
-    command.say(f"choice: {path}")
+    shown = [[row[names.index("rank")], str(row[names.index(called)]) if called else "", f"{100 * row[names.index('explained')]:.1f} %"]
+             for row in rows]
+    report.write(folder, "Which samples to measure", [
+        report.table("In this order", ["rank", "sample", "explained together with those above"], shown, fold=False,
+                     note="Explained: share of the expected squared error over all candidates that measuring the samples takes away. "
+                          "It comes from the camera responses alone.")],
+        f"Measure {'this 1 sample: it explains' if len(rows) == 1 else f'these {len(rows)} samples: together they explain'} {shown[-1][2]} "
+        "of the expected squared error over all candidates." if rows else "", pipeline.warnings)
+    command.say(f"choice and report.html: {folder}")
 
 
 command.run(main)

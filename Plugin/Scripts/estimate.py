@@ -1,26 +1,10 @@
 """Reflectance image, RGB view and error maps from a multispectral image."""
 
-import argparse
-import math
 import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import colors, command, methods  # noqa: E402
-
-
-def number(least, most=math.inf):
-    """Above 'least' (or 'least' itself where there is an upper bound), at most 'most'."""
-    def parse(text):
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not (least < value <= most or (value == least and most < math.inf)) or math.isinf(value):
-            bounds = f"a number from {least:g} to {most:g}" if most < math.inf else f"a number above {least:g}"
-            raise argparse.ArgumentTypeError(f"'{text}' is not {bounds}")
-        return value
-    return parse
+from support import colors, command, frames, methods  # noqa: E402
 
 
 def arguments():
@@ -29,47 +13,28 @@ def arguments():
         "--image channel_*.tif --calibration chart.csv --tuning swatches.csv",
         "--image cube.hdr --labels labels.png --patches patches.csv --ranks 4",
         "--image raw.hdr --white white.hdr --dark dark.hdr --calibration chart.csv")
-    parser.add_argument("--image", metavar="FILE", nargs="+", required=True,
-                        help="the image: one file, or one file per channel")
+    group = frames.add_options(parser)
     parser.add_argument("--calibration", metavar="FILE",
                         help="sample table of the chart: reflectance and camera responses")
     parser.add_argument("--tuning", metavar="FILE",
                         help="sample table of a few samples of the imaged medium")
-    parser.add_argument("--white", metavar="FILE", nargs="+", help="white reference, like --image")
-    parser.add_argument("--dark", metavar="FILE", nargs="+", help="dark frame, like --image")
     parser.add_argument("--labels", metavar="FILE", help="label image of the patches in the image")
     parser.add_argument("--patches", metavar="FILE",
                         help="measured reflectance of the patches, with the column 'label'")
     parser.add_argument("--method", choices=methods.NAMES, default="transfer",
                         help="how tuning samples are used (default: %(default)s)")
-    parser.add_argument("--wavelengths", metavar="NM", nargs="+", type=float,
-                        help="wavelengths of the image's channels in nm; overrides those in the files")
-    frames = parser.add_argument_group("how the image was taken")
-    frames.add_argument("--white-reflectance", metavar="FACTOR", type=number(0.001, 2.0),
-                        help="reflectance factor of the white reference (default: 1)")
-    frames.add_argument("--white-level", metavar="COUNTS", type=number(0.0),
-                        help="level of white where there is no --white (default: 1)")
-    frames.add_argument("--saturation", metavar="COUNTS", type=number(0.0),
-                        help="raw and white values from this level on are saturated: their pixels become NaN")
-    frames.add_argument("--exposure", metavar="T", nargs="+", type=number(0.0),
-                        help="exposure times of the image: one, or one per channel; with --white-exposure")
-    frames.add_argument("--white-exposure", metavar="T", nargs="+", type=number(0.0),
-                        help="exposure times of the white reference, in the same unit")
-    frames.add_argument("--register", metavar="FILE", nargs="?", const="",
-                        help="the channels are shifted against each other: find by how much, and move them; "
-                             "FILE: displacements.csv of an earlier run, best of a chart")
-    frames.add_argument("--trust-responses", action="store_true",
-                        help="estimate also an image whose responses look like raw counts beside the calibration's; "
-                             "else that is an error")
+    group.add_argument("--register", metavar="FILE", nargs="?", const="",
+                       help="the channels are shifted against each other: find by how much, and move them; "
+                            "FILE: displacements.csv of an earlier run, best of a chart")
+    group.add_argument("--trust-responses", action="store_true",
+                       help="estimate also an image whose responses look like raw counts beside the calibration's; "
+                            "else that is an error")
     results = parser.add_argument_group("results")
     colors.add_options(results, lights_pictures=True)
     results.add_argument("--cube", choices=("exr", "envi"), default="exr",
                          help="format of the reflectance image (default: %(default)s)")
     options = parser.parse_args()
-    if (options.exposure is None) != (options.white_exposure is None):
-        parser.error("--exposure and --white-exposure go together")
-    if options.white_level is not None and options.white is not None:
-        parser.error("--white-level is for images without --white")
+    frames.check(parser, options)
     if (options.labels is None) != (options.patches is None):
         parser.error("--labels and --patches go together")
     if options.calibration is None and options.labels is None:
@@ -81,13 +46,12 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import estimation, pipeline, report, state  # noqa: E402
+from support import estimation, pictures, pipeline, report, state  # noqa: E402
 
 
 def require_inputs(options):
-    lists = [options.image, options.white or [], options.dark or []]
     singles = [options.calibration, options.tuning, options.labels, options.patches, options.register or None]
-    command.require_files(*[path for paths in lists for path in paths], *singles, *colors.files(options))
+    command.require_files(*frames.files(options), *singles, *colors.files(options))
 
 
 def read_tables(options):
@@ -100,14 +64,7 @@ def read_tables(options):
 
 def responses(options, stride=1, displacements=None):
     """The image with its frames, registered where there are displacements, which nothing has read yet."""
-    def read(files):
-        return estimation.read_image(files, options.wavelengths, stride) if files else None
-    given = {"WhiteReflectance": options.white_reflectance, "WhiteLevel": options.white_level,
-             "SaturationLevel": options.saturation, "ExposureTimes": options.exposure,
-             "WhiteExposureTimes": options.white_exposure}
-    image = estimation.flat_field(read(options.image), read(options.white), read(options.dark),
-                                  **{name: value for name, value in given.items() if value is not None})
-    return estimation.registered(image, displacements)
+    return estimation.registered(frames.responses(options, stride), displacements)
 
 
 def find_displacements(options, folder):
@@ -122,24 +79,48 @@ def find_displacements(options, folder):
     return found
 
 
-def summarize(options, viewed, judged, outside, missing):
-    """The result in one sentence, and what is known of the pixels' responses."""
+def show_chart_alone(options, calibration, view, judged_by, displacements, viewed, folder):
+    """What the correction is compared with: pictures of the image with the chart's calibration alone. view: every how many pixels are
+    shown, and their labels; judged_by: labels and patches. Returns its errors at the patches; None without them."""
+    transforms, _ = estimation.correction(calibration, None, "Direct")
+
+    def estimate(stride):
+        return pipeline.create("ReflectanceEstimation", Input=responses(options, stride, displacements), TrustResponses=1, **transforms)
+    stride, labels = view
+    shown = estimate(stride)
+    estimation.save_view(shown, folder, colors=viewed, name="chart-alone.png")
+    if labels is None:
+        return None
+    errors = estimation.error_maps(shown, labels, judged_by[1], viewed.of_errors())
+    pipeline.update(errors)
+    pictures.image(errors, viewed.error_arrays()[1], os.path.join(folder, "error-chart-alone.png"),
+                   value_range=(0.0, pictures.DIFFERENCES[-1]))
+    return estimation.patch_errors(estimate(1), *judged_by, viewed.of_errors())
+
+
+def summarize(options, viewed, judged, alone, outside, missing):
+    """The result in one sentence, and what is known of the pixels' responses. alone: the errors without the correction, or None."""
     range_text = "It is not known which responses the transform was fitted on." if outside is None else \
         f"{100.0 * outside:.1f} % of the pixels have responses outside of the range of the fitted samples."
     if missing > 0.0:
         range_text += f" {100.0 * missing:.1f} % of the pixels have no result (dead, saturated or missing values)."
-    means = judged and [estimation.mean_of(judged, *what) for what in ((viewed.metric, viewed.illuminants[0]), ("rms",))]
+    color = viewed.metric, viewed.illuminants[0]
+    means = judged and [estimation.mean_of(judged.patches, *what) for what in (color, ("rms",))]
+    before = alone and estimation.mean_of(alone, *color)
     if means is None or command.rank() != 0:
-        return f"Estimated with the method {options.method if options.tuning else 'calibration'}; {range_text}", range_text
+        how = f"corrected by the method {options.method}" if options.tuning else "estimated with the chart's calibration alone"
+        return (f"The reflectance of the image was {how}; its error is not known, because no measured patches were given (--labels and "
+                f"--patches). {range_text}"), range_text
     (mean, largest, count), (rms, _, _) = means
-    return (f"{count} held-out patches: mean {viewed.label} {mean:.2f}, largest {largest:.2f} ({viewed.illuminants[0]}); "
-            f"spectral rms {rms:.4f}. {range_text}"), range_text
+    against = f", against {before[0]:.2f} with the chart's calibration alone" if before else ""
+    return (f"The {count} held-out patches differ from their measurement by {viewed.label} {mean:.2f} on average{against} "
+            f"({viewed.text}; largest {largest:.2f}); spectral rms {rms:.4f}. {range_text}"), range_text
 
 
 # All that it writes into the output folder.
 WRITES = (
     "reflectance-transform.csv", "metamerism-transform.csv", "reflectance.exr", "reflectance.img", "reflectance.hdr",
-    "rgb.png", "srgb.png", "out-of-range.png", "uncertainty.png", "error-rms.png",
+    "rgb.png", "srgb.png", "chart-alone.png", "error-chart-alone.png", "out-of-range.png", "uncertainty.png", "error-rms.png",
     "error-dE*.png", "error-maps.img", "error-maps.hdr", "errors-of-pixels.csv", "errors-of-patches.csv",
     "patches.csv", "displacements.csv", "state.pvsm", "report.html")
 
@@ -185,22 +166,30 @@ def main():
                                 TrustResponses=int(options.trust_responses), **transforms),
                 labels and estimation.read_labels(options.labels, stride))
     estimation.save_view(view[0], folder, reflectance, viewed)
-    pages = [report.pictures("Reflectance", folder, {
-                 "rgb.png": f"The colors under {viewed.illuminants[0]}; srgb.png has them at the image's own size"}),
-             estimation.save_quality(judged_image, folder),
-             report.table("The fit", *pipeline.table(summary))]
-    if displacements is not None:
-        pages.append(report.table("How the channels lay beside one another, in pixels and degrees",
-                                  *pipeline.table(displacements)))
-    judged = None
+    is_corrected = tuning is not None and options.method != "direct"
+    alone = show_chart_alone(options, calibration, (stride, view[1]), (labels, held_out), displacements, viewed, folder) \
+        if is_corrected else None
+    before = {"chart-alone.png": "With the chart's calibration alone"} if is_corrected else {}
+    first = {**before, "rgb.png": f"{'Corrected' if is_corrected else 'Estimated'}: the colors under {viewed.text}; srgb.png has them at "
+                                  "the image's own size"}
+    judged, pages = None, []
     if labels is not None:
         judged = estimation.judge(reflectance, labels, held_out, folder, view=view, colors=viewed)
         estimation.print_summary("Held-out patches, mean spectrum of each",
                                  pipeline.port(judged.patches, 1))
         estimation.print_summary("Held-out pixels", judged.summary)
-        pages += estimation.report_errors(judged, folder)
+        map_of_colors = judged.arrays[1]
+        if is_corrected:
+            first.update({"error-chart-alone.png": f"Its errors at the held-out patches ({report.in_words(map_of_colors)})",
+                          os.path.basename(estimation.error_picture(folder, map_of_colors)): "Its errors, on the same scale"})
+        pages = estimation.report_errors(judged, folder, [map_of_colors] if is_corrected else [])
+    pages = [report.pictures("Before and after" if is_corrected else "Reflectance", folder, first), *pages,
+             estimation.save_quality(judged_image, folder), report.table("The fit", *pipeline.table(summary))]
+    if displacements is not None:
+        pages.append(report.table("How the channels lay beside one another, in pixels and degrees",
+                                  *pipeline.table(displacements)))
     estimation.save_state(os.path.join(folder, "state.pvsm"), view[0], judged, viewed)
-    lead, range_text = summarize(options, viewed, judged, outside, missing)
+    lead, range_text = summarize(options, viewed, judged, alone, outside, missing)
     command.say(range_text)
     report.write(folder, "Spectral reflectance of an image", pages, lead, pipeline.warnings)
     state.finish()

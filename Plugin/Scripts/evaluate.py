@@ -58,6 +58,9 @@ def main():
     names, rows, pairs = comparison.compare(*tables, folder=folder, methods=",".join(chosen), tuning=options.tuning,
                                             draws=options.draws, seed=options.seed, colors=judged)
     report.write(folder, "Methods compared", [
+        report.pictures("In pictures", folder, {
+            "spectra.png": "A typical held-out sample", "rms-against-tuning.png": "Error against the number of tuning samples; bands: 95 % intervals",
+            "ab-distribution.png": "Where the three sets lie in a*b*"}),
         report.table("Errors of the held-out samples", *comparison.condensed(names, rows),
                      note=f"Mean / median / largest over the held-out samples, mean over {draws}; rms of reflectance factor, "
                           f"{judged.label}. "
@@ -66,10 +69,7 @@ def main():
                      note="Ratio of the mean errors with its 95 % interval, and in how many held-out samples the error is "
                           "smaller. 'open': the interval holds 1. Intervals are about other draws of tuning samples and other "
                           "samples of the medium; all pairs of methods are in pairs.csv, the errors of every sample in "
-                          "samples.csv."),
-        report.pictures("In pictures", folder, {
-            "spectra.png": "A typical held-out sample", "rms-against-tuning.png": "Error against the number of tuning samples; bands: 95 % intervals",
-            "ab-distribution.png": "Where the three sets lie in a*b*"})],
+                          "samples.csv.")],
         comparison.best(names, rows, judged), pipeline.warnings)
     command.say(f"report, results, draws and pictures: {os.path.join(folder, 'report.html')}")
 

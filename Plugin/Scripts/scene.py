@@ -80,7 +80,9 @@ def main():
     report.write(folder, "A synthetic scene", [
         report.pictures(SUBJECTS[options.subject], folder, {"scene.png": "sRGB view under D65"}),
         report.table("Patches", *pipeline.table(pipeline.port(scene, 1)),
-                     columns=["sample", "medium", "label", "x", "y"])])
+                     columns=["sample", "medium", "label", "x", "y"])],
+                 f"The scene has {' x '.join(map(str, pictures.size(scene)))} pixels and "
+                 f"{command.counted(pipeline.number_of_rows(pipeline.port(scene, 1)), 'patch', 'patches')}.", pipeline.warnings)
     command.say(f"reflectance.img, labels.img, patches.csv, scene.png and report.html: {folder}")
 
 

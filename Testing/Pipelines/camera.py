@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -35,6 +36,8 @@ def main():
     for part in ("class='lead'>The simulated camera differs from the real one by rms 0.00", "rms of held-out samples (1 = white)"):
         if part not in page:
             faults.append(f"report.html does not say '{part}'")
+    if re.search(r"\bC\d+\b|e-1\d\b", words := re.sub(r"<[^>]*>", " ", page)) or "400 nm" not in words:
+        faults.append("report.html names channels as columns, or tells what rounding leaves")
     # The demo's camera has noise of about 0.003 of white: its own chart is predicted as well as that.
     for row in rows(fitted / "difference-channels.csv"):
         if not float(row["rms"]) < 0.01 or abs(float(row["gain"]) - 1.0) > 0.01:

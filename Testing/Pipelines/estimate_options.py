@@ -80,10 +80,12 @@ def written(launcher, base):
     cube = spectral.open_image(str(output / "reflectance.hdr"))
     if cube.shape != (picture.size[1], picture.size[0], 31):
         faults.append(f"the ENVI cube is {cube.shape}")
-    for name in ("error-dEab-A.png", "error-dEab-LED-B3.png", "out-of-range.png", "uncertainty.png", "state.pvsm"):
+    for name in ("error-dEab-A.png", "error-dEab-LED-B3.png", "out-of-range.png", "uncertainty.png", "state.pvsm", "chart-alone.png",
+                 "error-chart-alone.png"):
         if not (output / name).is_file():
             faults.append(f"there is no {name}")
-    for part in ("class='lead'", "held-out patches: mean \u0394E*ab", "% of the pixels have responses outside"):
+    for part in ("class='lead'>The 24 held-out patches differ from their measurement by \u0394E*ab ",
+                 " with the chart&#x27;s calibration alone (A, 10 degree observer; ", "Before and after", "% of the pixels have responses outside"):
         if part not in page:
             faults.append(f"the report does not say {part}")
     if "% of the pixels have responses outside" not in stdout:
@@ -100,7 +102,7 @@ def own_lamp(launcher, base):
               root / "Data" / "Samples" / "demo-fabric.csv", "--labels", FOLDER / "labels.png", "--patches",
               FOLDER / "patches.csv", "--difference", "cie76"]
     got, stderr, _, page = estimate(launcher, base / "lamp", *common, "--illuminant", lamp, "--observer", observer)
-    if got != 0 or "mean \u0394E*ab" not in page:
+    if got != 0 or "measurement by \u0394E*ab" not in page or ", observer observer; " not in page:
         faults.append(f"a lamp from a file: status {got}: {stderr}")
         return
     # Its table is that of A, so are the errors.
@@ -120,6 +122,33 @@ def own_lamp(launcher, base):
         got, stderr, _, _ = estimate(launcher, base / "bad-lamp", *common, *options)
         if got == 0 or part not in stderr or stderr.count("\n") != 1:
             faults.append(f"{options}: status {got}, expected '{part}': {stderr}")
+
+
+def other_commands(launcher, base):
+    """They take lamps, observers and what the frames were taken with, too, and begin their report with the result."""
+    fabric = root / "Data" / "Samples" / "demo-fabric.csv"
+
+    def lead(name, *arguments):
+        done = subprocess.run([launcher, *map(str, arguments), "--output", base / name], text=True, capture_output=True)
+        page = base / name / "report.html"
+        return page.read_text(encoding="utf-8").partition("class='lead'>")[2].partition("<")[0] if done.returncode == 0 else done.stderr
+    under = ["--illuminant", "A", "--observer", "10", "--difference", "cie94"]
+    chart = ["chart", "--image", *stack(), "--white", *stack("white"), "--dark", *stack("dark"), "--chart", "4x6", "--reference",
+             FOLDER / "patches.csv"]
+    for name, arguments, parts in (
+            ("evaluate", ["evaluate", "--calibration", CHART, "--target", fabric, "--draws", "1", "--methods", "direct,transfer", *under],
+             ["The method transfer has the least", "mean \u0394E94 ", " (A, 10 degree observer) against "]),
+            ("demo", ["demo", *under], ["16 measured swatches reduce", "from \u0394E94 ", "(A, 10 degree observer)."]),
+            ("choose", ["choose", "--calibration", CHART, "--candidates", fabric, "--count", "1"],
+             ["Measure this 1 sample: it explains ", " % of the expected squared error"]),
+            ("chart", chart, ["24 of 24 patches seen"]),
+            ("exposed", [*chart, "--exposure", "2", "--white-exposure", "1"], ["24 of 24 patches seen"]),
+            ("saturated", [*chart, "--saturation", "1e-9"], ["the image has no value above 0"])):
+        if not all(part in (text := lead(name, *arguments)) for part in parts):
+            faults.append(f"{name}: expected {parts}: {text}")
+    responses = [np.genfromtxt(base / name / "chart.csv", delimiter=",", names=True)["C400"] for name in ("chart", "exposed")]
+    if not np.allclose(responses[0], 2.0 * responses[1], rtol=1e-5):
+        faults.append("chart: twice the exposure does not halve the responses")
 
 
 def few_samples(launcher, base):
@@ -217,7 +246,7 @@ def main():
     launcher, base = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(base, ignore_errors=True)
     base.mkdir(parents=True)
-    for test in (said, few_samples, written, own_lamp, register, white_reflectance):
+    for test in (said, other_commands, few_samples, written, own_lamp, register, white_reflectance):
         test(launcher, base)
     print("\n".join(faults) or "what is wrong is said, what is written is right")
     sys.exit(1 if faults else 0)

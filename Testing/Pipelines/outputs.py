@@ -106,6 +106,14 @@ def what_killed_runs_left_goes(base):
         expect((folder / name).exists() == stays, f"{name} {'went' if stays else 'stayed'}")
 
 
+def reports_are_in_words(_):
+    for name, words in (("C400", "400 nm"), ("C402.5", "402.5 nm"), ("C3", "channel 3"), ("Coral", "Coral"), ("red", "red")):
+        expect(report.channel(name) == words, f"{name} is {report.channel(name)}")
+    expect(report.channel("C3", 550.0) == "channel 3 (550 nm)", "the wavelength of C3")
+    page = report.figures("The fit", ["samples", "mean", "status"], [[24, 3e-19, "all is well"]])
+    expect("<p>All is well.</p>" in page and "<td>0</td>" in page.replace(" class='text'", "") and "3e-19" not in page, f"figures: {page}")
+
+
 def old_reports_go_with_the_first_result(base):
     folder = fresh(base, "report")
     report = folder / "report.html"
@@ -223,7 +231,7 @@ def pages_speak_in_words(base):
 def main():
     base = pathlib.Path(sys.argv[1])
     base.mkdir(parents=True, exist_ok=True)
-    for test in (inputs_are_not_written_over, partners_are_inputs, one_run_at_a_time, what_killed_runs_left_goes,
+    for test in (reports_are_in_words, inputs_are_not_written_over, partners_are_inputs, one_run_at_a_time, what_killed_runs_left_goes,
                  old_reports_go_with_the_first_result, old_results_go_with_their_report, incomplete_files_take_no_name,
                  a_full_disk_is_said, outputs_are_declared, names_are_printed_safely, one_rank_speaks,
                  pages_speak_in_words):

@@ -5,7 +5,7 @@ import os
 
 import numpy
 
-from . import command, pictures, pipeline
+from . import command, pictures, pipeline, report
 
 MOST_CHANNEL_PICTURES = 16
 
@@ -77,12 +77,12 @@ def channels(camera):
 
 def draw_responsivities(camera, path, uncertainty=None):
     chart = pictures.Chart("Responsivity of each channel" +
-                           (", 95 % dotted" if uncertainty is not None else ""),
+                           (", dotted: its 95 % interval" if uncertainty is not None else ""),
                            "Wavelength (nm)", "Response to a band of perfect white")
     names = channels(camera)
     shades = {name: color(i, len(names)) for i, name in enumerate(names)}
     chart.add(camera, "wavelength",
-              {name: (name, shades[name], pictures.LineStyle.SOLID, 2.5) for name in names})
+              {name: (report.channel(name), shades[name], pictures.LineStyle.SOLID, 2.5) for name in names})
     if uncertainty is not None:
         known = pipeline.column_names(uncertainty)
         chart.add(uncertainty, "wavelength",
@@ -96,9 +96,9 @@ def draw_samples(difference, title, path):
     prefix = "difference "
     names = [name for name in pipeline.column_names(pipeline.port(difference, 0))
              if name.startswith(prefix)]
-    chart = pictures.Chart(f"Every sample: {title}", "Sample", "Difference, in units of the responses")
+    chart = pictures.Chart(f"Every sample: {title}", "Sample", "Difference (response, 1 = white)")
     chart.add(pipeline.port(difference, 0), None,
-              {name: (name.removeprefix(prefix), color(i, len(names)))
+              {name: (report.channel(name.removeprefix(prefix)), color(i, len(names)))
                for i, name in enumerate(names)},
               line=pictures.LineStyle.NONE, marker=pictures.Marker.CIRCLE, marker_size=4.0)
     chart.save(path)
@@ -106,9 +106,11 @@ def draw_samples(difference, title, path):
 
 def draw_figures(difference, title, path):
     """Mean and rms of the difference in each channel, and the rms that no line takes away."""
-    chart = pictures.Chart(f"Each channel: {title}", "Channel, counted from 0",
-                           "Difference, in units of the responses")
-    chart.add(pipeline.port(difference, 1), None,
+    names, rows = pipeline.table(pipeline.port(difference, 1))
+    known = [report.channel(row[names.index("channel")]) for row in rows]
+    in_nm = all(name.endswith(" nm") for name in known)
+    chart = pictures.Chart(f"Each channel: {title}", "Channel (nm)" if in_nm else "Channel", "Difference (response, 1 = white)")
+    chart.add(pipeline.port(difference, 1), [float(name[:-3]) for name in known] if in_nm else list(range(1, len(rows) + 1)),
               {"mean": ("mean", pictures.COLORS["direct"]),
                "rms": ("rms", pictures.COLORS["transfer"]),
                "rms_around_line": ("rms around the best line", pictures.COLORS["banded"])},
@@ -129,7 +131,7 @@ def draw_channels(simulated, real, difference, folder, titles=("simulated", "rea
         name = f"channel-{k + 1}.png"
         pictures.channel_row(((seen[:, :, k], titles[0], (0.0, top)), (answered[:, :, k], titles[1], (0.0, top)),
                               (apart[:, :, k], titles[2], (-reach, reach))), os.path.join(folder, name))
-        saved[name] = f"{label}: {titles[0]}, {titles[1]}, {titles[1]} - {titles[0]}"
+        saved[name] = f"{label}: {titles[0]}, {titles[1]}, {titles[1]} minus {titles[0]}"
     return saved
 
 

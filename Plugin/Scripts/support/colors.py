@@ -64,6 +64,9 @@ class Colors:
         self.illuminants = []
         for text in lamps:
             self.illuminants += _curves(text)[1] if _looks_like_file(text) else [text]
+        # For people: under what the first color difference is; the 2 degree observer is not named.
+        self.text = self.illuminants[0] + ("" if observer == "2" else f", {observer} degree observer" if observer in OBSERVERS else
+                                           f", observer {os.path.splitext(os.path.basename(observer))[0]}")
         self._tables = {}
         if own:
             from . import pipeline

@@ -99,8 +99,8 @@ def printable(text):
     return _CONTROL.sub(lambda found: f"\\x{ord(found[0]) & 0xff:02X}", text)
 
 
-def counted(number, noun):
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+def counted(number, noun, plural=None):
+    return f"{number} {noun if number == 1 else plural or noun + 's'}"
 
 
 def say(text):

@@ -35,13 +35,13 @@ def select_channels(table, count):
 
 def compare(calibration, target, folder, methods, tuning, draws, seed, colors=None):
     """Writes the tables and pictures; prints the results. Returns their names and rows, and those of the pairs."""
-    conditions = (colors or Colors()).of_comparison()
+    colors = colors or Colors()
     most = pipeline.number_of_rows(target) // 2
     steps = [count for count in TUNING_STEPS if count <= most]
     comparison = pipeline.create("MethodComparison", Calibration=calibration, Target=target, Methods=methods,
                                  TuningSamples=str(tuning), Draws=draws, Seed=seed,
                                  CurveSamples=", ".join(map(str, steps)), CurveDraws=MOST_DRAWS_OF_PICTURE,
-                                 **conditions)
+                                 **colors.of_comparison())
     pipeline.update(comparison)
     pipeline.save_table(pipeline.port(comparison, 0), os.path.join(folder, "results.csv"))
     pipeline.save_table(pipeline.port(comparison, 1), os.path.join(folder, "draws.csv"))
@@ -53,7 +53,7 @@ def compare(calibration, target, folder, methods, tuning, draws, seed, colors=No
     pipeline.save_table(pipeline.port(comparison, 5), os.path.join(folder, "pairs.csv"))
     _draw_spectra(comparison, _methods_in(comparison, 2), os.path.join(folder, "spectra.png"))
     _draw_curves(comparison, _methods_in(comparison, 3), os.path.join(folder, "rms-against-tuning.png"))
-    _draw_colors(calibration, target, tuning, seed, os.path.join(folder, "ab-distribution.png"))
+    _draw_colors(calibration, target, tuning, seed, colors, os.path.join(folder, "ab-distribution.png"))
     return names, rows, pipeline.table(pipeline.port(comparison, 5))
 
 
@@ -126,13 +126,13 @@ def best(names, rows, judged=None):
     if not rms:
         return ""
     method = min(rms, key=rms.get)
-    text = f"{method} has the least spectral rms on the held-out samples: {rms[method]:.4f}"
+    text = f"The method {method} has the least spectral rms on the held-out samples: {rms[method]:.4f}"
     if "direct" in rms and method != "direct":
         text += f", against {rms['direct']:.4f} with the chart's calibration alone"
     judged = judged or Colors()
     colors = means(judged.metric, judged.illuminants[0])
     if method in colors:
-        text += f"; mean {judged.label} {colors[method]:.2f} ({judged.illuminants[0]})"
+        text += f"; mean {judged.label} {colors[method]:.2f} ({judged.text})"
         if "direct" in colors and method != "direct":
             text += f" against {colors['direct']:.2f}"
     return text + "."
@@ -183,15 +183,15 @@ def _draw_curves(curves, methods, path):
     chart.save(path)
 
 
-def _draw_colors(calibration, target, tuning, seed, path):
+def _draw_colors(calibration, target, tuning, seed, colors, path):
     """The a*b* distribution of the three sets of the first draw."""
     split = pipeline.create("SampleSplit", Input=target, Mode="Random", Count=tuning, Seed=seed)
-    chart = pictures.Chart("Colors of the three sets (D65, 2 degree observer)", "a*", "b*",
+    chart = pictures.Chart(f"Colors of the three sets ({colors.text})", "a*", "b*",
                            size=(800, 800))
     sets = (("calibration", calibration), ("held out", pipeline.port(split, 1)),
             ("tuning", pipeline.port(split, 0)))
     for name, source in sets:
-        color = pipeline.create("SpectralToColor", Input=source)
+        color = pipeline.create("SpectralToColor", Input=source, **colors.of_view())
         pipeline.update(color)
         chart.add(color, "R_a", {"R_b": (name, pictures.COLORS[name])},
                   line=pictures.LineStyle.NONE, marker=pictures.Marker.CIRCLE,

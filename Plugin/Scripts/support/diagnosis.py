@@ -11,34 +11,29 @@ PORTS = {"summary": 0, "where": 1, "causes": 2, "candidates": 3, "heat-map": 4, 
 TABLES = ("where", "causes", "candidates", "heat-map", "trend", "samples")
 
 VERDICTS = {
-    "no gap": "The simulated and the real camera agree: what is left between them is no more than noise "
-              "makes.",
-    "explained": "The two cameras disagree, and the causes below account for it: with them in the "
-                 "simulation the gap shrinks to little more than noise.",
-    "partly explained": "The two cameras disagree. The causes below account for a part of it; the rest "
-                        "has a cause that was not found.",
-    "unexplained": "The two cameras disagree, and no effect that is known here accounts for it.",
+    "no gap": "The simulated and the real camera agree within noise.",
+    "explained": "The two cameras disagree, and the causes below explain it: adding them to the simulation reduces the gap to little more "
+                 "than noise.",
+    "partly explained": "The two cameras disagree. The causes below explain a part of the gap; the cause of the remaining part was not found.",
+    "unexplained": "The two cameras disagree, and no known effect explains the gap.",
 }
 AXES = {
-    "channel": "some channels are off more than others, whatever the sample",
-    "medium": "some media are off more than others",
-    "scene": "some scenes are off more than others",
-    "position": "it depends on the place in the field",
-    "level": "it grows with the signal: bright and dark samples differ",
-    "order": "it changes in the course of the capture",
-    "spectral_shape": "it follows the slope and curvature of the reflectance: the wavelengths are off",
+    "channel": "some channels differ more than others, whatever the sample",
+    "medium": "some media differ more than others",
+    "scene": "some scenes differ more than others",
+    "position": "the gap depends on the place in the field",
+    "level": "the gap grows with the signal, so bright and dark samples differ",
+    "order": "the gap changes in the course of the capture",
+    "spectral_shape": "the gap follows the slope and curvature of the reflectance, as where wavelengths are wrong",
     "sample": "single samples stand out",
-    "edges": "it stands along edges: the channels' images are displaced or blurred",
-    "rows": "it changes from row to row",
-    "columns": "it changes from column to column",
+    "edges": "the gap lies along edges, as where the channels' images are displaced or blurred",
+    "rows": "the gap changes from row to row",
+    "columns": "the gap changes from column to column",
     "region": "single regions of the image stand out",
 }
 
 # Probability from which the summary speaks of something that the library does not have.
 UNKNOWN_IS_SAID = 0.2
-
-
-_LEAST_NM = 100  # a channel with such a number is named by its wavelength
 
 
 class Diagnosis:
@@ -73,9 +68,8 @@ class Diagnosis:
             self._names.update({axis: axis.replace("_", " ") for axis in self.axes})
             curves = self.records("camera")
             for name in curves[0] if curves else ():
-                if re.fullmatch(r"C\d+", name) and "wavelength" in curves[0]:
-                    peak = max(curves, key=lambda row: row[name])["wavelength"]
-                    self._names[name] = f"{name[1:]} nm" if int(name[1:]) >= _LEAST_NM else f"channel {name[1:]} ({peak:g} nm)"
+                if name.startswith("C") and "wavelength" in curves[0]:
+                    self._names[name] = report.channel(name, max(curves, key=lambda row: row[name])["wavelength"])
         return re.sub(r"\b[A-Za-z]\w*\b", lambda found: self._names.get(found[0], found[0]), text)
 
     def summary(self):
@@ -115,6 +109,7 @@ def write(gap, folder):
         if name in gap.ports:
             pipeline.save_table(gap.port(name), os.path.join(folder, f"{name}.csv"))
     tables, summary = gap.tables(), gap.summary()
+    tables["heat-map"] = [{**row, "channel": gap.words(row["channel"])} for row in tables["heat-map"]]
     if command.rank() == 0:
         gap_pictures.draw_all(tables, summary, folder, gap.held)
 
@@ -201,12 +196,12 @@ def sections(gap, folder):
         return []
     drawn = gap_pictures.drawn(folder)
     pages = [
+        report.pictures("Before and after", folder, {
+            "how-far.png": f"The gap before and after the causes are simulated, on {gap.held} that took no "
+                           "part in finding them, against what noise alone makes"}),
         verdict_section(figures, first_rows(tables["causes"]), gap),
         *where_sections(tables["where"], figures, drawn, folder, gap),
         *which_sections(tables["causes"], figures, drawn, folder, gap),
-        report.pictures("How far it shrinks", folder, {
-            "how-far.png": f"The gap before and after the causes are simulated, on {gap.held} that took no "
-                           "part in finding them, against what noise alone makes"}),
         undecided_section(figures, first_rows(tables["causes"]), notes, gap)]
     if "camera" in gap.ports:
         pages.append(corrected_section(tables["causes"]))
@@ -252,7 +247,7 @@ def verdict_section(figures, causes, gap):
 
 def where_sections(where, figures, drawn, folder, gap):
     if figures["verdict"] == "no gap":
-        words = ["There is no gap beyond noise; the pictures show how evenly what is left is spread."]
+        words = ["There is no gap beyond noise; the pictures show how it is distributed."]
     else:
         axes = [row for row in where if not row["cell"] and row["share"] >= 0.05][:3]
         words = []

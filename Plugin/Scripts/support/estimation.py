@@ -110,12 +110,12 @@ def save_quality(estimated, folder):
     return report.pictures("How far to trust each pixel", folder, captions) if captions else ""
 
 
-def save_view(reflectance, folder, whole=None, colors=None):
-    """The RGB view as rgb.png; whole: the image in full, whose colors are written as srgb.png."""
+def save_view(reflectance, folder, whole=None, colors=None, name="rgb.png"):
+    """The RGB view; whole: the image in full, whose colors are written as srgb.png."""
     options = (colors or Colors()).of_view()
     color = pipeline.create("SpectralToColor", Input=reflectance, **options)
     pipeline.update(color)
-    pictures.image(color, "sRGB", os.path.join(folder, "rgb.png"), rgb=True)
+    pictures.image(color, "sRGB", os.path.join(folder, name), rgb=True)
     if whole is not None:
         pictures.srgb(pipeline.create("SpectralToColor", Input=whole, **options), os.path.join(folder, "srgb.png"))
 
@@ -131,6 +131,14 @@ def save_reflectance(reflectance, folder, cube="exr"):
 def error_maps(reflectance, labels, held_out, conditions):
     reference = pipeline.create("PatchReferenceImage", Input=labels, PatchTable=held_out, Preview=0)
     return pipeline.create("CIEDE2000Evaluator", Input=reflectance, Reference=reference, **conditions)
+
+
+def patch_errors(reflectance, labels, held_out, conditions):
+    """Of the mean spectrum of each patch; their statistics are the second output."""
+    sampled = pipeline.create("PatchSampler", Input=reflectance, Labels=labels, PatchTable=held_out)
+    patches = pipeline.create("CIEDE2000Evaluator", Input=sampled, **conditions)
+    pipeline.update(patches)
+    return patches
 
 
 def judge(reflectance, labels, held_out, folder, tops=None, view=None, colors=None):
@@ -151,10 +159,7 @@ def judge(reflectance, labels, held_out, folder, tops=None, view=None, colors=No
     for array, top in zip(arrays, tops or top_errors(summary)):
         pictures.image(errors, array, error_picture(folder, array), value_range=(0.0, top))
 
-    sampled = pipeline.create("PatchSampler", Input=reflectance, Labels=labels,
-                              PatchTable=held_out)
-    patches = pipeline.create("CIEDE2000Evaluator", Input=sampled, **conditions)
-    pipeline.update(patches)
+    patches = patch_errors(reflectance, labels, held_out, conditions)
     pipeline.save_table(patches, os.path.join(folder, "patches.csv"))
     pipeline.save_table(pipeline.port(patches, 1), os.path.join(folder, "errors-of-patches.csv"))
     return Judged(errors, summary, patches, arrays)
@@ -186,13 +191,13 @@ def error_picture(folder, array):
     return os.path.join(folder, f"error-{re.sub('[^A-Za-z0-9.-]', '-', array)}.png")
 
 
-def report_errors(judged, folder):
-    """The report's sections on where the result is wrong."""
+def report_errors(judged, folder, shown=()):
+    """The report's sections on where the result is wrong. shown: maps that the page has already."""
     maps = {os.path.basename(error_picture(folder, array)):
             f"{report.in_words(array)} over the held-out patches; " + (
                 "the color scale is the same for all maps of color differences" if array.startswith("dE") else
                 "the color scale ends at the 95th percentile")
-            for array in judged.arrays}
+            for array in judged.arrays if array not in shown}
     return [report.pictures("Where it is wrong", folder, maps),
             report.table("Errors of the held-out patches (mean spectrum of each)",
                          *pipeline.table(pipeline.port(judged.patches, 1))),
@@ -207,9 +212,9 @@ def patch_columns(judged):
     return [name for name in ("sample", "label", "medium", "count", *judged.arrays) if name in names]
 
 
-def mean_of(judged, metric, illuminant=""):
-    """Mean and largest error of the held-out patches' mean spectra; None where there is none (or not on this rank)."""
-    names, rows = pipeline.table(pipeline.port(judged.patches, 1))
+def mean_of(patches, metric, illuminant=""):
+    """Mean and largest error of the patches' mean spectra, and their number; None where there is none (or not on this rank)."""
+    names, rows = pipeline.table(pipeline.port(patches, 1))
     for row in rows:
         if row[names.index("metric")] == metric and row[names.index("illuminant")] == illuminant:
             return row[names.index("mean")], row[names.index("max")], int(row[names.index("count")])

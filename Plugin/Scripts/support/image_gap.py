@@ -10,26 +10,27 @@ from .command import Failure
 PORTS = {"map": 0, "summary": 1, "where": 2, "causes": 3, "candidates": 4, "notes": 5}
 _KINDS = {"real": "real", "sim": "simulated", "labels": "labels", "patches": "patches"}
 AXES = {
-    "position": "it depends on the place in the field (x from -1 at the left to 1 at the right, y from -1 at the bottom to 1 at "
+    "position": "the gap depends on the place in the field (x from -1 at the left to 1 at the right, y from -1 at the bottom to 1 at "
                 "the top, over the longer side)",
-    "level": "it grows with the signal: bright and dark places differ",
+    "level": "the gap grows with the signal, so bright and dark places differ",
     "sample": "single labelled patches stand out",
 }
-# What to do about what no effect of a lens, a lamp's place or a detector accounts for.
+# What to do about a gap that no effect of a lens, a lamp's place or a detector explains.
 NEXT = {
-    "sample": "What is left differs from patch to patch, as it does where the lamp, the filters or the measured reflectance are "
-              "others than simulated. Diagnose the patches as a table (samples.csv and responses.csv in the capture): that "
-              "knows the effects of light and filters.",
-    "region": "What is left stands in single regions: look for reflections, shadows and dirt there on the map.",
-    "edges": "What is left stands along edges: distortion or a point spread that is not round. Register the images "
-             "first, or capture a grid target through each filter.",
-    "position": "What is left changes smoothly over the field, but neither as a plane of light nor as a lens falls off: "
-                "capture a flat field.",
-    "channel": "What is left differs from channel to channel: capture a grey ramp, which tells gains from offsets and from the "
-               "spectrum of the lamp.",
-    "level": "What is left goes with the signal: capture an exposure series of one patch.",
-    "rows": "What is left changes from row to row, but not alike along a row: capture a flat field at two exposure times.",
-    "columns": "What is left changes from column to column, but not alike along a column: capture a flat field at two exposure times.",
+    "sample": "The remaining gap differs from patch to patch, as where the lamp, the filters or the measured reflectance differ from the "
+              "simulation. Diagnose the patches as a table (samples.csv and responses.csv in the capture), which covers the effects of "
+              "light and filters.",
+    "region": "The remaining gap lies in single regions: look for reflections, shadows and dirt there on the map.",
+    "edges": "The remaining gap lies along edges, as with distortion or a point spread that is not round. Register the images first, or "
+             "capture a grid target through each filter.",
+    "position": "The remaining gap changes smoothly over the field, but neither as a plane of light nor as a lens's vignetting: capture a "
+                "flat field.",
+    "channel": "The remaining gap differs from channel to channel: capture a gray ramp, which separates gains, offsets and the spectrum of "
+               "the lamp.",
+    "level": "The remaining gap changes with the signal: capture an exposure series of one patch.",
+    "rows": "The remaining gap changes from row to row, but not uniformly along a row: capture a flat field at two exposure times.",
+    "columns": "The remaining gap changes from column to column, but not uniformly along a column: capture a flat field at two exposure "
+               "times.",
 }
 _CAMERAS = ("camera.json", "camera.csv")
 

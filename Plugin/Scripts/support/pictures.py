@@ -4,7 +4,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
-from . import command, outputs, painter, pipeline
+from . import command, outputs, painter, pipeline, report
 
 # Okabe and Ito's palette: told apart with any color vision.
 COLORS = {
@@ -131,14 +131,10 @@ def _draw_image(path, pixels, title, value_range, shown):
     drawn = _draw(plot, pixels, "viridis", value_range, _even_steps() if fixed else None)
     bar = figure.colorbar(drawn, ticks=DIFFERENCES if fixed else None, cax=figure.add_axes(((width + 0.15 * legend) / (width + legend), 0.12,
                                                       0.12 * legend / (width + legend), 0.76)))
-    bar.set_label(_in_words(title), fontsize=13 * enlarged)
+    bar.set_label(report.in_words(title), fontsize=13 * enlarged)
     bar.ax.tick_params(labelsize=11 * enlarged)
     bar.outline.set_visible(False)
     _save(figure, path)
-
-
-def _in_words(title):
-    return "\u0394" + title[1:] if title.startswith("dE") else title
 
 
 def _even_steps():
@@ -178,7 +174,7 @@ def _draw_row(path, panels):
         drawn = _draw(plot, pixels, "coolwarm" if bounds[0] < 0.0 else "viridis", bounds)
         bar = figure.colorbar(drawn, orientation="horizontal", cax=figure.add_axes(
             ((left + 0.1 * width) / whole[0], 0.68 * foot / whole[1], 0.8 * width / whole[0], 0.18 * foot / whole[1])))
-        bar.set_label(_in_words(title), fontsize=10 * enlarged, labelpad=1)
+        bar.set_label(report.in_words(title), fontsize=10 * enlarged, labelpad=1)
         bar.locator.set_params(nbins=4)
         bar.update_ticks()
         bar.ax.tick_params(labelsize=8 * enlarged, pad=1)
@@ -198,9 +194,10 @@ class Chart:
 
     def add(self, source, x, series, line=LineStyle.SOLID, marker=Marker.NONE, width=2.0,
             marker_size=6.0):
-        """series: {column: (label, color)} or {column: (label, color, line style, width)}; x None: the row number."""
+        """series: {column: (label, color)} or {column: (label, color, line style, width)}; x: a column, or the values; None: the
+        row number."""
         data = pipeline.whole(source)
-        across = list(range(data.GetNumberOfRows())) if x is None else _column(data, x)
+        across = list(range(data.GetNumberOfRows())) if x is None else _column(data, x) if isinstance(x, str) else x
         for column, (label, color, *style) in series.items():
             self._series.append((across, _column(data, column), dict(
                 label=label or "_", color=color, linestyle=_LINES[style[0] if style else line],

@@ -10,7 +10,9 @@ import struct
 from . import command, outputs, painter
 
 _MOST_ROWS_SHOWN = 12  # longer tables are folded
-_LONG = 40  # letters: such a cell is broken into lines
+_NOTHING = 1e-12  # what rounding leaves of zero
+_LONG = 32  # letters: such a cell is broken into lines
+_LEAST_NM = 100  # a channel with such a number is named by its wavelength
 _WIDE = 1.7  # times the height: needs the whole width of the page
 _WORDS = {"p95": "95th percentile", "left_out": "left out", "residual_rms": "residual rms", "condition": "condition number",
           "complete": "all unknowns determined", "OutOfRange": "excess over range",
@@ -51,6 +53,16 @@ def chapter(title, sections, lead=""):
     return _section(title, words + "".join(sections).replace("<h2>", "<h3>").replace("</h2>", "</h3>"))
 
 
+def channel(name, peak=None):
+    """A channel in words: C400 is 400 nm, C3 is channel 3. peak: its wavelength in nm where the name does not tell it."""
+    found = re.fullmatch(r"C(\d+(?:\.\d+)?)", name)
+    if found is None:
+        return name
+    if float(found[1]) >= _LEAST_NM:
+        return f"{found[1]} nm"
+    return f"channel {found[1]}" + (f" ({peak:g} nm)" if peak is not None else "")
+
+
 def in_words(name):
     """Of a column, a metric or an array: \u0394E00 for dE00."""
     return _WORDS.get(name, re.sub(r"\bdE(?=[0-9 ])", "\u0394E", name))
@@ -59,6 +71,8 @@ def in_words(name):
 def _value_in_words(name, value):
     if name == "metric":
         return in_words(value)
+    if name == "channel" and isinstance(value, str):
+        return channel(value)
     if name == "complete":
         return "yes" if value else "no"
     if name == "condition" and value == 0:
@@ -82,10 +96,12 @@ def table(title, names, rows, columns=None, note=None, fold=True):
 
 
 def figures(title, names, rows, note=None):
-    """The figures of one row, each in a line of its own: for tables of one row and many columns."""
+    """The figures of one row, each in a line of its own: for tables of one row and many columns. A status in words stands above."""
+    status = rows[0][names.index("status")] if rows and "status" in names else ""
     values = [_value_in_words(name, value) for name, value in zip(names, rows[0])] if rows else []
     lines = [[in_words(name), value if isinstance(value, str) else _cell(value)] for name, value in zip(names, values)]
-    return table(title, ["figure", "value"], [line for line in lines if line[1] != ""], note=note, fold=False)
+    return table(title, ["figure", "value"], [line for line in lines if line[1] not in ("", status)],
+                 note=" ".join(filter(None, (note, status and f"{status[:1].upper()}{status[1:]}."))))
 
 
 def pictures(title, folder, captions):
@@ -137,5 +153,7 @@ def _cell(value):
     if isinstance(value, float):
         if math.isnan(value):
             return ""
+        if abs(value) < _NOTHING:
+            return "0"
         return f"{value:.0f}" if value.is_integer() and abs(value) < 1e9 else f"{value:.4g}"
     return html.escape(str(value))

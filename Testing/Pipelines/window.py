@@ -685,7 +685,7 @@ def shows_fabric(state):
 
 
 def shows_capture(state):
-    return state["tables"] == 2 and state["sources"].get("warm camera: gap") == "SimToRealGap"
+    return state["tables"] == 2 and "verdict" in state["first columns"] and state["sources"].get("warm camera: gap") == "SimToRealGap"
 
 
 EXAMPLES = {"scene": shows_scene, "fabric": shows_fabric, "capture": shows_capture}

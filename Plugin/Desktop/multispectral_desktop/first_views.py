@@ -8,7 +8,8 @@ from . import memory, pixel, view_choice
 from .memory import first, key
 
 # Columns that tell what a row is, and the result, in the order in which they are read.
-_LEADING = ("method", "rank", "sample", "label", "medium", "title", "effect", "form", "axis", "cell", "name", "value", "unit", "standard_error", "probability",
+_LEADING = ("verdict", "rms_before", "rms_after", "noise_floor",
+            "method", "rank", "sample", "label", "medium", "title", "effect", "form", "axis", "cell", "name", "value", "unit", "standard_error", "probability",
             "share", "shrink", "metric", "illuminant", "count", "mean", "median", "p95", "max", "channel", "wavelength",
             "dx", "dy", "agreement")
 

@@ -106,7 +106,8 @@ void EnviHeaderText::takeLine(const std::string& text, std::size_t& at)
   }
   if (!value.text.empty() && value.text.front() == '{')
   {
-    while (value.text.find('}') == std::string::npos)
+    bool closed = value.text.find('}') != std::string::npos;
+    while (!closed)
     {
       if (at >= text.size())
       {
@@ -118,6 +119,7 @@ void EnviHeaderText::takeLine(const std::string& text, std::size_t& at)
       {
         value.text += ' ';
         value.text += more;
+        closed = more.find('}') != std::string_view::npos;
       }
       at = nextLine(text, at);
       ++Line;

@@ -1,5 +1,5 @@
 // The numbers by which the diagnosis decides, of tables and of image pairs. Documentation/Decisions/one-diagnosis.md has the
-// reasons, and what happened when some were halved and doubled.
+// reasons, and what happens when each is halved or doubled.
 #pragma once
 
 namespace msi::Decision

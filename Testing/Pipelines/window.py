@@ -482,6 +482,9 @@ def refused_folder(window):
     window.type("inside")
     window.key("Tab")  # closes the proposals
     window.click(window.state()["buttons"]["OK"])
+    time.sleep(3.0)
+    if not window.state()["messages"]:  # the proposals were still there and took the click
+        window.click(window.state()["buttons"]["OK"])
     said = window.wait("the refusal", lambda s: s["messages"])["messages"]
     window.picture("refused")
     window.key("Return")

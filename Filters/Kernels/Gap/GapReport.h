@@ -108,7 +108,7 @@ struct GapNextCapture
 {
   std::string capture;
   std::vector<std::string> separates; // effects that it tells apart
-  // Of information about which effects are the causes, and of work. Empty: not computed.
+  // Of information about which effects are the causes, and of work. Empty where there is no capture.
   std::optional<double> expectedBits, minutes;
 };
 

@@ -86,13 +86,13 @@ void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::Ma
     left(Eigen::all, heldOut) -= (withRest(data, rest, here) - here)(Eigen::all, heldOut);
   }
   left = measuredOnly(data, left);
-  const GroupEnergies energies = energiesOf(data, data.usable, after, left);
-  if (!(shrinkInterval(energies, options.seed)[0] > 0.0))
+  const GapFigures figures = figuresOf(
+    energiesOf(data, data.usable, after, left), static_cast<double>(data.elements), options.seed);
+  if (!(figures.shrinkInterval[0] > 0.0))
   {
     return;
   }
-  report.unexplained.rmsWithRest =
-    std::sqrt(sumOf(energies.after) / static_cast<double>(data.elements));
+  report.unexplained.rmsWithRest = figures.rmsAfter;
   if (options.addRest)
   {
     after = left;

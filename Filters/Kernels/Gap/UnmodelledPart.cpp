@@ -23,7 +23,7 @@ Eigen::VectorXd ridge(const Eigen::MatrixXd& products, const Eigen::VectorXd& sc
 
 Eigen::MatrixXd regularPart(const std::vector<std::vector<Eigen::MatrixXd>>& products)
 {
-  const auto channels = static_cast<Eigen::Index>(products.size());
+  const auto channels = static_cast<Eigen::Index>(products.front().size());
   const Eigen::Index count = products.front().front().cols() - 1;
   Eigen::MatrixXd best = Eigen::MatrixXd::Zero(channels, count);
   double least = 0.0; // with nothing
@@ -33,16 +33,17 @@ Eigen::MatrixXd regularPart(const std::vector<std::vector<Eigen::MatrixXd>>& pro
     double left = 0.0;
     for (Eigen::Index k = 0; k < channels; ++k)
     {
-      const auto& folds = products[static_cast<std::size_t>(k)];
+      const auto channel = static_cast<std::size_t>(k);
       Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count + 1, count + 1);
-      for (const Eigen::MatrixXd& fold : folds)
+      for (const auto& fold : products)
       {
-        all += fold;
+        all += fold[channel];
       }
       const Eigen::VectorXd scale = all.diagonal().head(count);
-      for (const Eigen::MatrixXd& fold : folds)
+      for (const auto& fold : products)
       {
-        left += energyLeft(fold, ridge(all - fold, scale, penalty)) - fold(count, count);
+        left += energyLeft(fold[channel], ridge(all - fold[channel], scale, penalty)) -
+          fold[channel](count, count);
       }
       coefficients.row(k) = ridge(all, scale, penalty).transpose();
     }

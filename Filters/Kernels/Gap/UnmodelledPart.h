@@ -12,7 +12,7 @@
 namespace msi
 {
 
-// Ridge regression of each channel's rest on its columns. products: of each channel one matrix a fold, the weighted products of
+// Ridge regression of each channel's rest on its columns. products: of each fold one matrix a channel, the weighted products of
 // p columns and last the rest. K x p; the penalty, relative to each column's square and common to all, is the one that
 // predicts folds left out best; 0 where none predicts anything.
 Eigen::MatrixXd regularPart(const std::vector<std::vector<Eigen::MatrixXd>>& products);

@@ -237,8 +237,8 @@ def verdict_section(figures, causes, gap):
     if causes:
         lines += uncredited_lines(figures, gap)
     if figures["rms_with_rest"] > 0:
-        lines.append("A part of the rest goes with the response, the neighbouring channels, the place or the time. If it is "
-                     f"simulated, too, the rms is {figures['rms_with_rest']:.4f}; it is in the corrected simulator where "
+        lines.append("A part of what the causes leave is regular: a smooth function in each channel predicts it. If that is "
+                     f"simulated, too, the rms is {figures['rms_with_rest']:.4f}. It is in the corrected simulator where "
                      "--add-rest (Add Rest in ParaView) is set.")
     if figures["next_capture"]:
         lines.append(f"Next capture: {next_capture(figures, gap)}.")

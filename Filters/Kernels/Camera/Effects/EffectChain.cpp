@@ -53,8 +53,8 @@ void EffectChain::build(const EffectChain* related)
   std::stable_sort(Steps.begin(), Steps.end(),
     [](const Step& a, const Step& b)
     {
-      return a.definition == b.definition ? a.besideLine && !b.besideLine
-                                          : a.definition < b.definition;
+      return std::make_pair(a.definition, !a.besideLine) <
+        std::make_pair(b.definition, !b.besideLine);
     });
   requireOnce();
   for (const Step& step : Steps)

@@ -84,12 +84,7 @@ struct RestOfImage
 
   static const ImageStep& step()
   {
-    static const ImageStep made = []
-    {
-      ImageStep step{ ImageStage::Detector, std::vector<ImageNumber>(Down + 1), add };
-      step.remainder = true;
-      return step;
-    }();
+    static const ImageStep made{ ImageStage::Detector, std::vector<ImageNumber>(Down + 1), add };
     return made;
   }
 };

@@ -272,6 +272,13 @@ std::vector<std::string> disputed(
   return cheapestOf(std::move(rivals));
 }
 
+std::set<std::string> inBoth(const std::set<std::string>& a, const std::set<std::string>& b)
+{
+  std::set<std::string> both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::inserter(both, both.end()));
+  return both;
+}
+
 std::set<std::string> inQuestion(const std::vector<GapCause>& causes)
 {
   std::set<std::string> effects;
@@ -319,10 +326,7 @@ std::vector<GapNextCapture> separatingCaptures(
     std::map<std::set<std::string>, double> chance; // of the effects that it would show
     for (const Explanation& one : explanations)
     {
-      std::set<std::string> there;
-      std::set_intersection(one.effects.begin(), one.effects.end(), effects.begin(), effects.end(),
-        std::inserter(there, there.end()));
-      chance[there] += one.probability;
+      chance[inBoth(one.effects, effects)] += one.probability;
     }
     double bits = 0.0;
     for (const auto& [there, probability] : chance)

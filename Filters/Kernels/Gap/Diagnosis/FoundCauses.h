@@ -44,6 +44,7 @@ struct Explanation
   FitPointer fit;
   double probability = 0.0;
 };
+std::set<std::string> inBoth(const std::set<std::string>& a, const std::set<std::string>& b);
 std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets& found);
 
 // The two of the effects in question about which the explanations agree the least.

@@ -108,14 +108,14 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
   std::vector<FieldChoice> choices;
   for (const EffectDefinition& effect : effectLibrary())
   {
-    const bool barred = effect.has(EffectTrait::Remainder) ||
-      std::find(without.begin(), without.end(), effect.name) != without.end();
+    if (effect.has(EffectTrait::Remainder) ||
+      std::find(without.begin(), without.end(), effect.name) != without.end())
+    {
+      continue;
+    }
     for (const ImageForm& form : effect.imageForms)
     {
-      if (!barred)
-      {
-        choices.push_back({ &effect, form.form, form.terms, form.twice });
-      }
+      choices.push_back({ &effect, form.form, form.terms, form.twice });
     }
   }
   // Of effects that do as well the exact ones come first.

@@ -49,6 +49,8 @@ public:
   // Weighted energy of the training blocks at the model itself, and what noise allows of it.
   double energy() const noexcept { return Energy; }
   double chance() const noexcept { return Chance; }
+  // Sums of BlockSums::normal() over the training blocks: of each fold those of the channels.
+  const std::vector<std::vector<Eigen::MatrixXd>>& folds() const noexcept { return Fold; }
 
   // Standard deviation of each number of the set. Sandwich over groups of blocks.
   Eigen::VectorXd standardErrors(const FieldSet& set) const;

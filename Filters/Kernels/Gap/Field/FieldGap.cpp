@@ -64,17 +64,15 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
     *finding.observation, { maximumEffects, PairBeamWidth, PairOptionsFitted, true }, stop);
 }
 
-GroupEnergies energiesOf(
-  const FieldData& data, const FieldStatistics& nominal, const FieldStatistics& corrected)
+// On the test blocks.
+GapFigures heldOutFigures(const FieldData& data, const FieldStatistics& before,
+  const FieldStatistics& after, std::uint64_t seed)
 {
-  return { groupSums(data, nominal.ofBlocks(&BlockSums::energy), false),
-    groupSums(data, corrected.ofBlocks(&BlockSums::energy), false),
-    groupSums(data, corrected.ofBlocks(&BlockSums::noise), false) };
-}
-
-const PlacedStep& remainderStep()
-{
-  return stepOf(effectWith(EffectTrait::Remainder).imageForms.front().terms.front().parameter);
+  const auto sums = [&data](const FieldStatistics& statistics, double BlockSums::*number)
+  { return groupSums(data, statistics.ofBlocks(number), false); };
+  return figuresOf({ sums(before, &BlockSums::energy), sums(after, &BlockSums::energy),
+                     sums(after, &BlockSums::noise) },
+    std::fmax(sumOf(sums(after, &BlockSums::pixels)), 1.0), seed);
 }
 
 // The regular part of what a model leaves.
@@ -84,15 +82,12 @@ CameraEffect regularPartOf(const FieldData& data, const FieldStatistics& left)
   std::vector<Eigen::Index> columns(static_cast<std::size_t>(count));
   std::iota(columns.begin(), columns.end(), static_cast<Eigen::Index>(remainderStep().column));
   columns.push_back(FieldColumn::residual());
-  std::vector<std::vector<Eigen::MatrixXd>> products(static_cast<std::size_t>(data.channels()),
-    std::vector<Eigen::MatrixXd>(FieldFolds, Eigen::MatrixXd::Zero(count + 1, count + 1)));
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  std::vector<std::vector<Eigen::MatrixXd>> products = FieldFitter(data, left).folds();
+  for (std::vector<Eigen::MatrixXd>& fold : products)
   {
-    const int fold = data.blocks[b].fold;
-    for (Eigen::Index k = 0; fold >= 0 && k < data.channels(); ++k)
+    for (Eigen::MatrixXd& channel : fold)
     {
-      products[static_cast<std::size_t>(k)][static_cast<std::size_t>(fold)] +=
-        left.at(b, k).normal()(columns, columns);
+      channel = channel(columns, columns).eval();
     }
   }
   return unmodelledPart(regularPart(products), data.pair.channels);
@@ -115,13 +110,12 @@ void addRest(FieldGap& gap, const FieldData& data, const FieldWeights& weights,
     model[step.number + n] = numbers.col(static_cast<Eigen::Index>(n));
   }
   const FieldStatistics less = fieldStatistics(data, model, &weights, loop, AskedSteps{});
-  const GroupEnergies energies = energiesOf(data, left, less);
-  if (!(shrinkInterval(energies, options.seed)[0] > 0.0))
+  const GapFigures figures = heldOutFigures(data, left, less, options.seed);
+  if (!(figures.shrinkInterval[0] > 0.0))
   {
     return;
   }
-  const double pixels = sumOf(groupSums(data, less.ofBlocks(&BlockSums::pixels), false));
-  gap.report.unexplained.rmsWithRest = std::sqrt(sumOf(energies.after) / std::fmax(pixels, 1.0));
+  gap.report.unexplained.rmsWithRest = figures.rmsAfter;
   if (options.addRest)
   {
     gap.model = std::move(model);
@@ -292,10 +286,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   gap->model = finding.after().model;
   gap->unit = data.unit;
   GapReport& report = gap->report;
-  const std::vector<double> pixels =
-    groupSums(data, finding.after().ofBlocks(&BlockSums::pixels), false);
-  report.gap = figuresOf(energiesOf(data, finding.before(), finding.after()),
-    std::fmax(sumOf(pixels), 1.0), options.seed);
+  report.gap = heldOutFigures(data, finding.before(), finding.after(), options.seed);
   // The stripes that were found are an axis of the gap before, too.
   FieldModel nominal = finding.before().model;
   nominal.rows = gap->model.rows;

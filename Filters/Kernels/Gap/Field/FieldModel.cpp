@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldModel.h"
 
+#include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <cmath>
@@ -75,12 +76,14 @@ bool FieldModel::isNeutral(const PlacedStep& step) const
 
 AskedSteps everyStep()
 {
-  AskedSteps asked;
-  for (const PlacedStep& step : imageSteps())
-  {
-    asked.push_back(step.step->remainder ? 0 : 1);
-  }
+  AskedSteps asked(imageSteps().size(), 1);
+  asked[static_cast<std::size_t>(&remainderStep() - imageSteps().data())] = 0;
   return asked;
+}
+
+const PlacedStep& remainderStep()
+{
+  return stepOf(effectWith(EffectTrait::Remainder).imageForms.front().terms.front().parameter);
 }
 
 ChannelSteps FieldModel::steps(

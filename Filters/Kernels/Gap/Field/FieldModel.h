@@ -56,7 +56,8 @@ using ChannelSteps = std::vector<ChannelStep>;
 
 // Of all steps, those whose derivatives are asked for where they change nothing; elsewhere they are always given.
 using AskedSteps = std::vector<char>;
-AskedSteps everyStep(); // but that of the remainder
+AskedSteps everyStep();            // but remainderStep()
+const PlacedStep& remainderStep(); // of EffectTrait::Remainder
 
 // The signal behind these steps. others: light from elsewhere, of each step that brings it.
 double run(const ChannelSteps& steps, ImagePixel& pixel, const double* others, double signal,

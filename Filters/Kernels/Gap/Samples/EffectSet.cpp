@@ -59,12 +59,6 @@ const EffectDefinition& levelEffect()
 }
 }
 
-bool EffectSet::has(const EffectChoice& cause) const noexcept
-{
-  return std::any_of(choices.begin(), choices.end(),
-    [&cause](const EffectChoice& choice) { return choice.sameCause(cause); });
-}
-
 bool EffectSet::whiteAfterEffects() const noexcept
 {
   return std::any_of(

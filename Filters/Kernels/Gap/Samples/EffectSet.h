@@ -26,13 +26,6 @@ struct EffectChoice
   // With a level of its own: a lamp that changes its color also changes its brightness. The library's forms of
   // such an effect hold the brightness; a gain of all channels carries it in the simulator.
   bool leveled = false;
-
-  // The same effect on the same medium, whatever the form; but for FormTrait::BesideLine.
-  bool sameCause(const EffectChoice& other) const noexcept
-  {
-    return effect == other.effect && medium == other.medium &&
-      form->has(FormTrait::BesideLine) == other.form->has(FormTrait::BesideLine);
-  }
 };
 
 struct FreeParameter
@@ -63,7 +56,6 @@ struct EffectSet
   double level = 1.0;                // of the choices that are leveled
 
   std::size_t size() const noexcept { return effects.size(); }
-  bool has(const EffectChoice& cause) const noexcept;
   bool whiteAfterEffects() const noexcept;
   bool leveled() const noexcept; // and no gain of all channels is there to do it
   std::size_t steps() const;     // places of steps in time: found by search, not by derivative

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 namespace msi
@@ -331,9 +330,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
     {
       fits.push_back(one.fit);
       probability.push_back(one.probability);
-      group.emplace_back();
-      std::set_intersection(one.effects.begin(), one.effects.end(), inQuestion.begin(),
-        inQuestion.end(), std::inserter(group.back(), group.back().end()));
+      group.push_back(inBoth(one.effects, inQuestion));
       effects.insert(effects.end(), one.effects.begin(), one.effects.end());
     }
   }

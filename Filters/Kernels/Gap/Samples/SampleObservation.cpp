@@ -218,7 +218,8 @@ std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) con
   for (std::size_t option = 0; present && option < Choices.size(); ++option)
   {
     const EffectChoice& choice = Choices[option];
-    if (current.set.has(choice))
+    if (std::any_of(from.set.begin(), from.set.end(),
+          [&](std::size_t other) { return Options[other].sameCause(Options[option]); }))
     {
       continue;
     }

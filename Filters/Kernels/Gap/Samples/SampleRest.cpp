@@ -44,20 +44,20 @@ CameraEffect restOf(const GapData& data, const Eigen::MatrixXd& predicted,
   columns.push_back(data.observed - predicted);
   const int folds = std::min(Folds, static_cast<int>(training.size()));
   const std::vector<int> fold = foldsOf(data, training, folds, seed);
-  std::vector<std::vector<Eigen::MatrixXd>> products(static_cast<std::size_t>(channels),
+  std::vector<std::vector<Eigen::MatrixXd>> products(static_cast<std::size_t>(folds),
     std::vector<Eigen::MatrixXd>(
-      static_cast<std::size_t>(folds), Eigen::MatrixXd::Zero(count + 1, count + 1)));
+      static_cast<std::size_t>(channels), Eigen::MatrixXd::Zero(count + 1, count + 1)));
   Eigen::VectorXd row(count + 1);
   for (const Eigen::Index i : training)
   {
+    auto& ofFold = products[static_cast<std::size_t>(fold[static_cast<std::size_t>(i)])];
     for (Eigen::Index k = 0; k < channels; ++k)
     {
       for (Eigen::Index n = 0; n <= count; ++n)
       {
         row[n] = columns[static_cast<std::size_t>(n)](k, i);
       }
-      products[static_cast<std::size_t>(k)][static_cast<std::size_t>(
-        fold[static_cast<std::size_t>(i)])] += data.weight(k, i) * row * row.transpose();
+      ofFold[static_cast<std::size_t>(k)] += data.weight(k, i) * row * row.transpose();
     }
   }
   return unmodelledPart(regularPart(products), data.camera.channels());

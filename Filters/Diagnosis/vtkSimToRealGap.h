@@ -79,7 +79,7 @@ public:
 
   ///@{
   /**
-   * Whether the corrected simulator has what is regular in the rest, too: the effect unmodelled_response. Default off.
+   * Whether to add the effect unmodelled_response, which models what no cause explains, to the corrected simulator. Default off.
    */
   vtkSetMacro(AddRest, bool);
   vtkGetMacro(AddRest, bool);

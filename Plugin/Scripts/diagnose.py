@@ -25,7 +25,7 @@ def arguments():
     parser.add_argument("--causes", metavar="N", type=command.whole_number(1), default=5,
                         help="largest number of causes, up to 8 (default: %(default)s)")
     parser.add_argument("--add-rest", action="store_true",
-                        help="put what is regular in the rest that no cause explains into the corrected simulator, too")
+                        help="add a smooth function that models what no cause explains to the corrected simulator")
     parser.add_argument("--samples", metavar="N", type=command.whole_number(0), default=2000,
                         help="largest number of samples that are used, spread over media, scenes and levels; 0: all "
                              "(default: %(default)s)")

@@ -237,9 +237,8 @@ def verdict_section(figures, causes, gap):
     if causes:
         lines += uncredited_lines(figures, gap)
     if figures["rms_with_rest"] > 0:
-        lines.append("A part of what the causes leave is regular: a smooth function in each channel predicts it. If that is "
-                     f"simulated, too, the rms is {figures['rms_with_rest']:.4f}. It is in the corrected simulator where "
-                     "--add-rest (Add Rest in ParaView) is set.")
+        lines.append("In each channel a smooth function predicts a part of the gap that the causes leave; with it the rms is "
+                     f"{figures['rms_with_rest']:.4f}. --add-rest (Add Rest in ParaView) adds it to the corrected simulator.")
     if figures["next_capture"]:
         lines.append(f"Next capture: {next_capture(figures, gap)}.")
     return report.text(f"Verdict: {figures['verdict']}", *lines)

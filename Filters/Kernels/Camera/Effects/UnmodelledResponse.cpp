@@ -1,4 +1,4 @@
-// What no other effect says.
+// What no other effect explains.
 #include "Kernels/Camera/Effects/Effect.h"
 
 #include <array>
@@ -109,10 +109,9 @@ Effect unmodelledResponse()
   }
   Effect effect;
   effect.definition = { "unmodelled_response", "Unmodelled response",
-    "What is left of a gap after all other effects, as far as it goes with the response, the "
-    "neighbouring channels, the place and the time. It is no cause: a diagnosis adds it to the "
-    "corrected simulator where that is asked for; that of an image pair without neighbouring "
-    "channels and time.",
+    "A smooth function of response, neighbouring channels, place and time that models what no "
+    "other effect explains. It is not a cause: a diagnosis adds it to the corrected simulator on "
+    "request, for an image pair without neighbouring channels and time.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "smooth",
       "u_k + constant_k + u_k (slope_k + square_k u_k + right_k x + down_k y + drift_k (t - 1/2)) "

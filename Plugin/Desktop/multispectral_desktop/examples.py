@@ -29,7 +29,7 @@ def fabric():
 
 # Of the diagnosis, what a user looks for first.
 _SUMMARY = ("verdict", "rms_before", "rms_after", "noise_floor", "shrink")
-_CAUSES = ("title", "medium", "share", "parameter", "value", "standard_error", "unit")
+_CAUSES = ("title", "medium", "share", "probability", "parameter", "value", "unit", "standard_error")
 
 
 def capture():

@@ -9,8 +9,8 @@ from .memory import first, key
 
 # Columns that tell what a row is, and the result, in the order in which they are read.
 _LEADING = ("verdict", "rms_before", "rms_after", "noise_floor",
-            "method", "rank", "sample", "label", "medium", "title", "effect", "form", "axis", "cell", "name", "value", "unit", "standard_error", "probability",
-            "share", "shrink", "metric", "illuminant", "count", "mean", "median", "p95", "max", "channel", "wavelength",
+            "method", "rank", "sample", "label", "title", "medium", "effect", "form", "axis", "cell", "share", "probability", "shrink", "name", "parameter",
+            "value", "unit", "standard_error", "metric", "illuminant", "count", "mean", "median", "p95", "max", "channel", "wavelength",
             "dx", "dy", "agreement")
 
 _LOOKS = 6  # at a spreadsheet that an image was taken from, while it shows a table

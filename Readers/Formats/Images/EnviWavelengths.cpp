@@ -80,12 +80,8 @@ public:
       takeBandNames();
       return;
     }
-    const auto odd = std::find_if_not(stored->begin(), stored->end(),
-      [](double value) { return value > 0.0 && value < std::numeric_limits<double>::infinity(); });
-    if (odd != stored->end())
+    if (!arePossible(*stored, *stored))
     {
-      note("the wavelengths were forgotten: that of band " +
-        std::to_string(odd - stored->begin() + 1) + " is " + numberText(*odd));
       return;
     }
     const auto found = unitOf(unit, *stored);
@@ -93,11 +89,12 @@ public:
     {
       return;
     }
+    std::vector<double> wavelengths;
     for (std::size_t b = 0; b < stored->size(); ++b)
     {
       const double value = (*stored)[b];
       const double nm = found->reciprocal ? found->factor / value : value * found->factor;
-      Info.wavelengths.push_back(
+      wavelengths.push_back(
         !found->reciprocal && found->factor == 1.0 ? nm : withoutConversionNoise(nm));
       if (widths)
       {
@@ -105,6 +102,11 @@ public:
         (*widths)[b] *= found->reciprocal ? nm / value : found->factor;
       }
     }
+    if (!arePossible(wavelengths, *stored)) // 1e60 per centimetre become 0 nm
+    {
+      return;
+    }
+    Info.wavelengths = std::move(wavelengths);
     if (widths)
     {
       Info.fwhm = std::move(*widths);
@@ -112,6 +114,21 @@ public:
   }
 
 private:
+  // Or a note on the first that is not, as it was stored.
+  bool arePossible(const std::vector<double>& values, const std::vector<double>& stored)
+  {
+    const auto odd = std::find_if_not(values.begin(), values.end(),
+      [](double value) { return value > 0.0 && value < std::numeric_limits<double>::infinity(); });
+    if (odd == values.end())
+    {
+      return true;
+    }
+    const auto band = static_cast<std::size_t>(odd - values.begin());
+    note("the wavelengths were forgotten: that of band " + std::to_string(band + 1) + " is " +
+      numberText(stored[band]));
+    return false;
+  }
+
   void note(std::string text) { Info.notes.push_back(std::move(text)); }
 
   void takeBandNames()

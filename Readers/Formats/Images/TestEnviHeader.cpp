@@ -147,6 +147,17 @@ TEST(EnviHeader, WavelengthUnits)
   EXPECT_EQ(notes, (Names{ "the wavelengths are unknown: their unit is not stated" }));
 }
 
+TEST(EnviHeader, WavelengthsThatTheirUnitMakesZeroOrInfinite)
+{
+  Names notes;
+  EXPECT_TRUE(
+    wavelengthsWith("wavelength = {25000, 2e60}\nwavelength units = Wavenumber\n", &notes).empty());
+  EXPECT_EQ(notes, (Names{ "the wavelengths were forgotten: that of band 2 is 2e+60" }));
+  EXPECT_TRUE(
+    wavelengthsWith("wavelength = {1e303, 4e-7}\nwavelength units = Meters\n", &notes).empty());
+  EXPECT_EQ(notes, (Names{ "the wavelengths were forgotten: that of band 1 is 1e+303" }));
+}
+
 TEST(EnviHeader, BandwidthsOfWavenumbers)
 {
   // lambda = 1e7 / 25000 = 400 nm; d lambda = lambda dk / k = 400 * 250 / 25000 = 4 nm.

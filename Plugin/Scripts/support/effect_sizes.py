@@ -86,6 +86,13 @@ def _crosstalk(_form, p):
             "behind")
 
 
+def _bandwidth(form, p):
+    if form == "of_neighbours":
+        variance = p["added_variance"][0]
+        return f"passbands {'wider' if variance >= 0 else 'narrower'}, by {_plain(abs(variance))} nm² of variance"
+    return "passbands " + _relative([v - 1.0 for v in p["factor"]], lambda v: f"{_percent(v)} {'wider' if v >= 0 else 'narrower'}")
+
+
 def _noise(form, p):
     if form == "added":
         return f"a standard deviation of {_percent(p['added'][0])} of white in addition"
@@ -111,8 +118,7 @@ WORDS = {
     "interreflection": lambda f, p: (f"{_percent(p['probability'][0])} of the light strikes the surface once "
                                      f"{'more' if p['probability'][0] >= 0 else 'less'} than in the spectrophotometer"),
     "medium_gain": lambda f, p: _brighter(p["gain"][0] - 1.0),
-    "filter_bandwidth": lambda f, p: "passbands " + _relative([v - 1.0 for v in p["factor"]],
-                                                              lambda v: f"{_percent(v)} {'wider' if v >= 0 else 'narrower'}"),
+    "filter_bandwidth": _bandwidth,
     "filter_shift": lambda f, p: (f"{abs(p['shift'][0]):.3g} nm towards {'longer' if p['shift'][0] >= 0 else 'shorter'} wavelengths"
                                   if len(p["shift"]) == 1 else _channels(p["shift"], "nm")),
     "filter_leak": lambda f, p: _of(p["fraction"], "{} of the light through the passband leaks beside it"),

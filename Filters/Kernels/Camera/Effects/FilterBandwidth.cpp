@@ -46,6 +46,10 @@ std::unique_ptr<ResponsivityOperator> makeBandwidth(const BoundEffect& effect)
     return makePassbandsInLight(effect, Eigen::ArrayXd::Zero(effect.camera().channelCount()),
       (1.0 + (effect.perChannel("factor") - 1.0) * growthOf(effect)).max(LeastFactor));
   }
+  if (goesByNeighbours(effect))
+  {
+    return makePassbandsOfNeighbours(effect, 0.0, effect.value("added_variance"));
+  }
   return std::make_unique<FilterBandwidth>(effect);
 }
 }
@@ -63,6 +67,13 @@ Effect filterBandwidth()
     EffectStage::Responsivity, EffectNeed::Nothing,
     { { "common", "M(c + (wavelength - c) / factor), response to white kept", { factor(false) }, {},
         FormTrait::KeepsWhite },
+      { "of_neighbours",
+        "M + added_variance / 2 times the second derivative over the neighbouring channels, "
+        "response "
+        "to white kept: for a camera that was fitted to samples",
+        { { "added_variance", "nm^2", 0.0, -200.0, 400.0, 15.0,
+          "variance of the real passband beyond the nominal one" } },
+        {}, FormTrait::KeepsWhite },
       { "per_channel", "the same with a factor of its own for each channel", { factor(true) }, {},
         FormTrait::KeepsWhite },
       { "fixed_peak", "the same with the peak kept: the response to white grows with the width",

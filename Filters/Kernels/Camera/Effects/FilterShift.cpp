@@ -74,6 +74,10 @@ std::unique_ptr<ResponsivityOperator> makeShift(const BoundEffect& effect)
     return makePassbandsInLight(effect, effect.perChannel("shift") * growthOf(effect),
       Eigen::ArrayXd::Ones(effect.camera().channelCount()));
   }
+  if (goesByNeighbours(effect))
+  {
+    return makePassbandsOfNeighbours(effect, effect.value("shift"), 0.0);
+  }
   return std::make_unique<FilterShift>(effect);
 }
 }
@@ -92,6 +96,10 @@ Effect filterShift()
     EffectStage::Responsivity, EffectNeed::Nothing,
     { { "common", "M(wavelength - shift), response to white kept", { shift(false) }, {},
         FormTrait::KeepsWhite },
+      { "of_neighbours",
+        "between the passbands of the neighbouring channels, response to white kept: for a "
+        "camera that was fitted to samples",
+        { shift(false) }, {}, FormTrait::KeepsWhite },
       { "sampled",
         "the curve itself is moved on its grid: what leaves at an end is lost to the response "
         "to white",

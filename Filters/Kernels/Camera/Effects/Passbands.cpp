@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace msi
 {
@@ -71,6 +73,65 @@ private:
   double Twist;
 };
 
+class PassbandsOfNeighbours : public ResponsivityOperator
+{
+public:
+  PassbandsOfNeighbours(const Eigen::ArrayXd& centers, double shift, double variance)
+    : Change(Eigen::MatrixXd::Identity(centers.size(), centers.size()))
+  {
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(centers.size()));
+    std::iota(order.begin(), order.end(), Eigen::Index(0));
+    std::stable_sort(order.begin(), order.end(),
+      [&centers](Eigen::Index a, Eigen::Index b) { return centers[a] < centers[b]; });
+    for (std::size_t n = 0; n < order.size() && order.size() > 2; ++n)
+    {
+      const std::size_t first = std::min(n > 0 ? n - 1 : 0, order.size() - 3);
+      const double at = centers[order[n]] + shift;
+      Eigen::RowVector3d weight;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const double own = centers[order[first + i]];
+        const double one = centers[order[first + (i + 1) % 3]];
+        const double other = centers[order[first + (i + 2) % 3]];
+        const double area = (own - one) * (own - other);
+        weight[static_cast<Eigen::Index>(i)] = ((at - one) * (at - other) + variance) / area;
+      }
+      if (weight.allFinite())
+      {
+        Change.row(order[n]).setZero();
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+          Change(order[n], order[first + i]) = weight[static_cast<Eigen::Index>(i)];
+        }
+      }
+    }
+  }
+  void apply(Eigen::MatrixXd& responsivity) const override
+  {
+    const Eigen::VectorXd white = responsivity.rowwise().sum();
+    if ((white.array() > 0.0).all())
+    {
+      responsivity =
+        white.asDiagonal() * (Change * (white.cwiseInverse().asDiagonal() * responsivity));
+    }
+  }
+
+private:
+  Eigen::MatrixXd Change;
+};
+
+}
+
+std::unique_ptr<ResponsivityOperator> makePassbandsOfNeighbours(
+  const BoundEffect& effect, double shift, double variance)
+{
+  return std::make_unique<PassbandsOfNeighbours>(
+    passbandCentroids(effect.camera()), shift, variance);
+}
+
+bool goesByNeighbours(const BoundEffect& effect)
+{
+  return effect.form().name == "of_neighbours";
 }
 
 Eigen::ArrayXd gridPosition(const WavelengthGrid& grid, const Eigen::ArrayXd& wavelength)

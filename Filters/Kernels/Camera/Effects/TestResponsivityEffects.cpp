@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace
@@ -101,6 +102,79 @@ TEST(FilterBandwidth, WidensAGaussianPassband)
     EXPECT_NEAR(responseTo(band, { "filter_bandwidth", "fixed_peak", "", { factor } })[1],
       factor * expected, 2e-5);
   }
+}
+
+// Passbands of one shape at uneven places, of different brightness. Over such channels the response to a spectrum that is linear in
+// the wavelength, relative to that to white, is a line through the centers, and to one that is quadratic a parabola: exact between
+// three neighbours.
+class PassbandsOfNeighbours : public ::testing::Test
+{
+protected:
+  static constexpr std::array<double, 5> Center{ 470.0, 500.0, 540.0, 560.0, 610.0 };
+  static msi::CameraModel camera()
+  {
+    Eigen::MatrixXd responsivity(5, fineGrid().size());
+    for (Eigen::Index k = 0; k < 5; ++k)
+    {
+      responsivity.row(k) = (1.0 + 0.3 * static_cast<double>(k)) *
+        gaussian(fineGrid(), Center[static_cast<std::size_t>(k)], 8.0).transpose();
+    }
+    return { fineGrid(), responsivity, Eigen::VectorXd::Zero(5) };
+  }
+  // What the effect adds, relative to white.
+  static Eigen::VectorXd added(const Eigen::ArrayXd& spectrum, const CameraEffect& effect)
+  {
+    msi::SceneSamples samples;
+    samples.reflectance = spectrum.matrix();
+    const msi::SampleScene scene(fineGrid(), samples);
+    const Eigen::VectorXd change = CameraSimulator(camera(), { effect }).respond(scene) -
+      CameraSimulator(camera(), {}).respond(scene);
+    return change.cwiseQuotient(camera().responsivity().rowwise().sum());
+  }
+};
+
+TEST_F(PassbandsOfNeighbours, AShiftMovesTheResponseAlongALine)
+{
+  const Eigen::ArrayXd ramp = (fineGrid().vector().array() - 400.0) / 300.0;
+  for (const double shift : { -6.0, 0.5, 3.0 })
+  {
+    const Eigen::VectorXd change = added(ramp, { "filter_shift", "of_neighbours", "", { shift } });
+    EXPECT_LT((change.array() - shift / 300.0).abs().maxCoeff(), 1e-9) << shift;
+  }
+}
+
+TEST_F(PassbandsOfNeighbours, AWidthAddsItsVarianceToASquare)
+{
+  const Eigen::ArrayXd square = ((fineGrid().vector().array() - 550.0) / 150.0).square();
+  for (const double variance : { -40.0, 90.0 })
+  {
+    const Eigen::VectorXd change =
+      added(square, { "filter_bandwidth", "of_neighbours", "", { variance } });
+    EXPECT_LT((change.array() - variance / (150.0 * 150.0)).abs().maxCoeff(), 1e-9) << variance;
+  }
+}
+
+TEST_F(PassbandsOfNeighbours, WhiteKeepsItsResponse)
+{
+  const Eigen::ArrayXd white = Eigen::ArrayXd::Ones(fineGrid().size());
+  EXPECT_LT(
+    added(white, { "filter_shift", "of_neighbours", "", { 5.0 } }).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT(
+    added(white, { "filter_bandwidth", "of_neighbours", "", { 60.0 } }).cwiseAbs().maxCoeff(),
+    1e-13);
+}
+
+// Two channels have no parabola: nothing changes.
+TEST(FilterShift, NeedsThreeChannelsToGoByNeighbours)
+{
+  const msi::CameraModel camera(
+    fineGrid(), Eigen::MatrixXd::Ones(2, fineGrid().size()), Eigen::VectorXd::Zero(2));
+  msi::SceneSamples samples;
+  samples.reflectance = gaussian(fineGrid(), 550.0, BandDeviation);
+  const msi::SampleScene scene(fineGrid(), samples);
+  EXPECT_EQ(
+    CameraSimulator(camera, { { "filter_shift", "of_neighbours", "", { 5.0 } } }).respond(scene),
+    CameraSimulator(camera, {}).respond(scene));
 }
 
 // A camera whose filters are not those of the model, behind the same lamp and balanced on the same white.

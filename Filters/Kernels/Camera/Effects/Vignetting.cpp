@@ -130,7 +130,7 @@ Effect vignetting()
     order("fourth", "loss at rho = 1 that grows with rho^4"),
     order("sixth", "loss at rho = 1 that grows with rho^6") };
   const auto axis = [](const char* name) {
-    return EffectParameter{ name, "half field", 0.0, -1.0, 1.0, 0.2, "optical axis", false, true };
+    return EffectParameter{ name, "half field", 0.0, -1.0, 1.0, 0.1, "optical axis", false, true };
   };
   const std::vector<EffectParameter> center = { axis("center_x"), axis("center_y") };
   const ImageTerm quadratic = imageTerm(VignettingOfImage::Falloff, falloff);

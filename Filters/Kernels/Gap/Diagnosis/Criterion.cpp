@@ -62,7 +62,7 @@ double Criterion::occam(const ObservedFit& fit) const
 
 double Criterion::improbability(const ObservedFit& fit) const
 {
-  double sum = fit.atBound ? Decision::EffectImprobability : 0.0;
+  double sum = fit.atBound ? Decision::StandIn : 0.0;
   for (const std::size_t option : fit.set)
   {
     sum += Data.options()[option].improbability;

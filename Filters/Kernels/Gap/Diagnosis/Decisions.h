@@ -14,7 +14,7 @@ inline constexpr double DiscrepancyNumbers = 50.0;
 // And as this many where it is asked how sure the answer is.
 inline constexpr double BeliefNumbers = 25.0;
 
-// Standard deviation of a number of an effect before the data speak, in typical sizes.
+// Standard deviation of a number of an effect in a fit before the data speak, in typical sizes.
 inline constexpr double FreeSpread = 10.0;
 
 // Part of the gap's energy that the forms of effects, approximations of physics, leave at the least. A fit does not
@@ -24,15 +24,17 @@ inline constexpr double FormPart = 0.004;
 // Residuals beyond this many standard deviations count less in a fit.
 inline constexpr double OutlierDeviations = 6.0;
 
-// Minus the logarithm of the odds of an effect before the data speak; and of a parameter at the end of its range: the effect is
-// stretched to stand for another.
-inline constexpr double EffectImprobability = 3.0;
+// Minus the logarithm of the odds of an effect before the data speak.
+inline constexpr double EffectImprobability = 5.0;
 
 // And of each form of it, the more the later it stands in the library's list: the plain ones come first.
 inline constexpr double FormImprobability = 1.0;
 
 // Logarithm of odds beyond which a set is out of the question: the search does not go on from it, its effects are not equivalent.
 inline constexpr double DecisiveOdds = 6.0;
+
+// Of an effect that seems to stand for another: a parameter at the end of its range, an effect of the only medium, a gain in disguise.
+inline constexpr double StandIn = 0.5 * DecisiveOdds;
 
 // How sure?
 

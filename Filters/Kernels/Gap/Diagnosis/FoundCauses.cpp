@@ -177,26 +177,26 @@ std::vector<GapCandidate> foundCandidates(
 
 namespace
 {
-// Causes of a medium beside another of it.
-int togetherIn(const Observation& data, const ObservedFit& fit)
+// Causes of a medium beside another of it, and a parameter at its bound.
+int standInsOf(const Observation& data, const ObservedFit& fit)
 {
   std::set<std::string> media;
-  int together = 0;
+  int count = fit.atBound ? 1 : 0;
   for (const std::size_t option : fit.set)
   {
     const std::string& medium = data.options()[option].medium;
-    together += !medium.empty() && !media.insert(medium).second ? 1 : 0;
+    count += !medium.empty() && !media.insert(medium).second ? 1 : 0;
   }
-  return together;
+  return count;
 }
 }
 
 // An effect that is not in the library is e times less likely than one that is.
-double unknownProbability(double shrink, double chanceOfCurve, int together)
+double unknownProbability(double shrink, double chanceOfCurve, int standIns)
 {
   const double rest = std::pow(1.0 - std::clamp(shrink, 0.0, 1.0), 2);
   double odds =
-    std::pow(rest / Decision::UnknownRest, Decision::UnknownSteepness) + std::exp(-1.0) * together;
+    std::pow(rest / Decision::UnknownRest, Decision::UnknownSteepness) + std::exp(-1.0) * standIns;
   const double chance = std::fmax(chanceOfCurve, std::numeric_limits<double>::epsilon());
   if (chance < std::exp(-1.0))
   {
@@ -207,7 +207,7 @@ double unknownProbability(double shrink, double chanceOfCurve, int together)
 
 double unknownProbability(const Observation& data, const FoundSets& found, double shrink)
 {
-  return unknownProbability(shrink, found.best->chanceOfCurve, togetherIn(data, *found.best));
+  return unknownProbability(shrink, found.best->chanceOfCurve, standInsOf(data, *found.best));
 }
 
 std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets& found)

@@ -34,8 +34,9 @@ std::vector<GapCandidate> foundCandidates(
 //   chanceOfCurve: numbers of single channels that follow a curve look like one effect with one number. Where chance has p
 //     for it, that multiplies the odds by at most 1 / (-e p ln p) (Sellke, Bayarri and Berger 2001,
 //     doi:10.1198/000313001300339950).
-//   together: causes of a medium beside another of it. Each is e times likelier than one unknown effect in the place of both.
-double unknownProbability(double shrink, double chanceOfCurve = 1.0, int together = 0);
+//   standIns: causes of a medium beside another of it, and a parameter at the end of its range: signs that effects stand for another.
+//     Each is e times likelier than one unknown effect in the place of all.
+double unknownProbability(double shrink, double chanceOfCurve = 1.0, int standIns = 0);
 
 // The likeliest fit of each set of effects, whatever their forms and media; their probabilities sum to 1, the largest first.
 struct Explanation

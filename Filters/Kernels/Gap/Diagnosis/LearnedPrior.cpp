@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -63,44 +65,96 @@ double chanceOfCubic(const Eigen::VectorXd& deviations)
     commonFraction(deviations), Directions, static_cast<int>(deviations.size()));
 }
 
+namespace
+{
+double squareOf(double value)
+{
+  return value * value;
+}
+
+// Numbers of one group.
+struct Group
+{
+  Eigen::Index first, size;
+  FreeNumber kind;            // of the first number
+  Eigen::ArrayXd deviation;   // from neutral; with a mean of their own from that
+  double learned = 0.0;       // variance of numbers of single channels
+  Eigen::MatrixXd covariance; // of these
+};
+
+std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
+{
+  std::vector<Group> groups;
+  const auto count = static_cast<Eigen::Index>(numbers.size());
+  const auto at = [&numbers](Eigen::Index n) -> const FreeNumber&
+  { return numbers[static_cast<std::size_t>(n)]; };
+  for (Eigen::Index first = 0; first < count; first += groups.back().size)
+  {
+    Group group{ first, 1, at(first), {}, 0.0, {} };
+    while (first + group.size < count && at(first + group.size).group == group.kind.group)
+    {
+      ++group.size;
+    }
+    group.deviation.resize(group.size);
+    double variance = 0.0;
+    for (Eigen::Index p = 0; p < group.size; ++p)
+    {
+      group.deviation[p] = at(first + p).deviation;
+      variance += at(first + p).variance / static_cast<double>(group.size);
+    }
+    const double widest = squareOf(Decision::FreeSpread * group.kind.typical);
+    const bool isNeutral = (group.deviation == 0.0).all();
+    group.deviation -= group.kind.ownMean ? group.deviation.mean() : 0.0;
+    group.learned = isNeutral ? widest
+                              : std::fmin(group.deviation.square().mean() + variance +
+                                    squareOf(LeastDeviation * group.kind.typical),
+                                  widest);
+    group.covariance =
+      Eigen::MatrixXd::Constant(group.size, group.size, group.kind.ownMean ? widest : 0.0);
+    group.covariance.diagonal().array() += group.learned;
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+}
+
+Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers)
+{
+  const auto count = static_cast<Eigen::Index>(numbers.size());
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(count, count);
+  for (const Group& group : groupsOf(numbers))
+  {
+    auto block = precision.block(group.first, group.first, group.size, group.size);
+    if (group.kind.perChannel)
+    {
+      block = group.covariance.llt().solve(Eigen::MatrixXd::Identity(group.size, group.size));
+    }
+    else
+    {
+      block.diagonal().setConstant(1.0 / squareOf(Decision::FreeSpread * group.kind.typical));
+    }
+  }
+  return precision;
+}
+
 LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
 {
   const auto count = static_cast<Eigen::Index>(numbers.size());
   covariance = Eigen::MatrixXd::Zero(count, count);
-  for (Eigen::Index first = 0; first < count;)
+  for (const Group& group : groupsOf(numbers))
   {
-    const FreeNumber& number = numbers[static_cast<std::size_t>(first)];
-    Eigen::Index size = 1;
-    while (
-      first + size < count && numbers[static_cast<std::size_t>(first + size)].group == number.group)
+    auto block = covariance.block(group.first, group.first, group.size, group.size);
+    if (group.kind.perChannel)
     {
-      ++size;
-    }
-    auto block = covariance.block(first, first, size, size);
-    const double variance = number.spread * number.spread;
-    if (!number.perChannel)
-    {
-      block.diagonal().setConstant(variance);
+      block = group.covariance;
+      surprise += 0.5 * group.deviation.square().sum() / group.learned;
+      chanceOfCurve = std::fmin(chanceOfCurve, chanceOfCubic(group.deviation.matrix()));
     }
     else
     {
-      Eigen::ArrayXd deviation(size);
-      for (Eigen::Index p = 0; p < size; ++p)
-      {
-        deviation[p] = numbers[static_cast<std::size_t>(first + p)].deviation;
-      }
-      if (number.ownMean)
-      {
-        deviation -= deviation.mean();
-        block.setConstant(variance);
-      }
-      const double learned =
-        std::fmin(deviation.square().mean() + std::pow(LeastDeviation * number.scale, 2), variance);
-      block.diagonal().array() += learned;
-      surprise += 0.5 * deviation.square().sum() / learned;
-      chanceOfCurve = std::fmin(chanceOfCurve, chanceOfCubic(deviation.matrix()));
+      block.diagonal().setConstant(squareOf(group.kind.typical));
+      surprise += (group.deviation / group.kind.typical).square().log1p().sum();
     }
-    first += size;
   }
 }
 

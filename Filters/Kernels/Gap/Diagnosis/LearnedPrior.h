@@ -27,21 +27,29 @@ struct FreeNumber
   bool ownMean =
     false; // of numbers of channels: the effect also has a form with one number for all of them
   double deviation = 0.0; // from neutral
-  double spread = 1.0;    // standard deviation before the data speak
-  double scale = 1.0;     // typical size
+  double typical = 1.0;   // size
+  double variance = 0.0;  // of the deviation, once the data have spoken
 };
 
+// Precision of the numbers' prior in a fit: standard deviation Decision::FreeSpread for a common number, so that only what the data
+// do not determine stays neutral; for numbers of single channels that are no longer neutral the variance learned from them, so that a
+// common effect beside them takes what they have in common.
+Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers);
+
+// The prior by which a fit is judged.
+//   A common number: a Cauchy distribution whose scale is the typical size (H. Jeffreys, Theory of Probability, 1961, 5.2).
+//   Numbers of single channels: normal, their variance learned from them by a step of expectation and maximization; and, where
+//   `ownMean`, a mean with the standard deviation Decision::FreeSpread.
 struct LearnedPrior
 {
-  // The variance of numbers of single channels is learned from them, and their mean where `ownMean`.
   explicit LearnedPrior(const std::vector<FreeNumber>& numbers);
 
   // Prior variance over noise variance along its principal axes. information: normal matrix of the numbers without any
   // prior.
   Eigen::VectorXd informationOf(const Eigen::MatrixXd& information) const;
 
-  Eigen::MatrixXd covariance;
-  // Half the sum of squares of numbers of channels over their learned deviations.
+  Eigen::MatrixXd covariance; // of a common number the square of the scale
+  // Minus the logarithm of the prior's density over that at neutral.
   double surprise = 0.0;
   // Probability that independent numbers of channels follow a smooth curve over the channels as closely; the smallest of
   // all groups.

@@ -1,3 +1,4 @@
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Gap/ReportParts.h"
@@ -9,12 +10,13 @@
 namespace
 {
 
-TEST(LearnedPrior, ACommonNumberKeepsItsSpread)
+// Minus the logarithm of a Cauchy density is that at 0 plus ln(1 + (x / scale)^2).
+TEST(LearnedPrior, ACommonNumberIsCauchyByItsTypicalSize)
 {
-  const msi::LearnedPrior prior({ { 0, false, false, 0.3, 2.0, 0.1 } });
-  EXPECT_DOUBLE_EQ(prior.covariance(0, 0), 4.0);
-  EXPECT_EQ(prior.surprise, 0.0);
-  EXPECT_NEAR(prior.informationOf(Eigen::MatrixXd::Constant(1, 1, 5.0))[0], 20.0, 1e-12);
+  const msi::LearnedPrior prior({ { 0, false, false, 0.3, 0.1 } });
+  EXPECT_NEAR(prior.covariance(0, 0), 0.01, 1e-15);
+  EXPECT_NEAR(prior.surprise, std::log(10.0), 1e-12);
+  EXPECT_NEAR(prior.informationOf(Eigen::MatrixXd::Constant(1, 1, 500.0))[0], 5.0, 1e-12);
 }
 
 // Numbers +-d scatter by d: each is one deviation from its mean, whatever d is.
@@ -22,8 +24,8 @@ TEST(LearnedPrior, NumbersOfChannelsLearnTheirScatter)
 {
   for (const double size : { 0.01, 0.5 })
   {
-    const msi::LearnedPrior prior({ { 0, true, false, size, 10.0, 1.0 },
-      { 0, true, false, -size, 10.0, 1.0 }, { 1, false, false, 0.0, 3.0, 1.0 } });
+    const msi::LearnedPrior prior({ { 0, true, false, size, 1.0 }, { 0, true, false, -size, 1.0 },
+      { 1, false, false, 0.0, 3.0 } });
     EXPECT_NEAR(prior.covariance(0, 0), size * size, 1e-9);
     EXPECT_EQ(prior.covariance(0, 1), 0.0);
     EXPECT_DOUBLE_EQ(prior.covariance(2, 2), 9.0);
@@ -31,13 +33,33 @@ TEST(LearnedPrior, NumbersOfChannelsLearnTheirScatter)
   }
 }
 
+// Expectation and maximization: what is not known of the numbers adds to their variance.
+TEST(LearnedPrior, UncertainNumbersMayScatterMore)
+{
+  const msi::LearnedPrior prior(
+    { { 0, true, false, 0.3, 1.0, 0.07 }, { 0, true, false, -0.3, 1.0, 0.07 } });
+  EXPECT_NEAR(prior.covariance(0, 0), 0.09 + 0.07, 1e-9);
+}
+
 // What is common to all channels is a number of its own where the effect has a form with one.
 TEST(LearnedPrior, ACommonPartIsNoScatter)
 {
-  const msi::LearnedPrior prior(
-    { { 0, true, true, 1.1, 10.0, 1.0 }, { 0, true, true, 0.9, 10.0, 1.0 } });
-  EXPECT_NEAR(prior.covariance(0, 1), 100.0, 1e-9);
+  const msi::LearnedPrior prior({ { 0, true, true, 1.1, 1.0 }, { 0, true, true, 0.9, 1.0 } });
+  const double widest = std::pow(msi::Decision::FreeSpread, 2);
+  EXPECT_NEAR(prior.covariance(0, 1), widest, 1e-9);
   EXPECT_NEAR(prior.covariance(0, 0) - prior.covariance(0, 1), 0.01, 1e-6);
+}
+
+TEST(FitPrecision, IsWideUntilNumbersOfChannelsAreKnown)
+{
+  const double wide = std::pow(msi::Decision::FreeSpread * 0.5, -2);
+  const Eigen::MatrixXd before = msi::fitPrecision(
+    { { 0, true, false, 0.0, 0.5 }, { 0, true, false, 0.0, 0.5 }, { 1, false, false, 0.2, 0.5 } });
+  EXPECT_LT((before - wide * Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-12);
+  const Eigen::MatrixXd behind = msi::fitPrecision(
+    { { 0, true, false, 0.2, 0.5 }, { 0, true, false, -0.2, 0.5 }, { 1, false, false, 0.2, 0.5 } });
+  EXPECT_NEAR(behind(0, 0), 25.0, 1e-6);
+  EXPECT_NEAR(behind(2, 2), wide, 1e-12);
 }
 
 TEST(LearnedPrior, NothingFreeIsNothingKnown)
@@ -53,8 +75,14 @@ TEST(UnknownProbability, GrowsWithWhatIsLeft)
   EXPECT_LT(msi::unknownProbability(0.9), 0.2);
   EXPECT_GT(msi::unknownProbability(0.3), 0.7);
   EXPECT_GT(msi::unknownProbability(0.0), 0.8);
-  EXPECT_GT(msi::unknownProbability(1.0, 1e-4), 0.9);
+  // 1 / (-e p ln p) times that of an effect: the largest odds that the chance p can give.
+  const double chance = 1e-4;
+  const double odds =
+    std::exp(-msi::Decision::EffectImprobability - 1.0) / (-chance * std::log(chance));
+  EXPECT_NEAR(msi::unknownProbability(1.0, chance), odds / (1.0 + odds), 1e-12);
   EXPECT_EQ(msi::unknownProbability(1.0, 0.5), 0.0);
+  // Odds of e^-1 for each sign that effects stand for another.
+  EXPECT_NEAR(msi::unknownProbability(1.0, 1.0, 2), 2.0 / (2.0 + std::exp(1.0)), 1e-12);
   EXPECT_EQ(msi::unknownProbability(-0.5), msi::unknownProbability(0.0));
 }
 

@@ -189,6 +189,26 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, Eigen::Index channels)
   return numbers;
 }
 
+bool isPerChannel(const std::vector<ImageTerm>& terms)
+{
+  return std::any_of(
+    terms.begin(), terms.end(), [](const ImageTerm& term) { return term.perChannel; });
+}
+
+std::vector<FreeNumber> freeNumbers(const FieldSet& set, const FieldModel& model)
+{
+  std::vector<FreeNumber> numbers;
+  for (const FieldNumber& number : numbersOf(set, model.channels()))
+  {
+    const ImageTerm& term = *number.term;
+    const double value = model.at(term.parameter, std::max<Eigen::Index>(number.channel, 0));
+    numbers.push_back({ term.parameter, term.perChannel,
+      !isPerChannel(number.choice->effect->imageForms.front().terms),
+      value - numberOf(term.parameter).neutral, term.typical });
+  }
+  return numbers;
+}
+
 Eigen::Index parameterCount(const FieldChoice& choice, Eigen::Index channels)
 {
   return static_cast<Eigen::Index>(numbersOf({ &choice }, channels).size()) +

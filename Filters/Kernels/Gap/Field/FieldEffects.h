@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/GapReport.h"
 
@@ -58,6 +59,10 @@ struct FieldNumber
   double lower, upper, typical;
 };
 std::vector<FieldNumber> numbersOf(const FieldSet& set, Eigen::Index channels);
+
+// The same numbers, where a model has them, for their prior.
+std::vector<FreeNumber> freeNumbers(const FieldSet& set, const FieldModel& model);
+bool isPerChannel(const std::vector<ImageTerm>& terms);
 
 // Neither the same effect nor parameters in common.
 bool compatible(const FieldSet& set, const FieldChoice& choice);

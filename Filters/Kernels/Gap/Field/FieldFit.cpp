@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldFit.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Gap/GapAxes.h"
 
 #include <Eigen/Cholesky>
@@ -152,11 +153,12 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
     numbers.push_back(bound.number);
   }
   const std::vector<Design> design = designs(numbers, about);
+  const Eigen::MatrixXd prior = priorOf(set, bounds);
   Eigen::VectorXd step;
   bool beyond = true;
   for (int round = 0; round < Rounds && beyond; ++round)
   {
-    step = solve(Total, design, bounds);
+    step = solve(Total, design, bounds, prior);
     beyond = false;
     for (std::size_t n = 0; n < bounds.size(); ++n)
     {
@@ -188,7 +190,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
     {
       others[k] -= own[k];
     }
-    const Eigen::VectorXd without = solve(others, design, bounds);
+    const Eigen::VectorXd without = solve(others, design, bounds, prior);
     fit.change.emplace_back();
     for (std::size_t k = 0; k < others.size(); ++k)
     {
@@ -199,8 +201,36 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
   return fit;
 }
 
+Eigen::MatrixXd FieldFitter::priorOf(const FieldSet& set, const std::vector<Bound>& bounds) const
+{
+  const auto count = static_cast<Eigen::Index>(bounds.size());
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index n = 0; n < count; ++n)
+  {
+    prior(n, n) = precisionBefore(bounds[static_cast<std::size_t>(n)].number);
+  }
+  // Beside others numbers of single channels keep to what they do not have in common.
+  std::vector<FreeNumber> numbers = freeNumbers(set, Statistics.model);
+  const auto own = static_cast<Eigen::Index>(numbers.size());
+  if (set.size() > 1 &&
+    std::any_of(
+      numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.perChannel; }))
+  {
+    const Eigen::MatrixXd posterior = information(set) + prior.topLeftCorner(own, own);
+    const Eigen::VectorXd variance =
+      posterior.ldlt().solve(Eigen::MatrixXd::Identity(own, own)).diagonal();
+    for (Eigen::Index n = 0; n < own; ++n)
+    {
+      numbers[static_cast<std::size_t>(n)].variance = variance[n];
+    }
+    prior.topLeftCorner(own, own) = fitPrecision(numbers);
+  }
+  return prior;
+}
+
 Eigen::VectorXd FieldFitter::solve(const std::vector<Eigen::MatrixXd>& normal,
-  const std::vector<Design>& design, const std::vector<Bound>& bounds) const
+  const std::vector<Design>& design, const std::vector<Bound>& bounds,
+  const Eigen::MatrixXd& prior) const
 {
   const auto count = static_cast<Eigen::Index>(bounds.size());
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count);
@@ -214,14 +244,21 @@ Eigen::VectorXd FieldFitter::solve(const std::vector<Eigen::MatrixXd>& normal,
     information(design[k].numbers, design[k].numbers) += design[k].information(normal[k]);
     gradient(design[k].numbers) += design[k].gradient(normal[k]);
   }
+  Eigen::VectorXd off(count);
+  Eigen::MatrixXd precision = prior;
   for (Eigen::Index n = 0; n < count; ++n)
   {
     const Bound& bound = bounds[static_cast<std::size_t>(n)];
-    const double precision =
-      bound.held ? Held * (information(n, n) + 1.0) : precisionBefore(bound.number);
-    gradient[n] += precision * (bound.wanted - valueIn(Statistics.model, bound.number));
-    information(n, n) += precision;
+    off[n] = bound.wanted - valueIn(Statistics.model, bound.number);
+    if (bound.held)
+    {
+      precision.row(n).setZero();
+      precision.col(n).setZero();
+      precision(n, n) = Held * (information(n, n) + 1.0);
+    }
   }
+  gradient += precision * off;
+  information += precision;
   return information.ldlt().solve(gradient);
 }
 

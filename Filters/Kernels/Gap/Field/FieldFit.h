@@ -64,7 +64,10 @@ private:
   std::vector<Design> designs(
     const std::vector<FieldNumber>& numbers, const FieldModel& about) const;
   Eigen::VectorXd solve(const std::vector<Eigen::MatrixXd>& normal,
-    const std::vector<Design>& design, const std::vector<Bound>& bounds) const;
+    const std::vector<Design>& design, const std::vector<Bound>& bounds,
+    const Eigen::MatrixXd& prior) const;
+  // Precision of the numbers of the set, which come first, and of those that are held.
+  Eigen::MatrixXd priorOf(const FieldSet& set, const std::vector<Bound>& bounds) const;
 
   const FieldData& Data;
   const FieldStatistics& Statistics;

@@ -80,6 +80,7 @@ struct FieldModel
   {
     return Values(static_cast<Eigen::Index>(parameter), channel);
   }
+  Eigen::Index channels() const noexcept { return Values.cols(); }
   const double* numbers(const PlacedStep& step, Eigen::Index channel) const
   {
     return &Values(static_cast<Eigen::Index>(step.number), channel);

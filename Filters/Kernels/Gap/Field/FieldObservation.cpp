@@ -21,12 +21,6 @@ const FieldHypothesis& hypothesisOf(const ObservedFit& fit)
   return static_cast<const FieldObservedFit&>(fit).hypothesis;
 }
 
-bool isPerChannel(const std::vector<ImageTerm>& terms)
-{
-  return std::any_of(
-    terms.begin(), terms.end(), [](const ImageTerm& term) { return term.perChannel; });
-}
-
 std::vector<GapOption> fieldOptions(const std::vector<FieldChoice>& choices)
 {
   std::vector<GapOption> options;
@@ -250,15 +244,10 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
     described->set.push_back(static_cast<std::size_t>(choice - Choices.data()));
   }
   described->energy = hypothesis.fit.energy;
-  std::vector<FreeNumber> numbers;
   for (const FieldNumber& number : numbersOf(hypothesis.set, Data.channels()))
   {
     const ImageTerm& term = *number.term;
     const double value = model.at(term.parameter, std::max<Eigen::Index>(number.channel, 0));
-    numbers.push_back({ term.parameter, term.perChannel,
-      !isPerChannel(number.choice->effect->imageForms.front().terms),
-      value - numberOf(term.parameter).neutral, Decision::FreeSpread * term.typical,
-      term.typical });
     if (numberOf(term.parameter).pull == ImagePull::Itself)
     {
       described->surprise += 0.5 * std::pow(value / term.typical, 2); // axes are near the middle
@@ -266,7 +255,7 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
     described->atBound = described->atBound ||
       ((value <= term.lower || value >= term.upper) && !isShape(term.parameter));
   }
-  const LearnedPrior prior(numbers);
+  const LearnedPrior prior(freeNumbers(hypothesis.set, model));
   described->information =
     prior.informationOf(FieldFitter(Data, *hypothesis.statistics).information(hypothesis.set));
   described->surprise += prior.surprise;

@@ -44,6 +44,11 @@ Eigen::ArrayXd huber(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& weigh
   return (whitened.abs() > cut).select((cut / whitened.abs().cwiseMax(1e-300)).sqrt(), 1.0);
 }
 
+Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& symmetric)
+{
+  return symmetric.ldlt().solve(Eigen::MatrixXd::Identity(symmetric.rows(), symmetric.cols()));
+}
+
 double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
 {
   return (whitened * root).square().sum();
@@ -77,15 +82,24 @@ Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& jacobian,
   return normal;
 }
 
-Eigen::MatrixXd EffectFit::informationOfData() const
+std::vector<FreeNumber> EffectFit::numbers() const
 {
-  Eigen::MatrixXd ofData = information;
-  for (std::size_t p = 0; p < free.size(); ++p)
+  std::vector<FreeNumber> numbers;
+  for (const FreeParameter& parameter : free)
   {
-    const auto at = static_cast<Eigen::Index>(p);
-    ofData(at, at) -= free[p].precision();
+    const bool perChannel = parameter.channel >= 0;
+    const auto hasCommonForm = [this, &parameter]
+    {
+      const auto& plain = set.choices[parameter.effect].effect->forms.front().parameters;
+      return std::none_of(
+        plain.begin(), plain.end(), [](const EffectParameter& one) { return one.perChannel; });
+    };
+    const auto at = static_cast<Eigen::Index>(numbers.size());
+    numbers.push_back({ parameter.group, perChannel, perChannel && hasCommonForm(),
+      set.value(parameter) - parameter.neutral, parameter.scale,
+      at < variance.size() ? variance[at] : 0.0 });
   }
-  return ofData;
+  return numbers;
 }
 
 EffectFitter::EffectFitter(const GapData& data, SampleList training, std::uint64_t seed)
@@ -112,6 +126,7 @@ EffectFit EffectFitter::nominal() const
   fit.predicted = Data.simulated;
   fit.jacobian.resize(Data.observed.size(), 0);
   fit.information.resize(0, 0);
+  fit.prior.resize(0, 0);
   crossValidate(fit);
   return fit;
 }
@@ -126,15 +141,20 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   fit.set = std::move(start);
   fit.free = fit.set.freeParameters(Data.camera);
   const auto count = static_cast<Eigen::Index>(fit.free.size());
-  Eigen::ArrayXd prior(count), lower(count), upper(count), neutral(count);
+  Eigen::ArrayXd lower(count), upper(count), neutral(count);
+  fit.prior = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index p = 0; p < count; ++p)
   {
     const FreeParameter& parameter = fit.free[static_cast<std::size_t>(p)];
-    prior[p] = parameter.precision();
+    fit.prior(p, p) = parameter.precision();
     lower[p] = parameter.lower;
     upper[p] = parameter.upper;
     neutral[p] = parameter.neutral;
   }
+  // Beside others numbers of single channels keep to what they do not have in common.
+  const bool learns = fit.set.size() > 1 &&
+    std::any_of(fit.free.begin(), fit.free.end(),
+      [](const FreeParameter& parameter) { return parameter.channel >= 0; });
   const Eigen::ArrayXd rootWeight = flat(Weight).sqrt();
   const auto whiten = [&](const Eigen::MatrixXd& predicted) -> Eigen::ArrayXd
   { return (rootWeight > 0.0).select(rootWeight * (flat(Data.observed) - flat(predicted)), 0.0); };
@@ -143,12 +163,17 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   {
     fit.predicted = noResponse(Data.camera, Data.scene);
     fit.jacobian = Eigen::MatrixXd::Zero(Data.observed.size(), count);
-    fit.information = prior.matrix().asDiagonal();
+    fit.information = fit.prior;
     crossValidate(fit);
     return fit;
   }
   Eigen::ArrayXd residual = whiten(here->response());
-  double damping = 1e-6;
+  double damping = 1e-9;
+  const auto penalty = [&](const Eigen::VectorXd& values)
+  {
+    const Eigen::VectorXd off = values - neutral.matrix();
+    return off.dot(fit.prior * off);
+  };
   bool fresh = false;
   for (fit.iterations = 0; fit.iterations < effort.iterations; ++fit.iterations)
   {
@@ -163,8 +188,13 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
       normalMatrix(fit.jacobian, trust.square(), fit.free, fit.set.reach(), Training);
     Eigen::VectorXd gradient =
       fit.jacobian.transpose() * (rootWeight * residual * root.square()).matrix();
-    normal.diagonal().array() += prior;
-    gradient.array() -= prior * (values.array() - neutral);
+    if (learns)
+    {
+      fit.variance = inverseOf(normal + fit.prior).diagonal();
+      fit.prior = fitPrecision(fit.numbers());
+    }
+    normal += fit.prior;
+    gradient -= fit.prior * (values.array() - neutral).matrix();
     // A parameter at its bound that wants further out stays.
     for (Eigen::Index p = 0; p < count; ++p)
     {
@@ -177,8 +207,7 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
         gradient[p] = 0.0;
       }
     }
-    const double before =
-      huberCost(residual, root) + (prior * (values.array() - neutral).square()).sum();
+    const double before = huberCost(residual, root) + penalty(values);
     bool better = false;
     double after = before;
     for (int attempt = 0; attempt < 6 && !better; ++attempt)
@@ -194,7 +223,7 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
       if (there)
       {
         Eigen::ArrayXd trialResidual = whiten(there->response());
-        after = huberCost(trialResidual, root) + (prior * (trial.array() - neutral).square()).sum();
+        after = huberCost(trialResidual, root) + penalty(trial);
         better = after < before;
         if (better)
         {
@@ -218,7 +247,8 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   }
   fit.predicted = here->response();
   fit.information = normalMatrix(fit.jacobian, Weight.array(), fit.free, fit.set.reach(), Training);
-  fit.information.diagonal().array() += prior;
+  fit.information += fit.prior;
+  fit.variance = inverseOf(fit.information).diagonal();
   crossValidate(fit);
   return fit;
 }
@@ -287,8 +317,7 @@ Eigen::MatrixXd EffectFitter::covariance(const EffectFit& fit) const
     meat += score * score.transpose();
   }
   const auto samples = static_cast<double>(Training.size());
-  const Eigen::MatrixXd inverse =
-    fit.information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd inverse = inverseOf(fit.information);
   return samples / std::fmax(samples - 1.0, 1.0) * inverse * meat * inverse;
 }
 

@@ -1,6 +1,7 @@
 // Fits sets of effects to a capture and says how well they predict samples that were left out.
 #pragma once
 
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Gap/Samples/EffectSet.h"
 #include "Kernels/Gap/Samples/GapData.h"
 
@@ -31,19 +32,22 @@ struct EffectFit
   std::vector<FreeParameter> free;
   Eigen::MatrixXd predicted;   // K x S, all samples
   Eigen::MatrixXd jacobian;    // KS x p
+  Eigen::MatrixXd prior;       // p x p, precision: fitPrecision()
   Eigen::MatrixXd information; // p x p, weighted normal matrix with its prior
+  Eigen::VectorXd variance;    // p, of the parameters given the data, at unit dispersion
   Eigen::MatrixXd heldOut; // K x S, cross-validated residual of the training samples, 0 elsewhere
   double energy = 0.0;     // weighted sum of squares of heldOut
   double dispersion =
     1.0; // energy a residual element has, with the samples' correlation between channels
   int iterations = 0;
 
-  Eigen::MatrixXd informationOfData() const; // information without its prior
+  Eigen::MatrixXd informationOfData() const { return information - prior; }
+  std::vector<FreeNumber> numbers() const;
 };
 
 // Gauss-Newton with Levenberg damping, bounds by projection, Huber weights beyond
-// Decision::OutlierDeviations. Each parameter has a normal prior about neutral (FreeParameter::spread), so that what the data does not
-// determine stays neutral.
+// Decision::OutlierDeviations. Each parameter has a normal prior about neutral (fitPrecision), so that what the data do not
+// determine stays neutral. Numbers of single channels beside other effects learn the variance of theirs on the way.
 //
 // Cross-validation: the estimate without a fold is one Gauss-Newton step from the estimate with it, exact
 // for linear effects and to second order in the step else; so folds cost no further simulation.

@@ -59,6 +59,11 @@ const EffectDefinition& levelEffect()
 }
 }
 
+double FreeParameter::precision() const noexcept
+{
+  return std::pow(Decision::FreeSpread * scale, -2);
+}
+
 bool EffectSet::whiteAfterEffects() const noexcept
 {
   return std::any_of(
@@ -172,8 +177,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
             name += "[" + camera.channels()[static_cast<std::size_t>(k)] + "]";
           }
           free.push_back({ e, index, parameter.perChannel ? k : -1, group, parameter.neutral,
-            parameter.lower, parameter.upper, parameter.typical,
-            Decision::FreeSpread * parameter.typical, name, parameter.unit });
+            parameter.lower, parameter.upper, parameter.typical, name, parameter.unit });
         }
       }
       ++group;
@@ -183,7 +187,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
   {
     const EffectParameter& gain = levelEffect().forms.front().parameters.front();
     free.push_back({ effects.size(), 0, -1, group, gain.neutral, gain.lower, gain.upper,
-      gain.typical, Decision::FreeSpread * gain.typical, "level", gain.unit });
+      gain.typical, "level", gain.unit });
   }
   return free;
 }

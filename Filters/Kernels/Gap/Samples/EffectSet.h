@@ -35,10 +35,9 @@ struct FreeParameter
   Eigen::Index channel; // -1: common to all channels
   std::size_t group;    // parameters of one group differ in the channel only
   double neutral, lower, upper, scale;
-  double spread; // standard deviation about neutral before the data speak
   std::string name, unit;
 
-  double precision() const noexcept { return 1.0 / (spread * spread); }
+  double precision() const noexcept; // of its prior about neutral in a fit
 };
 
 // The parameter that says when a step takes place: its index in CameraEffect::parameters, that of its width behind it.

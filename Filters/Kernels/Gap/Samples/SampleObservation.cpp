@@ -40,10 +40,8 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, cons
               ? 0.0
               : static_cast<double>(
                   choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0))) +
-        (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter
-            ? Decision::EffectImprobability
-            : 0.0) +
-        (onlyMedium ? Decision::EffectImprobability : 0.0),
+        (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter ? Decision::StandIn : 0.0) +
+        (onlyMedium ? Decision::StandIn : 0.0),
       choice.form->has(FormTrait::BesideLine) });
   }
   return options;
@@ -62,24 +60,6 @@ EffectFit withSecondary(const EffectFitter& fitter, EffectFit fit, std::size_t p
   freed.secondaryFree[position] = 1;
   EffectFit other = fitter.fit(std::move(freed), SearchFit.unwantedAbove(fit.energy));
   return other.energy + Decision::SureDeviations * other.dispersion < fit.energy ? other : fit;
-}
-
-std::vector<FreeNumber> numbersOf(const EffectFit& fit)
-{
-  std::vector<FreeNumber> numbers;
-  for (const FreeParameter& parameter : fit.free)
-  {
-    const bool perChannel = parameter.channel >= 0;
-    const auto hasCommonForm = [&fit, &parameter]
-    {
-      const auto& plain = fit.set.choices[parameter.effect].effect->forms.front().parameters;
-      return std::none_of(
-        plain.begin(), plain.end(), [](const EffectParameter& one) { return one.perChannel; });
-    };
-    numbers.push_back({ parameter.group, perChannel, perChannel && hasCommonForm(),
-      fit.set.value(parameter) - parameter.neutral, parameter.spread, parameter.scale });
-  }
-  return numbers;
 }
 
 // The residual and everything the present effects can do, taken out of the way.
@@ -302,7 +282,7 @@ FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> 
     const double value = fit.set.value(parameter);
     described->atBound = described->atBound || value <= parameter.lower || value >= parameter.upper;
   }
-  const LearnedPrior prior(numbersOf(fit));
+  const LearnedPrior prior(fit.numbers());
   described->information = prior.informationOf(fit.informationOfData());
   described->surprise = prior.surprise;
   described->chanceOfCurve = prior.chanceOfCurve;

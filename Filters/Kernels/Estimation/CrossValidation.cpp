@@ -1,7 +1,7 @@
 #include "Kernels/Estimation/CrossValidation.h"
+#include "Kernels/Estimation/SampleDraw.h"
 #include "Kernels/Spectra/Counted.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -25,17 +25,10 @@ CandidateChoice chooseCandidate(
   {
     return choice;
   }
-  const Eigen::Index folds = std::min(MostFolds, tuning.size());
   std::vector<double> squares(candidates, 0.0);
-  for (Eigen::Index fold = 0; fold < folds; ++fold)
+  for (const auto& leftOut : leftOutFolds(tuning.size(), MostFolds))
   {
-    std::vector<Eigen::Index> kept;
-    std::vector<Eigen::Index> leftOut;
-    for (Eigen::Index i = 0; i < tuning.size(); ++i)
-    {
-      (i % folds == fold ? leftOut : kept).push_back(i);
-    }
-    const SampleSet keptSamples = tuning.subset(kept);
+    const SampleSet keptSamples = tuning.subset(remainingSamples(tuning.size(), leftOut));
     const SampleSet tested = tuning.subset(leftOut);
     for (std::size_t candidate = 0; candidate < candidates; ++candidate)
     {

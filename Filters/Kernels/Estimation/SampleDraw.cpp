@@ -2,6 +2,7 @@
 
 #include "Kernels/Spectra/Reject.h"
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -71,6 +72,17 @@ std::vector<Eigen::Index> remainingSamples(
     }
   }
   return remaining;
+}
+
+std::vector<std::vector<Eigen::Index>> leftOutFolds(Eigen::Index samples, Eigen::Index mostFolds)
+{
+  const auto folds = static_cast<std::size_t>(std::min(samples, mostFolds));
+  std::vector<std::vector<Eigen::Index>> left(folds);
+  for (Eigen::Index i = 0; i < samples; ++i)
+  {
+    left[static_cast<std::size_t>(i) % folds].push_back(i);
+  }
+  return left;
 }
 
 } // namespace msi

@@ -22,4 +22,8 @@ std::vector<Eigen::Index> drawSamples(
 std::vector<Eigen::Index> remainingSamples(
   Eigen::Index population, const std::vector<Eigen::Index>& chosen);
 
+// Samples to leave out together, fold by fold: sample i with all that equal it modulo the number of folds, which is
+// 'mostFolds' or the number of samples where there are fewer.
+std::vector<std::vector<Eigen::Index>> leftOutFolds(Eigen::Index samples, Eigen::Index mostFolds);
+
 } // namespace msi

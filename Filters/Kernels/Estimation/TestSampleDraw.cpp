@@ -54,6 +54,13 @@ TEST(SampleDraw, SplitsThePopulation)
   }
 }
 
+TEST(SampleDraw, LeavesOutEverySampleInOneFold)
+{
+  using Folds = std::vector<Indices>;
+  EXPECT_EQ(msi::leftOutFolds(5, 2), (Folds{ { 0, 2, 4 }, { 1, 3 } }));
+  EXPECT_EQ(msi::leftOutFolds(3, 8), (Folds{ { 0 }, { 1 }, { 2 } }));
+}
+
 TEST(SampleDraw, RefusesMoreThanThereAre)
 {
   EXPECT_EQ(msi::test::messageOf([] { msi::drawSamples(3, 4, 1, 0); }),

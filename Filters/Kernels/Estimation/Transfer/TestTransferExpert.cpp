@@ -214,4 +214,28 @@ TEST(TransferExpert, LeavesOutASampleAsARefitWithoutItDoes)
   }
 }
 
+// A fit that never sees the sample, from the prior's center, finds the same hyperparameters to within the
+// tolerance of the search.
+TEST(TransferExpert, RefitsWithoutTheSampleItEstimates)
+{
+  const msi::SampleSet chart{ positive(5, 30, 16), positive(3, 30, 17) };
+  msi::SampleSet tuning{ positive(5, 6, 18), positive(3, 6, 19) };
+  for (const TransferSpace space : BothSpaces)
+  {
+    const auto fit = msi::fitTransferExpert(space, chart, tuning);
+    for (Eigen::Index left = 0; left < 6; ++left)
+    {
+      const auto without =
+        msi::fitTransferExpert(space, chart, tuning.subset(msi::remainingSamples(6, { left })));
+      const Eigen::MatrixXd at = tuning.response.col(left);
+      Eigen::VectorXd mean(5);
+      Eigen::VectorXd deviation(5);
+      const msi::PackedTransfer mixture({ { without.expert }, { 1.0 }, { 1.0 },
+        Eigen::MatrixXd::Zero(5, 4), 0.0, Eigen::VectorXd::Ones(5) });
+      msi::runTransfer(mixture, at.data(), mean.data(), deviation.data(), 1);
+      EXPECT_LT(largestDifference(fit.refittedEstimate.col(left), mean), 0.01) << left;
+    }
+  }
+}
+
 }

@@ -25,9 +25,6 @@ const Eigen::Vector3d PriorShares(0.4, 0.4, 0.2); // linear, square root, affine
 constexpr double MixturePriorSamples = 10.0;
 // Tuning samples that the chart's pattern of variance over the bands is worth.
 constexpr double BandPriorSamples = 10.0;
-// Left-out errors are optimistic, for the sample left out has taken part in the fit of the
-// hyperparameters: as if that many samples of variance were missing.
-constexpr double HyperparameterSamples = 3.0;
 // The share of measured values that intervals are calibrated to hold, and the normal deviate below which that share lies.
 constexpr double CalibratedShare = 0.9;
 constexpr double NormalQuantile = 1.6448536269514722;
@@ -55,14 +52,8 @@ AffineExpert fitAffineExpert(const SampleSet& calibration, const SampleSet& tuni
   expert.coefficients =
     fitMetamerismCorrection(calibration, tuning, options).composite.coefficients();
   expert.leftOutErrors.resize(tuning.bands(), count);
-  const Eigen::Index folds = std::min(count, LargestFoldCount);
-  for (Eigen::Index fold = 0; fold < folds; ++fold)
+  for (const auto& left : leftOutFolds(count, LargestFoldCount))
   {
-    std::vector<Eigen::Index> left;
-    for (Eigen::Index i = fold; i < count; i += folds)
-    {
-      left.push_back(i);
-    }
     const MetamerismFit fit =
       fitMetamerismCorrection(calibration, tuning.subset(remainingSamples(count, left)), options);
     const SampleSet out = tuning.subset(left);
@@ -100,9 +91,12 @@ Eigen::MatrixXd unitVariance(const TransferExpertFit& fit)
 
 // Variance per band in units of what the model expects: of squared left-out errors of the tuning samples, drawn toward
 // the chart's pattern over the bands; then scaled so that the normal 90 % interval holds 90 % of the left-out errors, whose
-// tails are heavier than the normal distribution's. The level is itself known from few samples: Student's t.
+// tails are heavier than the normal distribution's. The level is itself known from few samples: Student's t. And it is
+// optimistic, for the sample left out has taken part in the fit of the hyperparameters: 'refittedErrors', of fits in which
+// it has not, tell by how much.
 Eigen::VectorXd calibratedBandVariance(const Eigen::MatrixXd& chartErrors,
-  const Eigen::MatrixXd& tuningErrors, const Eigen::MatrixXd& unitVariances)
+  const Eigen::MatrixXd& tuningErrors, const Eigen::MatrixXd& refittedErrors,
+  const Eigen::MatrixXd& unitVariances)
 {
   const Eigen::ArrayXXd variances = unitVariances.array().max(1e-300);
   const auto ofTuningSamples = variances.rightCols(tuningErrors.cols());
@@ -114,13 +108,17 @@ Eigen::VectorXd calibratedBandVariance(const Eigen::MatrixXd& chartErrors,
   const double level = ofChart.mean() > 0.0 ? ofTuning.mean() / ofChart.mean() : 0.0;
   const Eigen::VectorXd pattern =
     (samples * ofTuning + BandPriorSamples * level * ofChart) / (samples + BandPriorSamples);
-  const Eigen::ArrayXXd scores =
-    tuningErrors.array().abs() / (ofTuningSamples.colwise() * pattern.array().max(1e-300)).sqrt();
+  const Eigen::ArrayXXd expected = ofTuningSamples.colwise() * pattern.array().max(1e-300);
+  const Eigen::ArrayXXd squares = tuningErrors.array().square() / expected;
   const double tail =
-    percentile(scores.reshaped().matrix(), 100.0 * CalibratedShare) / NormalQuantile;
+    percentile(squares.sqrt().reshaped().matrix(), 100.0 * CalibratedShare) / NormalQuantile;
   const double student =
     studentQuantile(CalibratedShare, static_cast<int>(tuningErrors.cols())) / NormalQuantile;
-  return std::pow(tail * student, 2) * (1.0 + HyperparameterSamples / samples) * pattern;
+  const double meanSquare = squares.mean();
+  const double optimism = meanSquare > 0.0
+    ? std::max(1.0, (refittedErrors.array().square() / expected).mean() / meanSquare)
+    : 1.0;
+  return std::pow(tail * student, 2) * optimism * pattern;
 }
 
 // Root mean square of each channel over the chart; 1 for a channel that is zero throughout.
@@ -193,12 +191,20 @@ TransferFit fitTransfer(const SampleSet& unbalancedCalibration, const SampleSet&
   const Eigen::Index count = tuning.size();
   const Eigen::Vector3d shares =
     sharesOf(linearError.rightCols(count), squareRootError.rightCols(count), affine.leftOutErrors);
-  Eigen::MatrixXd tuningErrors =
-    shares[0] * linearError.rightCols(count) + shares[1] * squareRootError.rightCols(count);
-  if (affine.leftOutErrors.size() > 0)
+  const auto mixed =
+    [&](const Eigen::MatrixXd& ofLinearExpert, const Eigen::MatrixXd& ofSquareRootExpert)
   {
-    tuningErrors += shares[2] * affine.leftOutErrors;
-  }
+    Eigen::MatrixXd errors = shares[0] * ofLinearExpert + shares[1] * ofSquareRootExpert;
+    if (affine.leftOutErrors.size() > 0)
+    {
+      errors += shares[2] * affine.leftOutErrors;
+    }
+    return errors;
+  };
+  const Eigen::MatrixXd tuningErrors =
+    mixed(linearError.rightCols(count), squareRootError.rightCols(count));
+  const Eigen::MatrixXd refittedErrors = mixed(
+    linear.refittedEstimate - tuning.reflectance, squareRoot.refittedEstimate - tuning.reflectance);
 
   // The Gaussian processes alone know how uncertain they are; they speak for the affine expert too.
   const double gaussian = shares[0] + shares[1];
@@ -206,7 +212,8 @@ TransferFit fitTransfer(const SampleSet& unbalancedCalibration, const SampleSet&
   const double ofSquareRoot = 1.0 - ofLinear;
   const Eigen::VectorXd bandVariance = calibratedBandVariance(
     (ofLinear * linearError + ofSquareRoot * squareRootError).leftCols(calibration.size()),
-    tuningErrors, ofLinear * unitVariance(linear) + ofSquareRoot * unitVariance(squareRoot));
+    tuningErrors, refittedErrors,
+    ofLinear * unitVariance(linear) + ofSquareRoot * unitVariance(squareRoot));
 
   FitSummary summary = summarize(linear, squareRoot, shares, calibration, tuning);
   summary.residualRms = rootMeanSquare(tuningErrors);

@@ -1,5 +1,6 @@
 #include "Kernels/Estimation/Transfer/TransferExpert.h"
 
+#include "Kernels/Estimation/SampleDraw.h"
 #include "Kernels/Estimation/Transfer/TransferObjective.h"
 #include "Kernels/Numerics/Lbfgs.h"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace msi
@@ -21,6 +23,9 @@ constexpr Eigen::Index LearningSamples = 300;
 constexpr Eigen::Index LearningTuningSamples = 150;
 constexpr Eigen::Index LargestPointCount = 256;
 constexpr double UnexplainedShareOfNoise = 0.01;
+// Refits tell a ratio of errors alone: a decrease ten times as large as that of the fit changes it by less than 1 %.
+constexpr Eigen::Index RefitFolds = 8;
+constexpr double RefitDecrease = 1e-5;
 
 // Up to 'count' columns, each the farthest from those before it, starting at the one nearest to the
 // mean; all columns in order where there are no more.
@@ -125,6 +130,32 @@ Eigen::MatrixXd centeredOutputs(
 {
   return (inSpace(space, reflectances).colwise() - center).transpose();
 }
+
+struct Learned
+{
+  TransferKernel kernel;
+  TransferFeatures features;
+  LbfgsResult found;
+};
+
+// From 'start', or from the prior's center where that is empty.
+Learned learn(TransferSpace space, const SampleSet& calibration, const SampleSet& tuning,
+  const Eigen::VectorXd& center, const Eigen::VectorXd& start, const LbfgsOptions& options)
+{
+  const TransferFeatures features = featuresOf(space, calibration.response);
+  const auto tuningColumns =
+    spreadColumns(features.ofChart(tuning.response), LearningTuningSamples);
+  const auto chartColumns = spreadColumns(features.ofChart(calibration.response),
+    LearningSamples - static_cast<Eigen::Index>(tuningColumns.size()));
+  const SampleSet chart = calibration.subset(chartColumns);
+  const SampleSet target = tuning.subset(tuningColumns);
+  TransferObjective objective(features, chart.response, target.response,
+    centeredOutputs(space, joined(chart, target).reflectance, center));
+  LbfgsResult found = minimizeLbfgs([&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient)
+    { return objective(at, gradient); },
+    start.size() > 0 ? start : objective.start(), options);
+  return { objective.kernelAt(found.at), objective.featuresAt(found.at), std::move(found) };
+}
 }
 
 TransferExpertFit transferPosterior(const TransferKernel& kernel, const TransferFeatures& features,
@@ -185,28 +216,27 @@ TransferExpertFit transferPosterior(const TransferKernel& kernel, const Transfer
 TransferExpertFit fitTransferExpert(
   TransferSpace space, const SampleSet& calibration, const SampleSet& tuning)
 {
-  const TransferFeatures start = featuresOf(space, calibration.response);
-  const Eigen::MatrixXd reflectances = joined(calibration, tuning).reflectance;
-  const Eigen::VectorXd center = inSpace(space, reflectances).rowwise().mean();
+  const Eigen::VectorXd center =
+    inSpace(space, joined(calibration, tuning).reflectance).rowwise().mean();
+  const Learned learned = learn(space, calibration, tuning, center, {}, {});
+  TransferExpertFit fit =
+    transferPosterior(learned.kernel, learned.features, calibration, tuning, center);
+  fit.iterations = learned.found.iterations;
+  fit.converged = learned.found.converged;
 
-  const auto tuningColumns = spreadColumns(start.ofChart(tuning.response), LearningTuningSamples);
-  const auto chartColumns = spreadColumns(start.ofChart(calibration.response),
-    LearningSamples - static_cast<Eigen::Index>(tuningColumns.size()));
-  std::vector<Eigen::Index> rows = chartColumns;
-  for (const Eigen::Index column : tuningColumns)
+  const Eigen::Index count = tuning.size();
+  fit.refittedEstimate = fit.leftOutEstimate.rightCols(count);
+  LbfgsOptions refitOptions;
+  refitOptions.relativeDecrease = RefitDecrease;
+  for (const auto& left : leftOutFolds(count, RefitFolds))
   {
-    rows.push_back(calibration.size() + column);
+    const Learned without = learn(space, calibration, tuning.subset(remainingSamples(count, left)),
+      center, learned.found.at, refitOptions);
+    const Eigen::MatrixXd estimate =
+      transferPosterior(without.kernel, without.features, calibration, tuning, center)
+        .leftOutEstimate.rightCols(count);
+    fit.refittedEstimate(Eigen::all, left) = estimate(Eigen::all, left);
   }
-  TransferObjective objective(start, calibration.subset(chartColumns).response,
-    tuning.subset(tuningColumns).response,
-    centeredOutputs(space, reflectances(Eigen::all, rows), center));
-  const LbfgsResult found = minimizeLbfgs([&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient)
-    { return objective(at, gradient); },
-    objective.start());
-  TransferExpertFit fit = transferPosterior(
-    objective.kernelAt(found.at), objective.featuresAt(found.at), calibration, tuning, center);
-  fit.iterations = found.iterations;
-  fit.converged = found.converged;
   return fit;
 }
 

@@ -36,6 +36,9 @@ struct TransferExpertFit
   // variance the model expects of it.
   Eigen::MatrixXd leftOutEstimate; // N x (L_A + L_T), reflectance
   Eigen::VectorXd leftOutVariance;
+  // The same estimate of the tuning samples, with hyperparameters that were fitted without the sample, too; of
+  // fitTransferExpert alone.
+  Eigen::MatrixXd refittedEstimate; // N x L_T, reflectance
   int iterations = 0;
   bool converged = false;
 };
@@ -47,7 +50,8 @@ TransferExpertFit transferPosterior(const TransferKernel& kernel, const Transfer
 
 // Hyperparameters are learned from at most 300 samples, spread evenly where there are more; the posterior rests on all of
 // them through at most 256 points (fully independent training conditional), chosen by pivoted
-// Cholesky decomposition until what they leave unexplained is a hundredth of the noise.
+// Cholesky decomposition until what they leave unexplained is a hundredth of the noise. For refittedEstimate they are
+// fitted again without each eighth of the tuning samples, starting from those of all samples.
 // Sources: Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, Eqs. 2.25, 5.12;
 //          Snelson and Ghahramani, "Sparse Gaussian processes using pseudo-inputs", 2005.
 TransferExpertFit fitTransferExpert(

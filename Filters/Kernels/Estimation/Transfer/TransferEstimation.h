@@ -35,7 +35,8 @@ struct TransferFit
 //          optimistic, as hyperparameters are kept. rank: points that carry the posterior of the larger
 //          expert; condition is 0 (there is no single system); unknowns: hyperparameters.
 // Bytes:   the same samples in the same order give the same estimator on the same machine.
-// Cost:    O(min(L_A + L_T, 300)^3) for each of some 100 steps, then O(L m^2) with m <= 256 points.
+// Cost:    O(min(L_A + L_T, 300)^3) for each of some 100 steps and four times as many of the refits, then O(L m^2) with
+//          m <= 256 points for each of 18 posteriors.
 TransferFit fitTransfer(const SampleSet& calibration, const SampleSet& tuning);
 
 } // namespace msi

@@ -497,6 +497,7 @@ int vtkMethodComparison::RequestData(
       for (std::size_t count = 0; count < counts.size(); ++count)
       {
         options.tuningSamples = counts[count].samples;
+        options.uncertainty = count < whole;
         comparisons.emplace_back(chart.samples, medium.samples, options);
         kept.push_back({ counts[count].draws, counts[count].metrics });
         for (std::size_t draw = 0; draw < counts[count].draws; ++draw)

@@ -20,6 +20,8 @@ struct EstimationOptions
   // Structure, rounds, color stop and channel wavelengths: for banded. tuningWeight also for pooled,
   // where 0 stands for 1.
   MetamerismOptions metamerism;
+  // For transfer. Off: its standard deviation is optimistic, and the fit takes a fifth of the time. The estimate is the same.
+  bool uncertainty = true;
 };
 
 // Reflectance = reflectance(metamerism(response)) of the linear methods.

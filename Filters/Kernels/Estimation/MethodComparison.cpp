@@ -108,6 +108,7 @@ ComparisonDraw MethodComparison::run(std::uint64_t draw) const
   const SampleSet heldOut = Target.subset(result.heldOut);
   EstimationOptions estimation;
   estimation.metamerism.channelWavelengths = Options.channelWavelengths;
+  estimation.uncertainty = Options.uncertainty;
   for (const std::string& name : Options.methods)
   {
     MethodEstimate estimate;
@@ -116,7 +117,10 @@ ComparisonDraw MethodComparison::run(std::uint64_t draw) const
     {
       const EstimationFit fit = estimationMethodNamed(name).fit(Calibration, tuning, estimation);
       estimate.reflectance = (*fit.estimator)(heldOut.response);
-      estimate.standardDeviation = fit.estimator->standardDeviation(heldOut.response);
+      if (Options.uncertainty)
+      {
+        estimate.standardDeviation = fit.estimator->standardDeviation(heldOut.response);
+      }
       estimate.rms = rmsOf(estimate.reflectance - heldOut.reflectance);
       estimate.summary = fit.summary;
       requireFinite(estimate.reflectance, "the estimate of held-out");

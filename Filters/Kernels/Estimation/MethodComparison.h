@@ -26,15 +26,17 @@ struct ComparisonOptions
   Eigen::Index tuningSamples = 16;
   std::uint64_t seed = 1;
   std::optional<WavelengthGrid> channelWavelengths; // for the structure of the method banded
+  bool uncertainty = true; // MethodEstimate::standardDeviation is asked for
 };
 
 // One method on the held-out samples of one draw.
 struct MethodEstimate
 {
   std::string method;
-  Eigen::MatrixXd reflectance;       // N x held-out
-  Eigen::MatrixXd standardDeviation; // N x held-out where the method knows it, else 0 x 0
-  Eigen::VectorXd rms;               // held-out: sqrt(mean over bands of the squared error), Eq. 21
+  Eigen::MatrixXd reflectance; // N x held-out
+  Eigen::MatrixXd
+    standardDeviation; // N x held-out where the method knows it and it is asked for, else 0 x 0
+  Eigen::VectorXd rms; // held-out: sqrt(mean over bands of the squared error), Eq. 21
   FitSummary summary;
   std::string failure; // why the method has no estimate; empty where it has one
 };

@@ -10,7 +10,7 @@ namespace msi
 namespace
 {
 EstimationFit fitTransferMethod(
-  const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& /*options*/)
+  const SampleSet& calibration, const SampleSet& tuning, const EstimationOptions& options)
 {
   if (calibration.size() == 1)
   {
@@ -18,7 +18,7 @@ EstimationFit fitTransferMethod(
       "transfer has 1 calibration sample; expected at least 2, which tell "
       "the range of the responses");
   }
-  TransferFit transfer = fitTransfer(calibration, tuning);
+  TransferFit transfer = fitTransfer(calibration, tuning, options.uncertainty);
   return { std::make_shared<TransferEstimator>(transfer.estimator), transfer.summary, {}, {} };
 }
 }

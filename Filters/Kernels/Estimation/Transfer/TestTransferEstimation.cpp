@@ -68,6 +68,14 @@ TEST(TransferEstimation, LearnsTheGainAndOffsetOfTheTarget)
   EXPECT_LT(rms, 0.001);
 }
 
+TEST(TransferEstimation, EstimatesTheSameWithoutUncertainty)
+{
+  const msi::SampleSet chart = smoothSamples(40, 5, 1.0, 0.0, 0.0);
+  const msi::SampleSet tuning = smoothSamples(8, 6, 1.05, 0.01, 0.002);
+  EXPECT_EQ(msi::fitTransfer(chart, tuning, false).estimator(tuning.response),
+    msi::fitTransfer(chart, tuning).estimator(tuning.response));
+}
+
 // 20 targets of their own gain and offset; share of true values within 90 % intervals over all of them.
 double coverage(Eigen::Index tuningSamples)
 {

@@ -164,7 +164,8 @@ FitSummary summarize(const TransferExpertFit& linear, const TransferExpertFit& s
 }
 }
 
-TransferFit fitTransfer(const SampleSet& unbalancedCalibration, const SampleSet& unbalancedTuning)
+TransferFit fitTransfer(
+  const SampleSet& unbalancedCalibration, const SampleSet& unbalancedTuning, bool uncertainty)
 {
   requireValid(unbalancedCalibration, "calibration");
   requireValid(unbalancedTuning, "tuning");
@@ -177,8 +178,10 @@ TransferFit fitTransfer(const SampleSet& unbalancedCalibration, const SampleSet&
   const Eigen::VectorXd scales = channelScales(unbalancedCalibration);
   const SampleSet calibration = balanced(unbalancedCalibration, scales);
   const SampleSet tuning = balanced(unbalancedTuning, scales);
-  TransferExpertFit linear = fitTransferExpert(TransferSpace::Linear, calibration, tuning);
-  TransferExpertFit squareRoot = fitTransferExpert(TransferSpace::SquareRoot, calibration, tuning);
+  TransferExpertFit linear =
+    fitTransferExpert(TransferSpace::Linear, calibration, tuning, uncertainty);
+  TransferExpertFit squareRoot =
+    fitTransferExpert(TransferSpace::SquareRoot, calibration, tuning, uncertainty);
   foldIntoGain(linear.expert, scales);
   foldIntoGain(squareRoot.expert, scales);
 

@@ -37,6 +37,8 @@ struct TransferFit
 // Bytes:   the same samples in the same order give the same estimator on the same machine.
 // Cost:    O(min(L_A + L_T, 300)^3) for each of some 100 steps and four times as many of the refits, then O(L m^2) with
 //          m <= 256 points for each of 18 posteriors.
-TransferFit fitTransfer(const SampleSet& calibration, const SampleSet& tuning);
+// uncertainty: off, nothing is fitted again, and the standard deviation is as optimistic as the left-out errors.
+TransferFit fitTransfer(
+  const SampleSet& calibration, const SampleSet& tuning, bool uncertainty = true);
 
 } // namespace msi

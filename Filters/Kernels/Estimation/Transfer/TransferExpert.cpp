@@ -214,7 +214,7 @@ TransferExpertFit transferPosterior(const TransferKernel& kernel, const Transfer
 }
 
 TransferExpertFit fitTransferExpert(
-  TransferSpace space, const SampleSet& calibration, const SampleSet& tuning)
+  TransferSpace space, const SampleSet& calibration, const SampleSet& tuning, bool refits)
 {
   const Eigen::VectorXd center =
     inSpace(space, joined(calibration, tuning).reflectance).rowwise().mean();
@@ -228,7 +228,7 @@ TransferExpertFit fitTransferExpert(
   fit.refittedEstimate = fit.leftOutEstimate.rightCols(count);
   LbfgsOptions refitOptions;
   refitOptions.relativeDecrease = RefitDecrease;
-  for (const auto& left : leftOutFolds(count, RefitFolds))
+  for (const auto& left : leftOutFolds(refits ? count : 0, RefitFolds))
   {
     const Learned without = learn(space, calibration, tuning.subset(remainingSamples(count, left)),
       center, learned.found.at, refitOptions);

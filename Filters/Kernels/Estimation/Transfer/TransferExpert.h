@@ -51,10 +51,11 @@ TransferExpertFit transferPosterior(const TransferKernel& kernel, const Transfer
 // Hyperparameters are learned from at most 300 samples, spread evenly where there are more; the posterior rests on all of
 // them through at most 256 points (fully independent training conditional), chosen by pivoted
 // Cholesky decomposition until what they leave unexplained is a hundredth of the noise. For refittedEstimate they are
-// fitted again without each eighth of the tuning samples, starting from those of all samples.
+// fitted again without each eighth of the tuning samples, starting from those of all samples; without `refits` it is the left-out
+// estimate.
 // Sources: Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, Eqs. 2.25, 5.12;
 //          Snelson and Ghahramani, "Sparse Gaussian processes using pseudo-inputs", 2005.
 TransferExpertFit fitTransferExpert(
-  TransferSpace space, const SampleSet& calibration, const SampleSet& tuning);
+  TransferSpace space, const SampleSet& calibration, const SampleSet& tuning, bool refits = true);
 
 } // namespace msi

@@ -24,13 +24,14 @@ constexpr Eigen::Index GroupsAFold = 8; // the groups that are summed before the
 
 #if HWY_TARGET ==                                                                                  \
   HWY_SCALAR // where Highway has no vectors of four (GCC before 12.3): the same sums in the same order
-void fourPixels(const float* weights, const float* constant, Eigen::Index groups,
-  const float* values, Eigen::Index stride, Eigen::Index lastGroup, float* xyz)
+template <Eigen::Index Pixels>
+void somePixels(const float* weights, const float* constant, Eigen::Index groups,
+  const float* values, Eigen::Index stride, Eigen::Index lastGroup, float* planes)
 {
   using Sums = Eigen::Array4f;
   for (Eigen::Index plane = 0; plane < 3; ++plane)
   {
-    for (Eigen::Index pixel = 0; pixel < Together; ++pixel)
+    for (Eigen::Index pixel = 0; pixel < Pixels; ++pixel)
     {
       Sums total = Sums::Zero();
       for (Eigen::Index begin = 0; begin < groups; begin += GroupsAFold)
@@ -43,9 +44,17 @@ void fourPixels(const float* weights, const float* constant, Eigen::Index groups
         }
         total += fold;
       }
-      xyz[3 * pixel + plane] =
-        ((total[0] + total[2]) + (total[1] + total[3])) + constant[Together * plane + pixel];
+      planes[pixel / Together * 16 + Together * plane + pixel % Together] =
+        ((total[0] + total[2]) + (total[1] + total[3])) + constant[Together * plane];
     }
+  }
+}
+
+void interleave(const float* planes, float* xyz)
+{
+  for (Eigen::Index i = 0; i < 3 * Together; ++i)
+  {
+    xyz[i] = planes[Together * (i % 3) + i / 3];
   }
 }
 #else
@@ -60,79 +69,126 @@ Sums addHalves(Sums a, Sums b)
   return hn::Add(hn::InterleaveLower(Tag(), a, b), hn::InterleaveUpper(Tag(), a, b));
 }
 
-struct PixelSums
+// Adds weight times four values of each pixel.
+template <Eigen::Index Pixels>
+HWY_INLINE void addGroup(Sums* sums, const float* weights, const float* at, Eigen::Index stride)
 {
-  Sums first, second, third, fourth;
-};
-
-PixelSums add(const PixelSums& a, const PixelSums& b)
-{
-  return { hn::Add(a.first, b.first), hn::Add(a.second, b.second), hn::Add(a.third, b.third),
-    hn::Add(a.fourth, b.fourth) };
+  const Tag d;
+  const Sums weight = hn::LoadU(d, weights);
+  for (Eigen::Index pixel = 0; pixel < Pixels; ++pixel)
+  {
+    const Sums weighed = hn::Mul(weight, hn::LoadDup128(d, at + pixel * stride));
+    sums[pixel] = hn::Add(sums[pixel], weighed);
+  }
 }
 
-// Four pixels that are 'stride' values apart, 'groups' of four values each.
-void fourPixels(const float* weights, const float* constant, Eigen::Index groups,
-  const float* values, Eigen::Index stride, Eigen::Index lastGroup, float* xyz)
+// Pixels that are 'stride' values apart, 'groups' of four values each. Of each four of them: their X, their Y, their Z, in
+// planes of 16 floats.
+template <Eigen::Index Pixels>
+HWY_INLINE void somePixels(const float* weights, const float* constant, Eigen::Index groups,
+  const float* values, Eigen::Index stride, Eigen::Index lastGroup, float* planes)
 {
   const Tag d;
   const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
-  HWY_ALIGN std::array<float, 16> planes;
   // The fourth row of four is zeros: no need to sum it where it is a vector of its own.
   for (Eigen::Index part = 0; part < 12; part += lanes)
   {
-    const Sums zero = hn::Zero(d);
-    PixelSums total{ zero, zero, zero, zero };
-    for (Eigen::Index begin = 0; begin < groups; begin += GroupsAFold)
+    Sums total[Pixels];
+    std::fill_n(total, Pixels, hn::Zero(d));
+    Eigen::Index group = 0;
+    const auto addFold = [&](Sums* sums) HWY_ATTR
     {
-      PixelSums fold{ zero, zero, zero, zero };
-      for (Eigen::Index g = begin; g < std::min(begin + GroupsAFold, groups); ++g)
+      const Eigen::Index end = std::min(group + GroupsAFold, groups);
+      const Eigen::Index wholeEnd = std::min(end, groups - 1);
+      for (; group < wholeEnd; ++group)
       {
-        const Sums weight = hn::LoadU(d, weights + 16 * g + part);
-        const float* at = values + (g + 1 < groups ? Together * g : lastGroup);
-        const auto weighed = [&](Eigen::Index pixel) HWY_ATTR
-        { return hn::Mul(weight, hn::LoadDup128(d, at + pixel * stride)); };
-        fold = add(fold, { weighed(0), weighed(1), weighed(2), weighed(3) });
+        addGroup<Pixels>(sums, weights + 16 * group + part, values + Together * group, stride);
       }
-      total = add(total, fold);
+      if (group < end)
+      {
+        addGroup<Pixels>(sums, weights + 16 * group + part, values + lastGroup, stride);
+        ++group;
+      }
+    };
+    addFold(total);
+    while (group < groups)
+    {
+      Sums fold[Pixels];
+      std::fill_n(fold, Pixels, hn::Zero(d));
+      addFold(fold);
+      for (Eigen::Index pixel = 0; pixel < Pixels; ++pixel)
+      {
+        total[pixel] = hn::Add(total[pixel], fold[pixel]);
+      }
     }
     // In every four lanes: the sums of four pixels.
-    const Sums left = addHalves(total.first, total.third);
-    const Sums right = addHalves(total.second, total.fourth);
-    const Sums sums = addHalves(left, right);
-    hn::StoreU(hn::Add(sums, hn::LoadU(d, constant + part)), d, planes.data() + part);
+    const Sums start = hn::LoadU(d, constant + part);
+    for (Eigen::Index four = 0; four < Pixels; four += Together)
+    {
+      const Sums left = addHalves(total[four], total[four + 2]);
+      const Sums right = addHalves(total[four + 1], total[four + 3]);
+      hn::StoreU(hn::Add(addHalves(left, right), start), d, planes + 4 * four + part);
+    }
   }
+}
+
+HWY_INLINE void interleave(const float* planes, float* xyz)
+{
   const Four four;
-  hn::StoreInterleaved3(hn::Load(four, planes.data()), hn::Load(four, planes.data() + 4),
-    hn::Load(four, planes.data() + 8), four, xyz);
+  hn::StoreInterleaved3(hn::Load(four, planes), hn::Load(four, planes + Together),
+    hn::Load(four, planes + 2 * Together), four, xyz);
 }
 #endif
+
+void storeFour(const float* planes, float* xyz, Eigen::Index planeStride, Eigen::Index pixelStride)
+{
+  if (pixelStride != 1)
+  {
+    interleave(planes, xyz);
+    return;
+  }
+  for (Eigen::Index plane = 0; plane < 3; ++plane)
+  {
+    std::copy_n(planes + Together * plane, Together, xyz + plane * planeStride);
+  }
+}
 }
 
 void runTristimulus(const float* weights, const float* constant, Eigen::Index count,
-  const float* values, float* xyz, Eigen::Index pixels)
+  const float* values, float* xyz, Eigen::Index planeStride, Eigen::Index pixelStride,
+  Eigen::Index pixels)
 {
   const Eigen::Index groups = (count + Together - 1) / Together;
   const Eigen::Index lastGroup = std::max<Eigen::Index>(count - Together, 0);
+  constexpr Eigen::Index AtOnce = 2 * Together;
+  HWY_ALIGN std::array<float, 4 * AtOnce> planes;
   Eigen::Index first = 0;
-  for (; count >= Together && first + Together <= pixels; first += Together)
+  for (; count >= Together && first + AtOnce <= pixels; first += AtOnce)
   {
-    fourPixels(
-      weights, constant, groups, values + first * count, count, lastGroup, xyz + 3 * first);
+    somePixels<AtOnce>(
+      weights, constant, groups, values + first * count, count, lastGroup, planes.data());
+    for (Eigen::Index four = 0; four < AtOnce; four += Together)
+    {
+      storeFour(
+        planes.data() + 4 * four, xyz + (first + four) * pixelStride, planeStride, pixelStride);
+    }
   }
   // What is left, pixel by pixel; of fewer than four values from a copy that has four.
   for (; first < pixels; ++first)
   {
     std::array<float, Together> padded{};
-    std::array<float, 3 * Together> result;
     const float* pixel = values + first * count;
     if (count < Together)
     {
       std::copy_n(pixel, count, padded.begin());
       pixel = padded.data();
     }
-    fourPixels(weights, constant, groups, pixel, 0, lastGroup, result.data());
-    std::copy_n(result.begin(), 3, xyz + 3 * first);
+    somePixels<Together>(weights, constant, groups, pixel, 0, lastGroup, planes.data());
+    for (Eigen::Index plane = 0; plane < 3; ++plane)
+    {
+      xyz[plane * planeStride + first * pixelStride] =
+        planes[static_cast<std::size_t>(Together * plane)];
+    }
   }
 }
 
@@ -171,7 +227,14 @@ TristimulusBlocks::TristimulusBlocks(
 void TristimulusBlocks::apply(const float* values, float* xyz, Eigen::Index pixels) const noexcept
 {
   HWY_DYNAMIC_DISPATCH(runTristimulus)
-  (Weights.data(), Constant.data(), Values, values, xyz, pixels);
+  (Weights.data(), Constant.data(), Values, values, xyz, 1, 3, pixels);
+}
+
+void TristimulusBlocks::applyToPlanes(
+  const float* values, float* xyz, Eigen::Index planeStride, Eigen::Index pixels) const noexcept
+{
+  HWY_DYNAMIC_DISPATCH(runTristimulus)
+  (Weights.data(), Constant.data(), Values, values, xyz, planeStride, 1, pixels);
 }
 
 } // namespace msi

@@ -26,6 +26,9 @@ public:
   Eigen::Index values() const noexcept { return Values; }
 
   void apply(const float* values, float* xyz, Eigen::Index pixels) const noexcept;
+  // The same XYZ in three planes: X of all pixels, from planeStride on their Y, then Z.
+  void applyToPlanes(
+    const float* values, float* xyz, Eigen::Index planeStride, Eigen::Index pixels) const noexcept;
 
 private:
   Eigen::Index Values = 0;

@@ -4,6 +4,7 @@
 #include "Kernels/Colorimetry/CIELAB.h"
 #include "Kernels/Colorimetry/TristimulusBlocks.h"
 #include "Kernels/Colorimetry/TristimulusTransform.h"
+#include "Kernels/Difference/CIEDE2000.h"
 #include "Kernels/Numerics/AffineTransform.h"
 
 #include <Eigen/Core>
@@ -24,6 +25,9 @@ public:
   ResponseColor(const AffineTransform& toReflectance, const TristimulusTransform& tristimulus);
 
   void lab(const float* responses, float* lab, Eigen::Index pixels) const noexcept;
+  // CIEDE2000 from the colors 'lab' (3 x pixels) to those of the responses: the same bytes as of lab().
+  void differences(const CIEDE2000Factors& factors, const float* responses, const float* lab,
+    float* difference, Eigen::Index pixels) const noexcept;
 
 private:
   TristimulusBlocks ToXYZ;

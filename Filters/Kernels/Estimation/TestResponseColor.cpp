@@ -1,10 +1,13 @@
 #include "Kernels/Difference/CIEDE2000.h"
+#include "Kernels/Estimation/EstimationTestData.h"
 #include "Kernels/Estimation/ResponseColor.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -89,6 +92,37 @@ TEST(ResponseColor, TheSameBytesForEverySplitAndANaNInItsOwnPixel)
   EXPECT_TRUE(pieces.col(7).array().isNaN().all());
   pieces.col(7) = whole.col(7);
   EXPECT_EQ(pieces, whole);
+}
+
+TEST(ResponseColor, DifferencesAreThoseOfItsColorsToTheByte)
+{
+  const msi::ResponseColor color(affine(), tristimulus());
+  const msi::CIEDE2000Factors factors{ 2.0, 1.0, 0.5 };
+  Eigen::MatrixXf in = responses();
+  in(3, 1000) = std::numeric_limits<float>::quiet_NaN();
+  in.col(1001).setConstant(1e12F); // beyond what is computed in single precision
+  Eigen::Matrix3Xf colors(3, Pixels);
+  color.lab(in.data(), colors.data(), Pixels);
+  Eigen::Matrix3Xf measured = fusedLab().rowwise().reverse();
+  measured.col(2000) = Eigen::Vector3f(50.0F, 20.0F, -10.0F);
+  Eigen::VectorXf expected(Pixels);
+  msi::CIEDE2000(factors).apply(measured, colors, expected);
+  EXPECT_TRUE(std::isnan(expected(1000)));
+  EXPECT_TRUE(std::isfinite(expected(1001)));
+  const auto differences = [&](Eigen::Index longest)
+  {
+    Eigen::VectorXf got(Pixels);
+    for (Eigen::Index first = 0, size = 1; first < Pixels; first += size, size = size % longest + 1)
+    {
+      color.differences(factors, in.col(first).data(), measured.col(first).data(), &got(first),
+        std::min(size, Pixels - first));
+    }
+    return got;
+  };
+  const auto expectSame = [&](const Eigen::VectorXf& got)
+  { EXPECT_EQ(std::memcmp(got.data(), expected.data(), sizeof(float) * Pixels), 0); };
+  expectSame(differences(300));
+  msi::test::withLesserInstructionSets([&] { expectSame(differences(300)); });
 }
 
 TEST(ResponseColor, RefusesOtherBands)

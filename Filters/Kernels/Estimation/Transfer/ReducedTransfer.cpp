@@ -228,8 +228,9 @@ ReducedTransferExpert reduceExpert(
   reduced.points = GroupedMatrix(
     -2.0 * exponent * BinaryLogarithmOfE * (chosenAxes.transpose() * points).transpose(),
     exponent * BinaryLogarithmOfE * points.colwise().squaredNorm().transpose());
-  reduced.smooth = GroupedMatrix(best.coefficients.transpose(), noConstants);
-  reduced.direct = GroupedMatrix(expansion.transpose() * mean.linear, constants);
+  Eigen::MatrixXd ofBoth(expansion.cols(), channels + points.cols());
+  ofBoth << expansion.transpose() * mean.linear, best.coefficients.transpose();
+  reduced.components = GroupedMatrix(ofBoth, constants);
   if (isCompressed)
   {
     reduced.expansion = GroupedMatrix(expansion, mean.constant);

@@ -22,7 +22,7 @@ struct GroupedMatrix
   std::vector<float> values;
 };
 
-// y = start + expansion (direct f + smooth e), or without the expansion where it has no rows, with
+// y = start + expansion (components (f; e)), or without the expansion where it has no rows, with
 //   f = scale (space(gain v + offset)) - center            the expert's features,
 //   e_j = 2^(decay |f|^2 + bias_j + position_j . V' f)     Gaussians of the points that are kept.
 // The share of the expert is part of y: of y itself, or of y |y| for the square root.
@@ -36,8 +36,7 @@ struct ReducedTransferExpert
   float decay = 0.0F;
   GroupedMatrix projection; // V': directions x channels
   GroupedMatrix points;     // points x directions
-  GroupedMatrix smooth;     // components x points; bands x points without expansion
-  GroupedMatrix direct;     // components x channels
+  GroupedMatrix components; // components x (channels + points); bands x as many without expansion
   GroupedMatrix expansion;  // bands x components, or empty
 };
 

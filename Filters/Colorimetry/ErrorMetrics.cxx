@@ -140,6 +140,11 @@ ErrorMetrics::ErrorMetrics(const SpectralAxis& bands, const AskedErrors& asked,
     {
       Direct.emplace_back(affine->transform(), color.tristimulus);
     }
+    if (Differences.size() == 1 && Differences.front().formula().name == ciede2000.name)
+    {
+      const ColorDifferenceFactors& factors = Differences.front().factors();
+      OneStep = CIEDE2000Factors{ factors.lightness, factors.chroma, factors.hue };
+    }
   }
 }
 
@@ -224,6 +229,14 @@ void ErrorMetrics::apply(const float* estimate, const float* reference, Eigen::I
     }
     for (std::size_t i = 0; i < Colors.size(); ++i)
     {
+      if (OneStep)
+      {
+        auto lab = labs[0].leftCols(count);
+        Colors[i].tristimulus.apply(blocks[0], lab);
+        Colors[i].lab.fromXYZ(lab, lab);
+        Direct[i].differences(*OneStep, input, lab.data(), errors[error + i] + at, count);
+        continue;
+      }
       for (int side = 0; side < 2; ++side)
       {
         auto lab = labs[side].leftCols(count);

@@ -17,6 +17,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,7 @@ private:
   bool Rms;
   std::shared_ptr<const ReflectanceEstimator> Estimator; // may be null
   std::vector<ResponseColor> Direct; // one per color where no reflectance is needed, else empty
+  std::optional<CIEDE2000Factors> OneStep; // where that is the one difference of Direct
   std::vector<const SpectralMetric*> Spectral;
   std::vector<ColorDifference> Differences;
   std::vector<Color> Colors;

@@ -4,6 +4,8 @@
 
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
 
 #include <algorithm>
 
@@ -126,9 +128,32 @@ vtkSmartPointer<vtkImageData> partOf(vtkImageData* image, const Extent& block)
   {
     return image;
   }
+  // By rows: vtkImageData::Crop copies value by value.
+  const int* held = image->GetExtent();
+  Extent common{};
+  for (std::size_t axis = 0; axis < 6; axis += 2)
+  {
+    common[axis] = std::max(held[axis], block[axis]);
+    common[axis + 1] = std::min(held[axis + 1], block[axis + 1]);
+  }
+  const vtkIdType width = std::max(0, common[1] - common[0] + 1);
+  vtkNew<vtkPointData> points;
+  points->CopyAllOn();
+  points->CopyAllocate(image->GetPointData(),
+    width * std::max(0, common[3] - common[2] + 1) * std::max(0, common[5] - common[4] + 1));
+  vtkIdType to = 0;
+  for (int z = common[4]; z <= common[5]; ++z)
+  {
+    for (int y = common[2]; y <= common[3]; ++y, to += width)
+    {
+      int first[] = { common[0], y, z };
+      points->CopyData(image->GetPointData(), to, width, image->ComputePointId(first));
+    }
+  }
   auto part = vtkSmartPointer<vtkImageData>::New();
   part->ShallowCopy(image);
-  part->Crop(block.data());
+  part->SetExtent(common.data());
+  part->GetPointData()->ShallowCopy(points);
   return part;
 }
 

@@ -1,6 +1,7 @@
 #include "ResponseRange.h"
 
 #include "ImagePieces.h"
+#include "ThreadedParts.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -136,11 +137,11 @@ ResponseJudgement besideRange(
 std::vector<double> everyNth(
   vtkInformation* input, vtkImageData* image, vtkDataArray* responses, std::size_t channels)
 {
-  std::vector<double> values;
   if (!responses)
   {
-    return values;
+    return {};
   }
+  std::vector<vtkIdType> looked;
   Extent whole{};
   input->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
   const Extent owned = ownedExtent(input, image);
@@ -158,12 +159,21 @@ std::vector<double> everyNth(
       for (vtkIdType pixel = (begin + step - 1) / step * step; pixel <= end; pixel += step)
       {
         int place[] = { static_cast<int>(pixel - row) + whole[0], y, z };
-        const auto known = values.size();
-        values.resize(known + channels);
-        responses->GetTuple(image->ComputePointId(place), values.data() + known);
+        looked.push_back(image->ComputePointId(place));
       }
     }
   }
+  constexpr std::size_t Block = 1024;
+  std::vector<double> values(looked.size() * channels);
+  forParts(static_cast<vtkIdType>((looked.size() + Block - 1) / Block),
+    [&](vtkIdType block)
+    {
+      const auto begin = static_cast<std::size_t>(block) * Block;
+      for (std::size_t i = begin; i < std::min(begin + Block, looked.size()); ++i)
+      {
+        responses->GetTuple(looked[i], values.data() + i * channels);
+      }
+    });
   return values;
 }
 

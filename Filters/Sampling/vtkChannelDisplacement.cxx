@@ -214,8 +214,18 @@ void vtkChannelDisplacement::WriteTable(vtkInformationVector* outputs)
     *this->Current = Tiles();
     return;
   }
-  const int reference =
-    this->Reference > 0 ? this->Reference - 1 : msi::channelOfMostStructure(current.tiles);
+  int reference = this->Reference - 1;
+  if (reference < 0)
+  {
+    std::vector<double> structure(current.axis.size());
+    msi::forParts(static_cast<vtkIdType>(structure.size()),
+      [&](vtkIdType k) {
+        structure[static_cast<std::size_t>(k)] =
+          msi::structureOf(current.tiles, static_cast<int>(k));
+      });
+    reference =
+      static_cast<int>(std::max_element(structure.begin(), structure.end()) - structure.begin());
+  }
   const msi::DisplacementSearch search(current.tiles, current.extent(),
     this->Model == SHIFT ? msi::DisplacementModel::Shift : msi::DisplacementModel::Similarity);
   // Each beside its neighbour on the way to the reference: neighbours are alike.

@@ -90,7 +90,8 @@ def worker(threads, folder):
     return subprocess.Popen(
         [sys.executable, os.path.abspath(__file__), "--work"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
         env={**os.environ, "VTK_SMP_BACKEND_IN_USE": "STDThread", "VTK_SMP_MAX_THREADS": str(threads),
-             "BENCHMARK_FOLDER": folder, "MALLOC_MMAP_THRESHOLD_": "33554432", "MALLOC_TRIM_THRESHOLD_": "134217728"})
+             "BENCHMARK_FOLDER": folder, "MALLOC_MMAP_THRESHOLD_": "33554432", "MALLOC_TRIM_THRESHOLD_": "134217728",
+             "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"})
 
 
 def start(process, name):

@@ -512,36 +512,24 @@ ChannelDisplacement composed(const ChannelDisplacement& first, const ChannelDisp
   return both;
 }
 
-int channelOfMostStructure(const std::vector<PixelBuffer>& tiles)
+double structureOf(const std::vector<PixelBuffer>& tiles, int channel)
 {
-  const int channels = tiles.front().channels;
-  int best = 0;
-  double most = -1.0;
-  for (int channel = 0; channel < channels; ++channel)
+  double sum = 0.0;
+  for (const PixelBuffer& tile : tiles)
   {
-    double sum = 0.0;
-    for (const PixelBuffer& tile : tiles)
+    const Plane plane = smoothed(planeOf(tile, channel));
+    for (int y = 1; y < plane.height; ++y)
     {
-      const Plane plane = smoothed(planeOf(tile, channel));
-      for (int y = 1; y < plane.height; ++y)
+      for (int x = 1; x < plane.width; ++x)
       {
-        for (int x = 1; x < plane.width; ++x)
-        {
-          const double change =
-            std::hypot(plane.at(x, y) - plane.at(x - 1, y), plane.at(x, y) - plane.at(x, y - 1));
-          sum += std::isfinite(change) ? change * change : 0.0;
-        }
+        const double change =
+          std::hypot(plane.at(x, y) - plane.at(x - 1, y), plane.at(x, y) - plane.at(x, y - 1));
+        sum += std::isfinite(change) ? change * change : 0.0;
       }
     }
-    const double level = floorOf(tiles, channel);
-    const double structure = level > 0.0 ? sum / level : 0.0;
-    if (structure > most)
-    {
-      most = structure;
-      best = channel;
-    }
   }
-  return best;
+  const double level = floorOf(tiles, channel);
+  return level > 0.0 ? sum / level : 0.0;
 }
 
 std::vector<ImageWindow> displacementTiles(const ImageExtent& extent)

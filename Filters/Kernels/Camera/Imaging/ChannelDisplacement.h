@@ -65,8 +65,9 @@ private:
 // channel beside it. Errors add as squares, the agreement is the lower one.
 ChannelDisplacement composed(const ChannelDisplacement& first, const ChannelDisplacement& second);
 
-// The channel, counted from 0, that varies most within windows, relative to its mean: a good reference.
-int channelOfMostStructure(const std::vector<PixelBuffer>& tiles);
+// How much a channel, counted from 0, varies within windows, relative to its mean: the one that varies most is a good
+// reference.
+double structureOf(const std::vector<PixelBuffer>& tiles, int channel);
 
 // At most tilesPerSide^2 squares spread evenly over an image; one tile, the whole image, where they would cover it.
 std::vector<ImageWindow> displacementTiles(const ImageExtent& extent);

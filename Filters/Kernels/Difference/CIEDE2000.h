@@ -25,7 +25,7 @@ struct CIEDE2000Factors
 // Bytes:  a pair's value does not depend on which other pairs stand in the block.
 // Accuracy: relative error below 2e-12, also where the hue angle turns over, and below 1e-14 of nearly equal
 //         colors (1e-3 to 1e-12 apart). Float blocks are computed in float: relative error below 4e-6 (0 below 1e-18). Symmetric to the bit; the same bytes on every instruction set.
-// Cost:   SIMD; see Testing/Benchmarks.
+// Cost:   SIMD; see Testing/Benchmarks. Float blocks use fused operations, ten times slower where the processor has none.
 // Errors: the constructor throws std::invalid_argument unless all factors are finite and positive.
 class CIEDE2000
 {

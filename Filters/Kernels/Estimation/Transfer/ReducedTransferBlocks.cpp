@@ -6,6 +6,7 @@
 #include "Kernels/Spectra/FusedMultiply-inl.h"
 
 #include <hwy/aligned_allocator.h>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -214,6 +215,16 @@ HWY_INLINE void addReducedExpert(FloatTag d, const ReducedTransferExpert& e, Eig
   product(d, e.expansion, s.components, s.mean, addToMean);
 }
 
+// What is read or written next, while there is enough to compute.
+HWY_INLINE void prefetch(const float* values, Eigen::Index count)
+{
+  constexpr Eigen::Index Line = 16;
+  for (Eigen::Index i = 0; i < count; i += Line)
+  {
+    hwy::Prefetch(values + i);
+  }
+}
+
 void runReducedBlock(
   const ReducedTransfer& mixture, const float* response, float* mean, Eigen::Index pixels)
 {
@@ -244,6 +255,9 @@ void runReducedBlock(
     const Eigen::Index count = std::min(width, pixels - first);
     loadPixels(
       d, response + first * mixture.channels, count, mixture.channels, s.features, s.response);
+    prefetch(response + (first + count) * mixture.channels,
+      std::min(width, pixels - first - count) * mixture.channels);
+    prefetch(mean + first * mixture.bands, count * mixture.bands);
     bool isFirst = true;
     for (const ReducedTransferExpert& expert : mixture.experts)
     {

@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Field/FieldCorrection.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
-#include "Kernels/Gap/Field/FieldBlockLight.h"
 #include "Kernels/Gap/Field/FieldData.h"
 
 #include <cmath>

@@ -268,12 +268,16 @@ void addTails(FieldData& data, const Region& region)
         continue;
       }
       const ImageWindow& window = block.window;
-      const std::size_t row = static_cast<std::size_t>(window.width) * K;
       block.tail.resize(window.pixels() * K * TailPasses);
-      float* out = block.tail.data() + static_cast<std::size_t>(pass) * window.pixels() * K;
-      for (int y = window.y; y < window.y + window.height; ++y, out += row)
+      double* out = block.tail.data() + pass;
+      for (int y = window.y; y < window.y + window.height; ++y)
       {
-        std::copy_n(buffer.pixel(window.x, y), row, out);
+        const float* row = buffer.pixel(window.x, y);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(window.width) * K; ++i)
+        {
+          *out = static_cast<double>(row[i]);
+          out += TailPasses;
+        }
       }
     }
   }

@@ -41,14 +41,21 @@ inline constexpr int TailReach = 2 * ((1 << TailPasses) - 1);
 
 using FieldLoop = std::function<void(int count, const std::function<void(int)>& body)>;
 
+// From the middle of the image to that of a window, in pixels.
+inline Eigen::Vector2d middleOf(const FieldPair& pair, const ImageWindow& window)
+{
+  return { pair.offX(window.x + 0.5 * (window.width - 1)),
+    pair.offY(window.y + 0.5 * (window.height - 1)) };
+}
+
 struct FieldBlock
 {
   ImageWindow window;
   int fold = -1; // 0 .. FieldFolds - 1; -1: a test block that takes no part in choosing and fitting
   int group = 0; // dealBlocks
   std::vector<float> real; // pixel after pixel; NaN: not usable
-  // Passes 1 .. TailPasses of the broad tail (ScatterTail) for each value; pass after pass.
-  std::vector<float> tail;
+  std::vector<double>
+    tail; // of each value the passes 1 .. TailPasses of the broad tail (ScatterTail)
 };
 
 struct FieldData

@@ -161,12 +161,12 @@ bool compatible(const FieldSet& set, const FieldChoice& choice)
 
 AskedSteps stepsOf(const FieldSet& set)
 {
-  AskedSteps asked(imageSteps().size(), 0);
+  AskedSteps asked;
   for (const FieldChoice* choice : set)
   {
     for (const ImageTerm& term : choice->terms)
     {
-      asked[static_cast<std::size_t>(&stepOf(term.parameter) - imageSteps().data())] = 1;
+      asked.insert(&stepOf(term.parameter));
     }
   }
   return asked;

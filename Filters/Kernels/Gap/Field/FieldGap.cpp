@@ -98,9 +98,7 @@ void addRest(FieldGap& gap, const FieldData& data, const FieldWeights& weights,
   const GapOptions& options, const FieldLoop& loop)
 {
   const PlacedStep& step = remainderStep();
-  AskedSteps asked(imageSteps().size(), 0);
-  asked[static_cast<std::size_t>(&step - imageSteps().data())] = 1;
-  const FieldStatistics left = fieldStatistics(data, gap.model, &weights, loop, asked);
+  const FieldStatistics left = fieldStatistics(data, gap.model, &weights, loop, { &step });
   const CameraEffect effect = regularPartOf(data, left);
   FieldModel model = gap.model;
   const Eigen::Map<const Eigen::ArrayXXd> numbers(effect.parameters.data(), data.channels(),

@@ -76,8 +76,12 @@ bool FieldModel::isNeutral(const PlacedStep& step) const
 
 AskedSteps everyStep()
 {
-  AskedSteps asked(imageSteps().size(), 1);
-  asked[static_cast<std::size_t>(&remainderStep() - imageSteps().data())] = 0;
+  AskedSteps asked;
+  for (const PlacedStep& step : imageSteps())
+  {
+    asked.insert(&step);
+  }
+  asked.erase(&remainderStep());
   return asked;
 }
 
@@ -102,8 +106,7 @@ ChannelSteps FieldModel::steps(
       neutral = neutral &&
         (step.numbers[n].pull != ImagePull::Neutral || own[n] == step.numbers[n].neutral);
     }
-    if (step.stage >= first && step.stage <= last &&
-      (!neutral || (!asked.empty() && asked[s] != 0)))
+    if (step.stage >= first && step.stage <= last && (!neutral || asked.count(&known[s]) > 0))
     {
       steps.push_back({ &known[s], own, s, light });
     }
@@ -139,6 +142,20 @@ double FieldFactor::operator()(double x, double y) const
   pixel.x = x;
   pixel.y = y;
   return run(Steps, pixel, nullptr, 1.0);
+}
+
+void addElsewhere(const FieldPair& pair, const float* scene, const FieldFactor& factor,
+  const ImagePlace& pixel, std::size_t channel, std::vector<double>& others)
+{
+  for (const PlacedStep& step : imageSteps())
+  {
+    if (step.from != nullptr)
+    {
+      const ImagePlace place = step.from(pixel, pair.extent);
+      others.push_back(factor(pair.fieldX(place.x), pair.fieldY(place.y)) *
+        static_cast<double>(scene[pair.index(place.x, place.y) * pair.channels.size() + channel]));
+    }
+  }
 }
 
 ImageDisplacement FieldModel::displacement(Eigen::Index channel) const

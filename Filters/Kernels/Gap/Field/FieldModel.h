@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,7 @@ struct ChannelStep
 using ChannelSteps = std::vector<ChannelStep>;
 
 // Of all steps, those whose derivatives are asked for where they change nothing; elsewhere they are always given.
-using AskedSteps = std::vector<char>;
+using AskedSteps = std::set<const PlacedStep*>;
 AskedSteps everyStep();            // but remainderStep()
 const PlacedStep& remainderStep(); // of EffectTrait::Remainder
 
@@ -118,6 +119,10 @@ public:
 private:
   ChannelSteps Steps;
 };
+
+// Appends the light at the places from where it falls on a pixel, too: of the unmoved, unblurred scene.
+void addElsewhere(const FieldPair& pair, const float* scene, const FieldFactor& factor,
+  const ImagePlace& pixel, std::size_t channel, std::vector<double>& others);
 
 // The stripes of `count` rows, or columns, of one channel from `first` on.
 struct FieldLines

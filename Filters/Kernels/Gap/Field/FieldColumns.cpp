@@ -59,6 +59,14 @@ std::vector<int> FieldColumn::of(unsigned axis)
   return columns;
 }
 
+const PlacedStep& FieldColumn::stepOf(int column)
+{
+  const std::vector<PlacedStep>& steps = imageSteps();
+  return *(std::upper_bound(steps.begin(), steps.end(), static_cast<std::size_t>(column),
+             [](std::size_t place, const PlacedStep& step) { return place < step.column; }) -
+    1);
+}
+
 int FieldColumn::gain()
 {
   return columnWith(ImageAxis::Channel | ImageAxis::Level);
@@ -362,11 +370,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
 std::vector<FieldResidual> fieldResiduals(
   const FieldData& data, const FieldModel& model, const FieldLoop& loop)
 {
-  const std::vector<PlacedStep>& steps = imageSteps();
-  const auto behindGain = std::find_if(steps.begin(), steps.end(),
-    [gain = static_cast<std::size_t>(FieldColumn::gain())](const PlacedStep& step)
-    { return step.column > gain; });
-  const AskedSteps asked{ &*(behindGain - 1) };
+  const AskedSteps asked{ &FieldColumn::stepOf(FieldColumn::gain()) };
   const Eigen::Index K = data.channels();
   const Eigen::ArrayXd glare = data.cells.mean(model);
   std::vector<FieldResidual> residuals(data.blocks.size() * static_cast<std::size_t>(K));

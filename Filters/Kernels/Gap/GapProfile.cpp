@@ -1,6 +1,7 @@
 #include "Kernels/Gap/GapProfile.h"
 
 #include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,16 +109,12 @@ void addField(std::vector<SampleGroup>& groups, const Eigen::VectorXd& x, const 
   }
 }
 
-double median(std::vector<double> values)
+double median(const Eigen::VectorXd& values)
 {
-  if (values.empty())
-  {
-    return Nothing;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  const double upper = *middle;
-  return values.size() % 2 == 1 ? upper : 0.5 * (upper + *std::max_element(values.begin(), middle));
+  const Eigen::Index count = values.size();
+  return count == 0
+    ? Nothing
+    : 0.5 * (orderStatistic(values, count / 2) + orderStatistic(values, (count - 1) / 2));
 }
 }
 
@@ -204,9 +201,8 @@ GapTrend trendOf(
     {
       ++end;
     }
-    const auto stretch = trend.before.segment(begin, end - begin);
-    trend.level.segment(begin, end - begin)
-      .setConstant(median(std::vector<double>(stretch.begin(), stretch.end())));
+    const Eigen::VectorXd stretch = trend.before.segment(begin, end - begin);
+    trend.level.segment(begin, end - begin).setConstant(median(stretch));
     begin = end;
   }
   return trend;

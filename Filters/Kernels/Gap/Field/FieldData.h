@@ -14,9 +14,6 @@
 namespace msi
 {
 
-// A pixel of the simulated image has no value.
-bool hasGaps(const FieldPair& pair);
-
 // The simulated image without gaps: gaps take the values at both sides in their row. Empty where there
 // are none.
 std::vector<float> filledScene(const FieldPair& pair);
@@ -71,10 +68,6 @@ struct FieldData
 
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
 };
-
-// The unit of each channel of the real image, where it is not that of the simulated one (white = 1): counts, say. 1 where the
-// images agree within a factor of five, else the same for all channels where that is enough.
-Eigen::ArrayXd fieldUnits(const FieldPair& pair);
 
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and
 // that lies a little inside the image. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.

@@ -148,22 +148,25 @@ std::vector<std::string> indistinctEffects(
   std::vector<std::string> found;
   for (const FieldChoice& choice : choices)
   {
-    double information = 0.0;
-    for (Eigen::Index k = 0; choice.has(EffectTrait::ActsOnEdges) && k < data.channels(); ++k)
+    const std::string& name = choice.effect->name;
+    if (!choice.has(EffectTrait::ActsOnEdges) ||
+      std::find(found.begin(), found.end(), name) != found.end())
     {
-      const Eigen::VectorXd column =
-        columnsChanged(choice.terms.front().parameter, statistics.model, statistics.model, k);
+      continue;
+    }
+    const ImageTerm& first = choice.terms.front();
+    double information = 1e-30;
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::count());
+      column.head(FieldColumn::residual()) =
+        columnsChanged(first.parameter, statistics.model, statistics.model, k);
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
-        information += column.dot(
-          statistics.at(b, k).normal().topLeftCorner(column.size(), column.size()) * column);
+        information += column.dot(statistics.at(b, k).normal() * column);
       }
     }
-    const bool missing = choice.has(EffectTrait::ActsOnEdges) &&
-      Decision::SureDeviations / std::sqrt(std::fmax(information, 1e-30)) >
-        choice.terms.front().typical;
-    const std::string& name = choice.effect->name;
-    if (missing && std::find(found.begin(), found.end(), name) == found.end())
+    if (Decision::SureDeviations / std::sqrt(information) > first.typical)
     {
       found.push_back(name);
     }

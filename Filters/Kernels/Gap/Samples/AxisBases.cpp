@@ -1,5 +1,7 @@
 #include "Kernels/Gap/Samples/AxisShares.h"
 
+#include "Kernels/Numerics/OrderStatistic.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -114,10 +116,8 @@ double upperLevel(const GapData& data)
       levels.push_back(data.simulated(i));
     }
   }
-  const auto place =
-    levels.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(levels.size() - 1));
-  std::nth_element(levels.begin(), place, levels.end());
-  return *place;
+  return orderStatistic(
+    levels, static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(levels.size() - 1)));
 }
 
 // Mean response of the usable neighbours minus the sample's own.

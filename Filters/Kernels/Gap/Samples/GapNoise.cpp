@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
+#include "Kernels/Numerics/OrderStatistic.h"
 #include "Kernels/Spectra/Interpolation.h"
 
 #include <Eigen/Cholesky>
@@ -159,9 +160,7 @@ double robustDeviation(std::vector<double> values)
 {
   std::transform(
     values.begin(), values.end(), values.begin(), [](double v) { return std::fabs(v); });
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle / MedianOfNormal;
+  return orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)) / MedianOfNormal;
 }
 
 namespace

@@ -1,6 +1,6 @@
 #include "Kernels/Gap/GapProfile.h"
 
-#include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
@@ -135,24 +135,11 @@ GroupedGap groupGap(const Eigen::MatrixXd& gap, const std::vector<SampleGroup>& 
   GroupedGap result{ Eigen::MatrixXd(gap.rows(), count), Eigen::MatrixXd(gap.rows(), count) };
   for (Eigen::Index g = 0; g < count; ++g)
   {
-    for (Eigen::Index k = 0; k < gap.rows(); ++k)
-    {
-      double sum = 0.0;
-      double square = 0.0;
-      double number = 0.0;
-      for (const Eigen::Index i : groups[static_cast<std::size_t>(g)].samples)
-      {
-        const double value = gap(k, i);
-        if (std::isfinite(value))
-        {
-          sum += value;
-          square += value * value;
-          number += 1.0;
-        }
-      }
-      result.mean(k, g) = number > 0.0 ? sum / number : Nothing;
-      result.rms(k, g) = number > 0.0 ? std::sqrt(square / number) : Nothing;
-    }
+    const Eigen::ArrayXXd some = gap(Eigen::all, groups[static_cast<std::size_t>(g)].samples);
+    const Eigen::ArrayXXd known = some.isFinite().select(some, 0.0);
+    const Eigen::ArrayXd number = some.isFinite().cast<double>().rowwise().sum();
+    result.mean.col(g) = known.rowwise().sum() / number;
+    result.rms.col(g) = (known.square().rowwise().sum() / number).sqrt();
   }
   return result;
 }

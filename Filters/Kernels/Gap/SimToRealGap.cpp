@@ -2,7 +2,6 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
-#include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
@@ -12,7 +11,6 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
 #include "Kernels/Gap/Samples/SampleObservation.h"
-#include "Kernels/Gap/Samples/SampleRest.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
 
@@ -82,8 +80,8 @@ void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::Ma
   {
     const SampleList heldOut = samplesOf(data, fold, true);
     const Eigen::MatrixXd& here = predicted[static_cast<std::size_t>(fold)];
-    const CameraEffect rest = restOf(data, here, samplesOf(data, fold, false), options.seed);
-    left(Eigen::all, heldOut) -= (withRest(data, rest, here) - here)(Eigen::all, heldOut);
+    const CameraEffect rest = regularPart(data, here, samplesOf(data, fold, false), options.seed);
+    left(Eigen::all, heldOut) -= (withRegularPart(data, rest, here) - here)(Eigen::all, heldOut);
   }
   left = measuredOnly(data, left);
   const GapFigures figures = figuresOf(
@@ -96,7 +94,7 @@ void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::Ma
   if (options.addRest)
   {
     after = left;
-    report.correction.push_back(restOf(data, predicted.back(), data.usable, options.seed));
+    report.correction.push_back(regularPart(data, predicted.back(), data.usable, options.seed));
   }
 }
 

@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldFit.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Numerics/LeastSquares.h"
 
 #include <Eigen/Cholesky>
 

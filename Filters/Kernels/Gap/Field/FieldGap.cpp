@@ -6,7 +6,6 @@
 #include "Kernels/Gap/Field/FieldObservation.h"
 #include "Kernels/Gap/Field/FieldStripes.h"
 #include "Kernels/Gap/Field/FieldWhere.h"
-#include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
@@ -90,7 +89,7 @@ CameraEffect regularPartOf(const FieldData& data, const FieldStatistics& left)
       channel = channel(columns, columns).eval();
     }
   }
-  return unmodelledPart(regularPart(products), data.pair.channels);
+  return regularPart(products, data.pair.channels);
 }
 
 // Adds it, where it predicts test blocks.

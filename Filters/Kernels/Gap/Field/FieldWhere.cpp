@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldWhere.h"
 
-#include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Numerics/LeastSquares.h"
 
 #include <Eigen/Cholesky>
 

@@ -1,7 +1,8 @@
 #include "Kernels/Gap/Samples/AxisShares.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Numerics/LeastSquares.h"
 
 #include <Eigen/Cholesky>
 

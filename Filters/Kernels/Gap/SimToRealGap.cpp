@@ -181,7 +181,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     return std::nullopt;
   }
 
-  const AxisShares rest = shareOverAxes(data, after, true);
+  const AxisShares rest = shareOverAxes(data, after);
   const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
   const double doubted = limitIntegration(data, integration, unpredicted);
   if (capture.noise && noise.degrees == 0.0)
@@ -202,7 +202,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   }
   report.gap = figuresOf(
     energiesOf(data, data.usable, before, after), static_cast<double>(data.elements), options.seed);
-  const AxisShares where = shareOverAxes(data, before, true);
+  const AxisShares where = shareOverAxes(data, before);
   report.where = where.axes;
   report.changePoints =
     OrderBreaks::significant(observation.fitter(), data.simulated, MostChangePoints);

@@ -62,16 +62,27 @@ bool FieldModel::isNeutral(ImageParameter parameter) const
   return ((*this)[parameter] == numberOf(parameter).neutral).all();
 }
 
-bool FieldModel::isNeutral(const PlacedStep& step) const
+bool FieldModel::isNeutral(const PlacedStep& step, Eigen::Index channel) const
 {
   for (std::size_t n = 0; n < step.step->numbers.size(); ++n)
   {
-    if (step.step->numbers[n].pull == ImagePull::Neutral && !isNeutral(step.number + n))
+    const ImageNumber& number = step.step->numbers[n];
+    if (number.pull == ImagePull::Neutral && at(step.number + n, channel) != number.neutral)
     {
       return false;
     }
   }
   return true;
+}
+
+bool FieldModel::isNeutral(const PlacedStep& step) const
+{
+  bool neutral = true;
+  for (Eigen::Index k = 0; k < Values.cols(); ++k)
+  {
+    neutral = neutral && isNeutral(step, k);
+  }
+  return neutral;
 }
 
 AskedSteps everyStep()
@@ -98,17 +109,11 @@ ChannelSteps FieldModel::steps(
   std::size_t light = 0;
   for (std::size_t s = 0; s < known.size(); ++s)
   {
-    const ImageStep& step = *known[s].step;
-    const double* own = numbers(known[s], channel);
-    bool neutral = true;
-    for (std::size_t n = 0; n < step.numbers.size(); ++n)
+    const ImageStage stage = known[s].step->stage;
+    if (stage >= first && stage <= last &&
+      (!isNeutral(known[s], channel) || asked.count(&known[s]) > 0))
     {
-      neutral = neutral &&
-        (step.numbers[n].pull != ImagePull::Neutral || own[n] == step.numbers[n].neutral);
-    }
-    if (step.stage >= first && step.stage <= last && (!neutral || asked.count(&known[s]) > 0))
-    {
-      steps.push_back({ &known[s], own, s, light });
+      steps.push_back({ &known[s], numbers(known[s], channel), s, light });
     }
     light += known[s].from != nullptr ? 1 : 0;
   }

@@ -86,7 +86,9 @@ struct FieldModel
     return &Values(static_cast<Eigen::Index>(step.number), channel);
   }
   bool isNeutral(ImageParameter parameter) const;
-  bool isNeutral(const PlacedStep& step) const; // but for numbers that change nothing alone
+  // But for numbers that change nothing alone.
+  bool isNeutral(const PlacedStep& step) const;
+  bool isNeutral(const PlacedStep& step, Eigen::Index channel) const;
 
   void goHalfwayTo(const FieldModel& other) { Values = 0.5 * (Values + other.Values); }
 

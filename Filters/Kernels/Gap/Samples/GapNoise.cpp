@@ -192,8 +192,7 @@ void setUnknownNoise(GapData& data)
   data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());
   const auto measured = data.count.array() > 0.0;
   const Eigen::MatrixXd residual =
-    shareOverAxes(data, measured.select(data.observed - data.simulated, 0.0), false)
-      .heldOutResidual;
+    shareOverAxes(data, measured.select(data.observed - data.simulated, 0.0)).heldOutResidual;
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(data.channels());
   for (Eigen::Index k = 0; k < data.channels(); ++k)
   {

@@ -26,40 +26,31 @@ struct LineValues
   }
 };
 
-// The relative gain and the offset of the residual of each line, from one fold's blocks. value: times weight.
-struct LineSums
-{
-  LineValues gain, offset;
-};
-
 constexpr Eigen::Index DefectPart = 50; // one line of so many may be defect
 
-// Of each fold. limit: residuals count up to this size, K; empty: in full.
-std::vector<LineSums> lineSums(const FieldData& data, const std::vector<FieldResidual>& residuals,
-  bool alongRows, const Eigen::ArrayXd& limit)
+// The relative gain of the residual of each line, or its offset, from the blocks of each fold; value: times weight.
+// limit: residuals count up to this size, K; empty: in full.
+std::vector<LineValues> lineSums(const FieldData& data, const std::vector<FieldResidual>& residuals,
+  bool alongRows, bool ofGain, const Eigen::ArrayXd& limit)
 {
-  const LineValues none(
-    alongRows ? data.pair.extent.height : data.pair.extent.width, data.channels());
-  std::vector<LineSums> folds(FieldFolds, { none, none });
+  const Eigen::Index lines = alongRows ? data.pair.extent.height : data.pair.extent.width;
+  std::vector<LineValues> folds(FieldFolds, LineValues(lines, data.channels()));
   for (std::size_t i = 0; i < residuals.size(); ++i)
   {
     const FieldResidual& part = residuals[i];
     const FieldBlock& block = data.blocks[i / data.pair.channels.size()];
     const auto k = static_cast<Eigen::Index>(i % data.pair.channels.size());
-    for (Eigen::Index n = 0; n < part.gain.size(); ++n)
+    for (Eigen::Index n = 0; n < part.residual.size(); ++n)
     {
-      LineSums& sums = folds[static_cast<std::size_t>(block.fold)];
+      LineValues& fold = folds[static_cast<std::size_t>(block.fold)];
       const int pixel = part.pixel[static_cast<std::size_t>(n)];
       const int line = alongRows ? block.window.y + pixel / block.window.width
                                  : block.window.x + pixel % block.window.width;
-      const double u = part.gain[n];
-      const double r = part.residual[n];
-      const double size = std::fabs(r);
+      const double u = ofGain ? part.gain[n] : 1.0;
+      const double size = std::fabs(part.residual[n]);
       const double weight = limit.size() > 0 && size > limit[k] ? limit[k] / size : 1.0;
-      sums.gain.value(line, k) += weight * u * r;
-      sums.gain.weight(line, k) += weight * u * u;
-      sums.offset.value(line, k) += weight * r;
-      sums.offset.weight(line, k) += weight;
+      fold.value(line, k) += weight * u * part.residual[n];
+      fold.weight(line, k) += weight * u * u;
     }
   }
   return folds;
@@ -96,44 +87,39 @@ void cutDefects(Eigen::ArrayXXd& values)
 }
 
 // The mean of each line over all folds but one.
-LineValues meansWithout(
-  const std::vector<LineSums>& folds, std::size_t without, LineValues LineSums::*kind)
+LineValues meansWithout(const std::vector<LineValues>& folds, std::size_t without)
 {
-  LineValues lines((folds[0].*kind).value.rows(), (folds[0].*kind).value.cols());
+  LineValues lines(folds[0].value.rows(), folds[0].value.cols());
   for (std::size_t fold = 0; fold < folds.size(); ++fold)
   {
     if (fold != without)
     {
-      lines.value += (folds[fold].*kind).value;
-      lines.weight += (folds[fold].*kind).weight;
+      lines.value += folds[fold].value;
+      lines.weight += folds[fold].weight;
     }
   }
   lines.value /= lines.weight.max(1e-12);
   return lines;
-}
-
-Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t without,
-  LineValues LineSums::*kind, bool keepTrend)
-{
-  LineValues lines = meansWithout(folds, without, kind);
-  detrend(lines, keepTrend ? 1 : 3);
-  lines.value = (lines.weight > 0.0).select(lines.value, 0.0);
-  cutDefects(lines.value);
-  return lines.value;
 }
 }
 
 FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>& residuals,
   bool alongRows, bool keepTrend, const Eigen::ArrayXd& limit)
 {
-  const std::vector<LineSums> folds = lineSums(data, residuals, alongRows, limit);
-  FieldProfile profile;
-  for (std::size_t without = 0; without <= folds.size(); ++without)
+  const auto profiles = [&](bool ofGain)
   {
-    profile.gain.push_back(profileWithout(folds, without, &LineSums::gain, keepTrend));
-    profile.offset.push_back(profileWithout(folds, without, &LineSums::offset, keepTrend));
-  }
-  return profile;
+    const std::vector<LineValues> folds = lineSums(data, residuals, alongRows, ofGain, limit);
+    std::vector<Eigen::ArrayXXd> found;
+    for (std::size_t without = 0; without <= folds.size(); ++without)
+    {
+      LineValues lines = meansWithout(folds, without);
+      detrend(lines, keepTrend ? 1 : 3);
+      found.emplace_back((lines.weight > 0.0).select(lines.value, 0.0));
+      cutDefects(found.back());
+    }
+    return found;
+  };
+  return { profiles(true), profiles(false) };
 }
 
 namespace
@@ -185,8 +171,8 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
   const FieldLoop& loop, FieldStripes& stripes)
 {
   stripes.period = stripes.periodError = 0.0;
-  LineValues profile = meansWithout(
-    lineSums(data, residuals, alongRows, Eigen::ArrayXd()), FieldFolds, &LineSums::gain);
+  LineValues profile =
+    meansWithout(lineSums(data, residuals, alongRows, true, Eigen::ArrayXd()), FieldFolds);
   const Eigen::Index lines = profile.value.rows();
   const Eigen::Index K = profile.value.cols();
   if (lines < FewestLines)

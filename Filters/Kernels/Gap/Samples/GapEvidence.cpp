@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <vector>
 
 namespace msi
 {
 
 namespace
 {
-constexpr std::size_t FewSamples = 3;
+constexpr Eigen::Index FewSamples = 3;
 
 // Energy explained over energy left where the gap shrinks by Decision::SmallPart.
 double leastOverLeft()
@@ -90,16 +89,10 @@ bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen:
 
 bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)
 {
-  const Eigen::VectorXd energy = measuredOnly(data, change).colwise().squaredNorm();
-  std::vector<double> sorted(energy.data(), energy.data() + energy.size());
-  std::sort(sorted.begin(), sorted.end(), std::greater<>());
-  const auto few = std::min(sorted.size(), FewSamples);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < few; ++i)
-  {
-    sum += sorted[i];
-  }
-  return sum > (1.0 - Decision::SmallPart) * energy.sum();
+  Eigen::VectorXd energy = measuredOnly(data, change).colwise().squaredNorm();
+  std::sort(energy.begin(), energy.end(), std::greater<>());
+  return energy.head(std::min(energy.size(), FewSamples)).sum() >
+    (1.0 - Decision::SmallPart) * energy.sum();
 }
 
 } // namespace msi

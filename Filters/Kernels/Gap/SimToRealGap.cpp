@@ -110,6 +110,19 @@ void credit(
 
 }
 
+void GapOptions::forAll(int count, const std::function<void(int)>& body) const
+{
+  if (parallelFor)
+  {
+    parallelFor(count, body);
+    return;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    body(i);
+  }
+}
+
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
 {
   requireKnown(options.without);
@@ -143,6 +156,10 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const std::function<bool()> stop = [&progress] { return progress("searching for effects"); };
   const auto job = [&](int number)
   {
+    if (stop())
+    {
+      return;
+    }
     SetSearchLimits limits;
     limits.maximumEffects = options.maximumCauses;
     if (number == 0)
@@ -165,17 +182,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     after(Eigen::all, heldOut) = left(Eigen::all, heldOut);
     progress("checked on samples left out", 1.0);
   };
-  if (options.parallelFor)
-  {
-    options.parallelFor(data.folds + 1, job);
-  }
-  else
-  {
-    for (int number = 0; number <= data.folds && !progress.stopped(); ++number)
-    {
-      job(number);
-    }
-  }
+  options.forAll(data.folds + 1, job);
   if (progress.stopped())
   {
     return std::nullopt;
@@ -263,8 +270,8 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   addExcessNoise(report, data, noise, capture.noise, options.without);
   report.notes = notesOn(data, capture, noise, reflectanceNoise, report);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  report.gapBefore = (data.count.array() > 0.0).select(before, nan);
-  report.gapAfter = (data.count.array() > 0.0).select(after, nan);
+  report.gapBefore = data.measured().select(before, nan);
+  report.gapAfter = data.measured().select(after, nan);
   progress("done", 10.0);
   return report;
 }

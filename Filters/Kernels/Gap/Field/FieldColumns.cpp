@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldColumns.h"
 
+#include "Kernels/Camera/Imaging/ChannelRegistration.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <Eigen/Core>
@@ -135,7 +136,7 @@ Eigen::ArrayXd convolved(const Eigen::ArrayXd& blur, const Eigen::Array4d& shift
   return weight;
 }
 
-// Cubic convolution for a displacement (as ChannelRegistration) with a Gaussian of a variance, along one axis: the weights of the
+// Cubic convolution for a displacement with a Gaussian of a variance, along one axis: the weights of the
 // pixels from `first` on, and their derivatives by displacement and variance.
 struct AxisKernel
 {
@@ -147,9 +148,7 @@ struct AxisKernel
     const double below = std::floor(-displacement);
     const double t = -displacement - below;
     const double t2 = t * t;
-    const double t3 = t2 * t;
-    const Eigen::Array4d cubic(-0.5 * t + t2 - 0.5 * t3, 1.0 - 2.5 * t2 + 1.5 * t3,
-      0.5 * t + 2.0 * t2 - 1.5 * t3, -0.5 * t2 + 0.5 * t3);
+    const Eigen::Array4d cubic = cubicConvolution(t);
     const Eigen::Array4d cubicSlope(0.5 - 2.0 * t + 1.5 * t2, 5.0 * t - 4.5 * t2,
       -0.5 - 4.0 * t + 4.5 * t2, t - 1.5 * t2); // minus the derivative by t
     const int reach = std::max(

@@ -44,8 +44,8 @@ void FieldCorrection::operator()(
   const ImageWindow& window, float* corrected, CorrectionWorkspace& workspace) const
 {
   const std::size_t K = Pair.channels.size();
-  const int halo = (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) +
-    2 * ((1 << Passes) - 1);
+  const int halo =
+    (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) + splineReach(Passes);
   PixelBuffer& signal = workspace.signal;
   signal.resize(grown(window, halo, Pair.extent), static_cast<int>(K));
   const ImageWindow& region = signal.window;

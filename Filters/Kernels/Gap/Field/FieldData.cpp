@@ -184,8 +184,8 @@ std::vector<Region> regionsOf(const ImageExtent& extent)
       ImageWindow interior = whole;
       const auto cut = [](int& first, int& size, int all)
       {
-        const int before = first > 0 ? TailReach : 0;
-        const int behind = first + size < all ? TailReach : 0;
+        const int before = first > 0 ? splineReach(TailPasses) : 0;
+        const int behind = first + size < all ? splineReach(TailPasses) : 0;
         first += before;
         size -= before + behind;
       };

@@ -33,9 +33,6 @@ private:
 
 inline constexpr int FieldFolds = 5;
 
-// Pixels around a window that TailPasses passes depend on.
-inline constexpr int TailReach = 2 * ((1 << TailPasses) - 1);
-
 using FieldLoop = std::function<void(int count, const std::function<void(int)>& body)>;
 
 // From the middle of the image to that of a window, in pixels.

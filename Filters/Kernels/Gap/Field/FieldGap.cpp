@@ -248,17 +248,8 @@ std::vector<std::string> notesOn(
 std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options)
 {
   const std::vector<FieldChoice> choices = fieldChoices(options.without);
-  FieldLoop loop = options.parallelFor;
-  if (!loop)
-  {
-    loop = [](int count, const std::function<void(int)>& body)
-    {
-      for (int i = 0; i < count; ++i)
-      {
-        body(i);
-      }
-    };
-  }
+  const FieldLoop loop = [&options](int count, const std::function<void(int)>& body)
+  { options.forAll(count, body); };
   double done = 0.0;
   bool stopped = false;
   const auto say = [&](double fraction, const char* what)

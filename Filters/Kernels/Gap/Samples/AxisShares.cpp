@@ -27,7 +27,7 @@ class AxisColumns
 public:
   explicit AxisColumns(const GapData& data)
     : Channels(data.channels())
-    , Usable((data.count.array() > 0.0).colwise().any())
+    , Usable(data.measured().colwise().any())
   {
   }
   // One row for all channels, or one for each.
@@ -77,9 +77,8 @@ public:
     Eigen::MatrixXd all(gap.size(), End.back() + 1);
     for (Eigen::Index c = 0; c < End.back(); ++c)
     {
-      all.col(c) = (data.count.array() > 0.0)
-                     .reshaped()
-                     .select(List[static_cast<std::size_t>(c)].array(), 0.0);
+      all.col(c) =
+        data.measured().reshaped().select(List[static_cast<std::size_t>(c)].array(), 0.0);
     }
     all.col(End.back()) = gap.reshaped();
     return all;
@@ -329,7 +328,7 @@ std::string sampleCell(const GapData& data, const std::string& axis, Eigen::Inde
 std::vector<GapCell> worstCells(
   const GapData& data, const Eigen::MatrixXd& gap, const std::string& axis)
 {
-  const Eigen::MatrixXd level = (data.count.array() > 0.0).select(data.simulated, 0.0);
+  const Eigen::MatrixXd level = data.measured().select(data.simulated, 0.0);
   const double low = std::fmin(level.minCoeff(), 0.0);
   const double high = std::fmax(level.maxCoeff(), 0.0);
   GapCells cells;
@@ -351,7 +350,7 @@ std::vector<GapCell> worstCells(
 // What the mean over one half of a sample's channels predicts of the other half.
 double sampleEnergy(const GapData& data, const Eigen::MatrixXd& residual)
 {
-  const Eigen::ArrayXXd measured = (data.count.array() > 0.0).cast<double>();
+  const Eigen::ArrayXXd measured = data.measured().cast<double>();
   const Eigen::ArrayXXd left = measured * residual.array();
   const auto half = [](const Eigen::ArrayXXd& values, Eigen::Index first)
   {
@@ -384,7 +383,7 @@ AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap)
       return explained;
     },
     [&] { regression = FoldedRegression(data, gap, true); });
-  const double noise = ((data.count.array() > 0.0).cast<double>() * data.variance.array()).sum();
+  const double noise = (data.measured().cast<double>() * data.variance.array()).sum();
   const double beyond = std::fmax(regression.energy() - noise, 1e-300);
   double total = 0.0;
   for (std::size_t a = 0; a < count; ++a)

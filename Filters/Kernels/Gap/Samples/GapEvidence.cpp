@@ -22,7 +22,7 @@ double leastOverLeft()
 
 Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
 {
-  return (data.count.array() > 0.0).select(values, 0.0);
+  return data.measured().select(values, 0.0);
 }
 
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)

@@ -186,7 +186,7 @@ struct SecondDifferences
 void setUnknownNoise(GapData& data)
 {
   data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());
-  const auto measured = data.count.array() > 0.0;
+  const auto measured = data.measured();
   const Eigen::MatrixXd residual =
     shareOverAxes(data, measured.select(data.observed - data.simulated, 0.0)).heldOutResidual;
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(data.channels());
@@ -273,7 +273,7 @@ double logLikelihood(const GapData& data, const Eigen::MatrixXd& residual,
 
 double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, double unpredicted)
 {
-  const auto measured = data.count.array() > 0.0;
+  const auto measured = data.measured();
   const Eigen::VectorXd gain = reflectanceErrorGain(data.camera);
   const double noise = measured.select(data.variance.array(), 0.0).sum();
   const double perUnit = measured.select(gain.replicate(1, data.samples()).array(), 0.0).sum();
@@ -301,7 +301,7 @@ double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, 
 double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
   const Eigen::MatrixXd& noise, const Eigen::MatrixXd& integration)
 {
-  const auto measured = data.count.array() > 0.0;
+  const auto measured = data.measured();
   const Eigen::MatrixXd& m = data.camera.responsivity();
   const Eigen::MatrixXd through = m * m.transpose();
   const auto noisy = [&](double factor) -> Eigen::ArrayXXd

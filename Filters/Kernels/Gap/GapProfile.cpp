@@ -146,14 +146,10 @@ GroupedGap groupGap(const Eigen::MatrixXd& gap, const std::vector<SampleGroup>& 
 
 Eigen::VectorXd relativeGap(const Eigen::MatrixXd& gap, const Eigen::MatrixXd& simulated)
 {
-  Eigen::VectorXd relative(gap.cols());
-  for (Eigen::Index i = 0; i < gap.cols(); ++i)
-  {
-    const auto measured = gap.col(i).array().isFinite() && simulated.col(i).array().isFinite();
-    const double size = measured.select(simulated.col(i).array(), 0.0).sum();
-    relative[i] = size > 0.0 ? measured.select(gap.col(i).array(), 0.0).sum() / size : Nothing;
-  }
-  return relative;
+  const auto measured = gap.array().isFinite() && simulated.array().isFinite();
+  const Eigen::ArrayXd size = measured.select(simulated.array(), 0.0).colwise().sum();
+  const Eigen::ArrayXd sum = measured.select(gap.array(), 0.0).colwise().sum();
+  return (size > 0.0).select(sum / size, Nothing);
 }
 
 GapTrend trendOf(

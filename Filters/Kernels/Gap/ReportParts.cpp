@@ -134,7 +134,7 @@ std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes)
 
 GapRemainder remainderOf(double share, const std::vector<GapAxis>& axes)
 {
-  return { share, whereIs(axes), dependences(axes) };
+  return share > 0.0 ? GapRemainder{ share, whereIs(axes), dependences(axes) } : GapRemainder{};
 }
 
 const char* nameOf(GapVerdict verdict) noexcept

@@ -222,10 +222,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   if (causes && shrink > 0.0 && noticeable(data, before, after, integration))
   {
     credit(report, observation, found, shrink);
-    if (report.unexplained.share > 0.0)
-    {
-      report.unexplained = remainderOf(report.unexplained.share, rest.axes);
-    }
+    report.unexplained = remainderOf(report.unexplained.share, rest.axes);
     report.verdict = verdictOf(shrink, false);
   }
   else if (causes && alone >= Decision::ExplainedShrink &&
@@ -245,14 +242,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     report.verdict = GapVerdict::Unexplained;
     report.unexplained = remainderOf(1.0, where.axes);
   }
+  predicted.back() = best.predicted;
   if (report.correction.empty())
   {
     leaveAsItWas(report.gap);
     after = before;
-  }
-  predicted.back() = best.predicted;
-  if (report.correction.empty())
-  {
     std::fill(predicted.begin(), predicted.end(), data.simulated);
   }
   report.candidates = foundCandidates(observation, found, options.seed);

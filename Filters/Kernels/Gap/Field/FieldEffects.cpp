@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
-#include "Kernels/Gap/Field/FieldStripes.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Numerics/Angle.h"
 
@@ -115,7 +115,7 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
     }
     for (const ImageForm& form : effect.imageForms)
     {
-      choices.push_back({ &effect, form.form, form.terms, form.twice });
+      choices.push_back({ form, &effect });
     }
   }
   // Of effects that do as well the exact ones come first.

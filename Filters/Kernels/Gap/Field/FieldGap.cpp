@@ -4,8 +4,7 @@
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldObservation.h"
-#include "Kernels/Gap/Field/FieldStripes.h"
-#include "Kernels/Gap/Field/FieldWhere.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
@@ -294,10 +293,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.correction = fieldCorrection(finding.set(), gap->model, pair.channels);
     report.verdict = verdictOf(shrink, noiseAlone);
     explained = noiseAlone ? 1.0 : shrink;
-    if (report.unexplained.share > 0.0)
-    {
-      report.unexplained = remainderOf(report.unexplained.share, rest);
-    }
+    report.unexplained = remainderOf(report.unexplained.share, rest);
   }
   else
   {

@@ -202,23 +202,21 @@ std::array<double, TailPasses> FieldModel::tailWeights(Eigen::Index channel) con
 
 FieldLines::FieldLines(
   const FieldModel& model, bool ofRows, Eigen::Index channel, int fold, int first, int count)
-  : sine(Eigen::ArrayXd::Zero(count))
-  , cosine(sine)
-  , gain(sine)
-  , offset(sine)
+  : Lines(Eigen::ArrayX4d::Zero(count, 4))
 {
   const FieldStripes& stripes = model.stripes(ofRows);
   if (stripes.period > 0.0)
   {
     const Eigen::ArrayXd angle =
       TwoPi / stripes.period * Eigen::ArrayXd::LinSpaced(count, first, first + count - 1);
-    sine = angle.sin();
-    cosine = angle.cos();
+    Lines.col(0) = angle.sin();
+    Lines.col(1) = angle.cos();
   }
   if (stripes.profile != nullptr)
   {
-    gain = FieldProfile::without(fold, stripes.profile->gain).col(channel).segment(first, count);
-    offset =
+    Lines.col(2) =
+      FieldProfile::without(fold, stripes.profile->gain).col(channel).segment(first, count);
+    Lines.col(3) =
       FieldProfile::without(fold, stripes.profile->offset).col(channel).segment(first, count);
   }
 }

@@ -135,11 +135,11 @@ struct FieldLines
 
   ImageLine operator[](Eigen::Index line) const
   {
-    return { sine[line], cosine[line], gain[line], offset[line] };
+    return { Lines(line, 0), Lines(line, 1), Lines(line, 2), Lines(line, 3) };
   }
 
 private:
-  Eigen::ArrayXd sine, cosine, gain, offset;
+  Eigen::ArrayX4d Lines; // in the order of ImageLine
 };
 
 std::size_t fieldParameterCount();

@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Field/FieldStarts.h"
 
 #include "Kernels/Camera/CameraEffect.h"
-#include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>

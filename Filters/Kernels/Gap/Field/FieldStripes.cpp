@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Field/FieldStripes.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
 
 #include "Kernels/Numerics/Angle.h"
 #include "Kernels/Numerics/OrderStatistic.h"

@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Field/FieldWhere.h"
+#include "Kernels/Gap/Field/FieldStatistics.h"
 
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Numerics/LeastSquares.h"

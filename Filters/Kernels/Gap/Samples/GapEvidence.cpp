@@ -74,16 +74,12 @@ double negligibleEnergy(
 bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
   const Eigen::MatrixXd& integration)
 {
-  const double left = after.squaredNorm();
-  const double explained = before.squaredNorm() - left;
-  const Eigen::MatrixXd allowed = Decision::EstimateFactor * measuredOnly(data, integration);
-  double beyond = 0.0;
-  for (Eigen::Index j = 0; j < data.samples(); ++j)
-  {
-    const double taken = before.col(j).squaredNorm() - after.col(j).squaredNorm();
-    beyond += std::fmax(taken - allowed.col(j).sum(), 0.0);
-  }
-  return explained > leastOverLeft() * left &&
+  const Eigen::ArrayXd taken = before.colwise().squaredNorm() - after.colwise().squaredNorm();
+  const Eigen::ArrayXd allowed =
+    Decision::EstimateFactor * measuredOnly(data, integration).colwise().sum();
+  const double explained = taken.sum();
+  const double beyond = (taken - allowed).max(0.0).sum();
+  return explained > leastOverLeft() * after.squaredNorm() &&
     (explained > allowed.sum() || beyond > 0.5 * explained);
 }
 

@@ -192,7 +192,7 @@ struct Neighbourhood
       {
         const int u = std::clamp(window.x + x.first + static_cast<int>(i), 0, extent.width - 1);
         scene(i, j) = static_cast<double>(
-          data.scene[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)]);
+          data.scene()[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)]);
       }
     }
     const Eigen::MatrixXd along = band(x.value, window.width) * scene;
@@ -242,7 +242,7 @@ public:
     const FieldFactor factor(model);
     for (int i = 0; i < pixels; ++i)
     {
-      addElsewhere(data.pair, data.scene, factor, placeOf(i), Channel, Others);
+      addElsewhere(data.pair, data.scene(), factor, placeOf(i), Channel, Others);
     }
     const ChannelSteps active = model.steps(ImageStage::Scene, ImageStage::Light, channel);
     for (int i = 0; i < pixels; ++i)

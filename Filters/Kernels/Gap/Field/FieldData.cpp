@@ -115,6 +115,7 @@ constexpr int Surround = 2; // finite neighbours
 constexpr int LargestMargin = 8;
 constexpr std::size_t MostBlocks = 208; // with up to 8 channels; fewer with more, down to half
 
+constexpr int SmallestBlock = 4; // pixels on a side
 constexpr std::size_t EnoughBlocks = 64;
 constexpr std::size_t FewestBlocks = 15;
 constexpr double UsablePart = 0.25;
@@ -248,7 +249,6 @@ std::size_t readBlock(const FieldData& data, FieldBlock& block)
 // Those with enough usable pixels; their values are not kept, for there may be many more than are drawn.
 void findBlocks(FieldData& data, const std::vector<Region>& regions, int size)
 {
-  data.blockSize = size;
   data.blocks.clear();
   double looked = 0.0;
   double usable = 0.0;
@@ -283,7 +283,7 @@ void addTails(FieldData& data, const Region& region)
   buffer.resize(region.whole, static_cast<int>(K));
   for (int y = region.whole.y; y < region.whole.y + region.whole.height; ++y)
   {
-    std::copy_n(data.scene + data.pair.index(region.whole.x, y) * K,
+    std::copy_n(data.scene() + data.pair.index(region.whole.x, y) * K,
       static_cast<std::size_t>(region.whole.width) * K, buffer.pixel(region.whole.x, y));
   }
   for (int pass = 0; pass < TailPasses; ++pass)
@@ -322,10 +322,9 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
   FieldData data;
   data.pair = pair;
   data.filled = filledScene(pair);
-  data.scene = data.filled.empty() ? pair.simulated : data.filled.data();
   data.unit = fieldUnits(pair);
   const auto regions = regionsOf(pair.extent);
-  for (const int size : { 16, 8, 4 })
+  for (const int size : { 16, 8, SmallestBlock })
   {
     findBlocks(data, regions, size);
     if (data.blocks.size() >= EnoughBlocks)
@@ -335,8 +334,8 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
   }
   if (data.blocks.size() < FewestBlocks)
   {
-    reject("the images share ", data.blocks.size(), " blocks of ", data.blockSize, " x ",
-      data.blockSize, " usable pixels; expected at least ", FewestBlocks,
+    reject("the images share ", data.blocks.size(), " blocks of ", SmallestBlock, " x ",
+      SmallestBlock, " usable pixels; expected at least ", FewestBlocks,
       ": pixels must be finite in both images, with finite neighbours in the simulated one");
   }
   dealBlocks(pair, data.blocks,

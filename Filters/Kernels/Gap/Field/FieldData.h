@@ -48,22 +48,22 @@ struct FieldBlock
   int fold = -1; // 0 .. FieldFolds - 1; -1: a test block that takes no part in choosing and fitting
   int group = 0; // dealBlocks
   std::vector<float> real; // pixel after pixel; NaN: not usable
-  std::vector<double>
-    tail; // of each value the passes 1 .. TailPasses of the broad tail (ScatterTail)
+  // Of each value the passes 1 .. TailPasses of the broad tail (ScatterTail).
+  std::vector<double> tail;
 };
 
 struct FieldData
 {
   FieldPair pair;
-  std::vector<float> filled;    // the simulated image without gaps, where it had some
-  const float* scene = nullptr; // filled, or the simulated image itself
-  Eigen::ArrayXd unit; // of the real image's channels, K; FieldBlock::real is divided by it
-  int blockSize = 0;
+  std::vector<float> filled; // filledScene()
+  Eigen::ArrayXd unit;       // of the real image's channels, K; FieldBlock::real is divided by it
   std::vector<FieldBlock> blocks;
   double usablePart = 0.0; // of the image's pixels
   SceneCells cells;
 
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
+  // The simulated image without gaps.
+  const float* scene() const noexcept { return filled.empty() ? pair.simulated : filled.data(); }
 };
 
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and

@@ -44,7 +44,7 @@ Match matchOf(const FieldData& data, const FieldBlock& block, Eigen::Index chann
         for (int x = block.window.x; x < block.window.x + block.window.width; ++x, i += K)
         {
           const int u = std::clamp(x - right, 0, extent.width - 1);
-          sums.add(block.real[i], data.scene[data.pair.index(u, v) * K + k]);
+          sums.add(block.real[i], data.scene()[data.pair.index(u, v) * K + k]);
         }
       }
       match.real = sums.ofReal();

@@ -26,69 +26,59 @@ class AxisColumns
 {
 public:
   explicit AxisColumns(const GapData& data)
-    : Channels(data.channels())
-    , Usable(data.measured().colwise().any())
+    : Measured(data.measured())
   {
   }
   // One row for all channels, or one for each.
   void add(const Elements& values)
   {
-    const Elements known = Usable.replicate(values.rows(), 1).select(values, 0.0);
-    List.emplace_back(known.replicate(Channels / known.rows(), 1).reshaped());
+    const Elements all = values.replicate(Measured.rows() / values.rows(), 1);
+    List.emplace_back(Measured.select(all, 0.0).reshaped());
+    AxisOf.push_back(Names.size());
   }
   // One column a channel: the values in that channel, less the mean over the channels if centered.
   void addEachChannel(const Elements& values, bool centered)
   {
-    const double mean = centered ? 1.0 / static_cast<double>(Channels) : 0.0;
-    for (Eigen::Index c = 0; c < Channels; ++c)
+    const double mean = centered ? 1.0 / static_cast<double>(Measured.rows()) : 0.0;
+    for (Eigen::Index c = 0; c < Measured.rows(); ++c)
     {
-      Eigen::ArrayXd factor = Eigen::ArrayXd::Constant(Channels, -mean);
+      Eigen::ArrayXd factor = Eigen::ArrayXd::Constant(Measured.rows(), -mean);
       factor[c] += 1.0;
       add(values.colwise() * factor);
     }
   }
-  void finish(const char* axis)
-  {
-    Names.emplace_back(axis);
-    End.push_back(static_cast<Eigen::Index>(List.size()));
-  }
+  void finish(const char* axis) { Names.emplace_back(axis); }
 
   const std::vector<std::string>& axes() const noexcept { return Names; }
   // The numbers of the columns of some axes.
   std::vector<Eigen::Index> of(std::size_t subset) const
   {
     std::vector<Eigen::Index> chosen;
-    Eigen::Index column = 0;
-    for (std::size_t a = 0; a < End.size(); ++a)
+    for (std::size_t c = 0; c < List.size(); ++c)
     {
-      for (; column < End[a]; ++column)
+      if ((subset >> AxisOf[c] & 1U) != 0)
       {
-        if ((subset >> a & 1U) != 0)
-        {
-          chosen.push_back(column);
-        }
+        chosen.push_back(static_cast<Eigen::Index>(c));
       }
     }
     return chosen;
   }
   // All, and last the gap; 0 where nothing was measured.
-  Eigen::MatrixXd matrix(const GapData& data, const Eigen::MatrixXd& gap) const
+  Eigen::MatrixXd with(const Eigen::MatrixXd& gap) const
   {
-    Eigen::MatrixXd all(gap.size(), End.back() + 1);
-    for (Eigen::Index c = 0; c < End.back(); ++c)
+    Eigen::MatrixXd all(gap.size(), static_cast<Eigen::Index>(List.size()) + 1);
+    for (std::size_t c = 0; c < List.size(); ++c)
     {
-      all.col(c) =
-        data.measured().reshaped().select(List[static_cast<std::size_t>(c)].array(), 0.0);
+      all.col(static_cast<Eigen::Index>(c)) = List[c];
     }
-    all.col(End.back()) = gap.reshaped();
+    all.rightCols(1) = gap.reshaped();
     return all;
   }
 
 private:
-  Eigen::Index Channels;
-  Eigen::Array<bool, 1, Eigen::Dynamic> Usable;
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> Measured;
   std::vector<std::string> Names;
-  std::vector<Eigen::Index> End; // of each axis: the column behind its last
+  std::vector<std::size_t> AxisOf; // of each column
   std::vector<Eigen::VectorXd> List;
 };
 
@@ -255,7 +245,7 @@ class FoldedRegression
 public:
   FoldedRegression(const GapData& data, const Eigen::MatrixXd& gap, bool contrasts)
     : Bases(axisColumns(data, contrasts))
-    , Columns(Bases.matrix(data, gap))
+    , Columns(Bases.with(gap))
     , Held(static_cast<std::size_t>(data.folds))
   {
     for (Eigen::Index i = 0; i < data.samples(); ++i)

@@ -112,9 +112,6 @@ struct ImageStep
   double (*blurVariance)(const double* numbers) = nullptr;
   void (*tail)(const double* numbers, double* weights) = nullptr;
 
-  bool remainder =
-    false; // of what all other steps leave: its derivatives are given where it alone is asked for
-
   std::size_t width() const { return numbers.size() + further.size(); }
 };
 

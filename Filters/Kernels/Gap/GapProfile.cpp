@@ -1,6 +1,7 @@
 #include "Kernels/Gap/GapProfile.h"
 
-#include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,16 +109,12 @@ void addField(std::vector<SampleGroup>& groups, const Eigen::VectorXd& x, const 
   }
 }
 
-double median(std::vector<double> values)
+double median(const Eigen::VectorXd& values)
 {
-  if (values.empty())
-  {
-    return Nothing;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  const double upper = *middle;
-  return values.size() % 2 == 1 ? upper : 0.5 * (upper + *std::max_element(values.begin(), middle));
+  const Eigen::Index count = values.size();
+  return count == 0
+    ? Nothing
+    : 0.5 * (orderStatistic(values, count / 2) + orderStatistic(values, (count - 1) / 2));
 }
 }
 
@@ -138,38 +135,21 @@ GroupedGap groupGap(const Eigen::MatrixXd& gap, const std::vector<SampleGroup>& 
   GroupedGap result{ Eigen::MatrixXd(gap.rows(), count), Eigen::MatrixXd(gap.rows(), count) };
   for (Eigen::Index g = 0; g < count; ++g)
   {
-    for (Eigen::Index k = 0; k < gap.rows(); ++k)
-    {
-      double sum = 0.0;
-      double square = 0.0;
-      double number = 0.0;
-      for (const Eigen::Index i : groups[static_cast<std::size_t>(g)].samples)
-      {
-        const double value = gap(k, i);
-        if (std::isfinite(value))
-        {
-          sum += value;
-          square += value * value;
-          number += 1.0;
-        }
-      }
-      result.mean(k, g) = number > 0.0 ? sum / number : Nothing;
-      result.rms(k, g) = number > 0.0 ? std::sqrt(square / number) : Nothing;
-    }
+    const Eigen::ArrayXXd some = gap(Eigen::all, groups[static_cast<std::size_t>(g)].samples);
+    const Eigen::ArrayXXd known = some.isFinite().select(some, 0.0);
+    const Eigen::ArrayXd number = some.isFinite().cast<double>().rowwise().sum();
+    result.mean.col(g) = known.rowwise().sum() / number;
+    result.rms.col(g) = (known.square().rowwise().sum() / number).sqrt();
   }
   return result;
 }
 
 Eigen::VectorXd relativeGap(const Eigen::MatrixXd& gap, const Eigen::MatrixXd& simulated)
 {
-  Eigen::VectorXd relative(gap.cols());
-  for (Eigen::Index i = 0; i < gap.cols(); ++i)
-  {
-    const auto measured = gap.col(i).array().isFinite() && simulated.col(i).array().isFinite();
-    const double size = measured.select(simulated.col(i).array(), 0.0).sum();
-    relative[i] = size > 0.0 ? measured.select(gap.col(i).array(), 0.0).sum() / size : Nothing;
-  }
-  return relative;
+  const auto measured = gap.array().isFinite() && simulated.array().isFinite();
+  const Eigen::ArrayXd size = measured.select(simulated.array(), 0.0).colwise().sum();
+  const Eigen::ArrayXd sum = measured.select(gap.array(), 0.0).colwise().sum();
+  return (size > 0.0).select(sum / size, Nothing);
 }
 
 GapTrend trendOf(
@@ -204,9 +184,8 @@ GapTrend trendOf(
     {
       ++end;
     }
-    const auto stretch = trend.before.segment(begin, end - begin);
-    trend.level.segment(begin, end - begin)
-      .setConstant(median(std::vector<double>(stretch.begin(), stretch.end())));
+    const Eigen::VectorXd stretch = trend.before.segment(begin, end - begin);
+    trend.level.segment(begin, end - begin).setConstant(median(stretch));
     begin = end;
   }
   return trend;

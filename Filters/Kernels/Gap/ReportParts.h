@@ -1,9 +1,12 @@
-// What the reports on tables and on images have in common.
+// What the reports on tables and on images have in common: axes along which a gap lies, verdicts, causes.
 #pragma once
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/GapReport.h"
 
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -21,6 +24,53 @@ std::string textOf(int digits, const Parts&... parts)
   (text << ... << parts);
   return text.str();
 }
+
+// Shapley values of what the axes explain together. The first axis is the channel, the second the level.
+// explained: by the axes whose bits are set. Where channel and level alone explain nearly all, contrast() is called and the axes
+// are asked again: from then on the others are to leave out what is the same in all of their cells.
+std::vector<double> shapleyOfAxes(std::size_t axes,
+  const std::function<double(std::size_t subset)>& explained,
+  const std::function<void()>& contrast);
+
+// Energies sorted into named cells.
+class GapCells
+{
+public:
+  void add(const std::string& cell, double energy)
+  {
+    Energy[cell] += energy;
+    Total += energy;
+  }
+  // The five largest, of the sum.
+  std::vector<GapCell> worst() const;
+
+private:
+  std::map<std::string, double> Energy;
+  double Total = 0.0;
+};
+
+// "level 0.1..0.25"
+std::string rangeText(const std::string& what, double low, double high, int digits = 3);
+// Of parts of equal width between two ends that in which a value lies.
+struct GapPart
+{
+  GapPart(double value, double from, double to, int parts) noexcept;
+  std::string text(const std::string& what, int digits = 3) const
+  {
+    return rangeText(what, low, high, digits);
+  }
+
+  double low, high;
+};
+
+// Energies in five parts of equal size, from small to large values. pairs: value and energy.
+GapCells fifths(std::vector<std::pair<double, double>> pairs, const std::string& name);
+
+// The axes with a share, the largest first.
+std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes);
+
+// What is left unexplained, by the axes along which it lies.
+GapRemainder remainderOf(double share, const std::vector<GapAxis>& axes);
 
 // Errors: std::invalid_argument for the name of an effect that may not be blamed and that the library does not have.
 void requireKnown(const std::vector<std::string>& without);

@@ -2,7 +2,6 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
-#include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
@@ -12,7 +11,6 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
 #include "Kernels/Gap/Samples/SampleObservation.h"
-#include "Kernels/Gap/Samples/SampleRest.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
 
@@ -82,8 +80,8 @@ void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::Ma
   {
     const SampleList heldOut = samplesOf(data, fold, true);
     const Eigen::MatrixXd& here = predicted[static_cast<std::size_t>(fold)];
-    const CameraEffect rest = restOf(data, here, samplesOf(data, fold, false), options.seed);
-    left(Eigen::all, heldOut) -= (withRest(data, rest, here) - here)(Eigen::all, heldOut);
+    const CameraEffect rest = regularPart(data, here, samplesOf(data, fold, false), options.seed);
+    left(Eigen::all, heldOut) -= (withRegularPart(data, rest, here) - here)(Eigen::all, heldOut);
   }
   left = measuredOnly(data, left);
   const GapFigures figures = figuresOf(
@@ -96,7 +94,7 @@ void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::Ma
   if (options.addRest)
   {
     after = left;
-    report.correction.push_back(restOf(data, predicted.back(), data.usable, options.seed));
+    report.correction.push_back(regularPart(data, predicted.back(), data.usable, options.seed));
   }
 }
 
@@ -110,6 +108,19 @@ void credit(
   creditCauses(report, foundCauses(observation, found, shrink), Decision::SmallPart);
 }
 
+}
+
+void GapOptions::forAll(int count, const std::function<void(int)>& body) const
+{
+  if (parallelFor)
+  {
+    parallelFor(count, body);
+    return;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    body(i);
+  }
 }
 
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
@@ -145,6 +156,10 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const std::function<bool()> stop = [&progress] { return progress("searching for effects"); };
   const auto job = [&](int number)
   {
+    if (stop())
+    {
+      return;
+    }
     SetSearchLimits limits;
     limits.maximumEffects = options.maximumCauses;
     if (number == 0)
@@ -167,23 +182,13 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     after(Eigen::all, heldOut) = left(Eigen::all, heldOut);
     progress("checked on samples left out", 1.0);
   };
-  if (options.parallelFor)
-  {
-    options.parallelFor(data.folds + 1, job);
-  }
-  else
-  {
-    for (int number = 0; number <= data.folds && !progress.stopped(); ++number)
-    {
-      job(number);
-    }
-  }
+  options.forAll(data.folds + 1, job);
   if (progress.stopped())
   {
     return std::nullopt;
   }
 
-  const AxisShares rest = shareOverAxes(data, after, true);
+  const AxisShares rest = shareOverAxes(data, after);
   const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
   const double doubted = limitIntegration(data, integration, unpredicted);
   if (capture.noise && noise.degrees == 0.0)
@@ -204,7 +209,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   }
   report.gap = figuresOf(
     energiesOf(data, data.usable, before, after), static_cast<double>(data.elements), options.seed);
-  const AxisShares where = shareOverAxes(data, before, true);
+  const AxisShares where = shareOverAxes(data, before);
   report.where = where.axes;
   report.changePoints =
     OrderBreaks::significant(observation.fitter(), data.simulated, MostChangePoints);
@@ -217,10 +222,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   if (causes && shrink > 0.0 && noticeable(data, before, after, integration))
   {
     credit(report, observation, found, shrink);
-    if (report.unexplained.share > 0.0)
-    {
-      report.unexplained = remainderOf(report.unexplained.share, rest.axes);
-    }
+    report.unexplained = remainderOf(report.unexplained.share, rest.axes);
     report.verdict = verdictOf(shrink, false);
   }
   else if (causes && alone >= Decision::ExplainedShrink &&
@@ -240,14 +242,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     report.verdict = GapVerdict::Unexplained;
     report.unexplained = remainderOf(1.0, where.axes);
   }
+  predicted.back() = best.predicted;
   if (report.correction.empty())
   {
     leaveAsItWas(report.gap);
     after = before;
-  }
-  predicted.back() = best.predicted;
-  if (report.correction.empty())
-  {
     std::fill(predicted.begin(), predicted.end(), data.simulated);
   }
   report.candidates = foundCandidates(observation, found, options.seed);
@@ -265,8 +264,8 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   addExcessNoise(report, data, noise, capture.noise, options.without);
   report.notes = notesOn(data, capture, noise, reflectanceNoise, report);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  report.gapBefore = (data.count.array() > 0.0).select(before, nan);
-  report.gapAfter = (data.count.array() > 0.0).select(after, nan);
+  report.gapBefore = data.measured().select(before, nan);
+  report.gapAfter = data.measured().select(after, nan);
   progress("done", 10.0);
   return report;
 }

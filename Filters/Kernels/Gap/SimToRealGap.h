@@ -50,6 +50,9 @@ struct GapOptions
   // Runs body() while no other thread runs one: a lock of the caller's. Needed with a parallelFor that uses
   // several threads; empty otherwise.
   std::function<void(const std::function<void()>& body)> exclusive;
+
+  void forAll(
+    int count, const std::function<void(int)>& body) const; // by parallelFor, where there is one
 };
 
 // Empty only where progress() asked to stop.

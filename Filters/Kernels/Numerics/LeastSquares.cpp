@@ -29,6 +29,13 @@ LeastSquaresSolution solveLeastSquares(
   return solution;
 }
 
+double energyLeft(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change)
+{
+  const Eigen::Index count = change.size();
+  return normal(count, count) - 2.0 * change.dot(normal.col(count).head(count)) +
+    change.dot(normal.topLeftCorner(count, count) * change);
+}
+
 Eigen::Index unknownsPerRow(Eigen::Index rows, Eigen::Index neighbours) noexcept
 {
   return std::min(rows, 2 * neighbours + 1) + 1;

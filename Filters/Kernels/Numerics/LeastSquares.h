@@ -22,6 +22,9 @@ struct LeastSquaresSolution
 LeastSquaresSolution solveLeastSquares(
   const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance = -1.0);
 
+// Normal equations are products of columns, of which the last is the residual. Squared residual after a change of the others.
+double energyLeft(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change);
+
 struct BandedFit
 {
   Eigen::MatrixXd coefficients; // n x (n+1), the constant last

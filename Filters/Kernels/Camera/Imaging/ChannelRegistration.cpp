@@ -27,13 +27,8 @@ struct Cubic
 Cubic cubicAt(double place)
 {
   const double below = std::floor(place);
-  const double t = place - below;
-  const double t2 = t * t;
-  const double t3 = t2 * t;
-  return { static_cast<int>(below) - 1,
-    { static_cast<float>(-0.5 * t + t2 - 0.5 * t3), static_cast<float>(1.0 - 2.5 * t2 + 1.5 * t3),
-      static_cast<float>(0.5 * t + 2.0 * t2 - 1.5 * t3),
-      static_cast<float>(-0.5 * t2 + 0.5 * t3) } };
+  const Eigen::Array4f weight = cubicConvolution(place - below).cast<float>();
+  return { static_cast<int>(below) - 1, { weight[0], weight[1], weight[2], weight[3] } };
 }
 
 // The pixels that all channels together read.

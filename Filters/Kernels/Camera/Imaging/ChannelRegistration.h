@@ -12,11 +12,20 @@
 namespace msi
 {
 
+// Cubic convolution, R. G. Keys, IEEE Trans. ASSP 29 (1981) 1153, doi:10.1109/TASSP.1981.1163711 (a = -1/2): weights of the
+// four pixels around a place that lies t behind the second of them.
+inline Eigen::Array4d cubicConvolution(double t)
+{
+  const double t2 = t * t;
+  const double t3 = t2 * t;
+  return { -0.5 * t + t2 - 0.5 * t3, 1.0 - 2.5 * t2 + 1.5 * t3, 0.5 * t + 2.0 * t2 - 1.5 * t3,
+    -0.5 * t2 + 0.5 * t3 };
+}
+
 // Turns the image of channel k by rotation_k degrees (from right to down) and magnifies it by 1 + magnification_k, both
 // about the middle of the image, then moves it by (right_k, down_k) pixels.
 //
-// Interpolation: cubic convolution, R. G. Keys, IEEE Trans. ASSP 29 (1981) 1153,
-//   doi:10.1109/TASSP.1981.1163711 (a = -1/2): exact for quadratics, the identity for whole pixels.
+// Interpolation: cubicConvolution(): exact for quadratics, the identity for whole pixels.
 // NaN:    spreads over the pixels that all channels together read; with a rotation over those that its channel reads.
 // Edges: the image's edge repeats; near a cut edge of a buffer the result is provisional (see reach()).
 // Errors: std::invalid_argument for arrays of different length.

@@ -59,8 +59,7 @@ ScatterTail::ScatterTail(double radius)
 
 int ScatterTail::reach() const noexcept
 {
-  // 2 pixels times 1, 2, 4, ...
-  return 2 * ((1 << Weights.size()) - 1);
+  return splineReach(static_cast<int>(Weights.size()));
 }
 
 void ScatterTail::operator()(const PixelBuffer& buffer, PixelBuffer& tail) const

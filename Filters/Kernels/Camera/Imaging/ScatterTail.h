@@ -12,6 +12,12 @@ namespace msi
 // The B3 spline (1, 4, 6, 4, 1) / 16 with its taps `stride` pixels apart, the same in every channel.
 SymmetricKernel splineKernel(int channels, int stride);
 
+// Pixels around a window that the result depends on after so many of them, with strides of 1, 2, 4, ...
+constexpr int splineReach(int passes)
+{
+  return 2 * ((1 << passes) - 1);
+}
+
 // A point spread T of sum one that falls from a few pixels to several radii.
 //
 // A sum of ever wider kernels: splineKernel() applied with strides of 1, 2, 4, ... pixels

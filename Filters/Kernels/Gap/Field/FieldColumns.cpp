@@ -1,8 +1,12 @@
 #include "Kernels/Gap/Field/FieldColumns.h"
 
-#include "Kernels/Gap/Field/FieldBlockLight.h"
+#include "Kernels/Camera/Imaging/ChannelRegistration.h"
+#include "Kernels/Numerics/Angle.h"
+
+#include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -13,70 +17,55 @@ namespace msi
 namespace
 {
 // The axes of each column.
-std::vector<unsigned> axesOfColumns()
+const std::vector<unsigned>& axesOfColumns()
 {
-  std::vector<unsigned> axes;
-  for (const PlacedStep& step : imageSteps())
+  static const std::vector<unsigned> all = []
   {
-    for (const ImageNumber& number : step.step->numbers)
+    std::vector<unsigned> axes;
+    for (const PlacedStep& step : imageSteps())
     {
-      axes.push_back(number.axes);
+      for (const ImageNumber& number : step.step->numbers)
+      {
+        axes.push_back(number.axes);
+      }
+      axes.insert(axes.end(), step.step->further.begin(), step.step->further.end());
     }
-    axes.insert(axes.end(), step.step->further.begin(), step.step->further.end());
-  }
-  return axes;
+    return axes;
+  }();
+  return all;
 }
 
 int columnWith(unsigned axes)
 {
-  static const std::vector<unsigned> all = axesOfColumns();
+  const std::vector<unsigned>& all = axesOfColumns();
   return static_cast<int>(std::find(all.begin(), all.end(), axes) - all.begin());
-}
-
-// The step that has a column.
-AskedSteps stepWith(int column)
-{
-  AskedSteps asked;
-  for (const PlacedStep& step : imageSteps())
-  {
-    const auto first = static_cast<int>(step.column);
-    asked.push_back(column >= first && column < first + static_cast<int>(step.step->width()));
-  }
-  return asked;
-}
-
-using Light = std::unique_ptr<const BlockLight>;
-
-// In every pixel of a block; 0 where there is no light.
-std::vector<double> signalOf(const Light& light, const FieldBlock& block)
-{
-  std::vector<double> signal(block.window.pixels(), 0.0);
-  for (std::size_t i = 0; light && i < signal.size(); ++i)
-  {
-    signal[i] = light->signal(static_cast<int>(i));
-  }
-  return signal;
 }
 }
 
 int FieldColumn::residual()
 {
-  static const int columns = static_cast<int>(axesOfColumns().size());
-  return columns;
+  return static_cast<int>(axesOfColumns().size());
 }
 
 std::vector<int> FieldColumn::of(unsigned axis)
 {
-  const std::vector<unsigned> axes = axesOfColumns();
   std::vector<int> columns;
-  for (std::size_t c = 0; c < axes.size(); ++c)
+  for (int c = 0; c < residual(); ++c)
   {
-    if ((axes[c] & axis) != 0)
+    if ((axesOfColumns()[static_cast<std::size_t>(c)] & axis) != 0)
     {
-      columns.push_back(static_cast<int>(c));
+      columns.push_back(c);
     }
   }
   return columns;
+}
+
+const PlacedStep& FieldColumn::stepOf(int column)
+{
+  const std::vector<PlacedStep>& steps = imageSteps();
+  return *(std::upper_bound(steps.begin(), steps.end(), static_cast<std::size_t>(column),
+             [](std::size_t place, const PlacedStep& step) { return place < step.column; }) -
+    1);
 }
 
 int FieldColumn::gain()
@@ -107,6 +96,219 @@ Eigen::VectorXd columnsChanged(
   return column;
 }
 
+namespace
+{
+constexpr double GaussianCut = 4.0;
+constexpr double SmallVariance = 0.04; // below, the blur is a second difference
+constexpr double VarianceStep = 0.02;
+
+// Weights of the pixels from -reach to reach.
+Eigen::ArrayXd gaussian(double variance, Eigen::Index reach)
+{
+  const auto end = static_cast<double>(reach);
+  const Eigen::ArrayXd square = Eigen::ArrayXd::LinSpaced(2 * reach + 1, -end, end).square();
+  const Eigen::ArrayXd weight = (square <= GaussianCut * GaussianCut * variance)
+                                  .select((-0.5 * square / std::fmax(variance, 1e-300)).exp(), 0.0);
+  return weight / weight.sum();
+}
+
+// Their derivatives by the variance.
+Eigen::ArrayXd gaussianSlope(double variance, Eigen::Index reach)
+{
+  if (variance < SmallVariance)
+  {
+    Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(2 * reach + 1);
+    weight.segment<3>(reach - 1) << 0.5, -1.0, 0.5;
+    return weight;
+  }
+  return (gaussian(variance * (1.0 + VarianceStep), reach) -
+           gaussian(variance * (1.0 - VarianceStep), reach)) /
+    (2.0 * VarianceStep * variance);
+}
+
+Eigen::ArrayXd convolved(const Eigen::ArrayXd& blur, const Eigen::Array4d& shift)
+{
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(blur.size() + 3);
+  for (Eigen::Index i = 0; i < 4; ++i)
+  {
+    weight.segment(i, blur.size()) += shift[i] * blur;
+  }
+  return weight;
+}
+
+// Cubic convolution for a displacement with a Gaussian of a variance, along one axis: the weights of the
+// pixels from `first` on, and their derivatives by displacement and variance.
+struct AxisKernel
+{
+  int first;
+  Eigen::ArrayXd value, shift, blur;
+
+  AxisKernel(double displacement, double variance)
+  {
+    const double below = std::floor(-displacement);
+    const double t = -displacement - below;
+    const double t2 = t * t;
+    const Eigen::Array4d cubic = cubicConvolution(t);
+    const Eigen::Array4d cubicSlope(0.5 - 2.0 * t + 1.5 * t2, 5.0 * t - 4.5 * t2,
+      -0.5 - 4.0 * t + 4.5 * t2, t - 1.5 * t2); // minus the derivative by t
+    const int reach = std::max(
+      1, static_cast<int>(std::ceil(GaussianCut * std::sqrt(variance * (1.0 + VarianceStep)))));
+    const Eigen::ArrayXd spread = gaussian(variance, reach);
+    first = static_cast<int>(below) - 1 - reach;
+    value = convolved(spread, cubic);
+    shift = convolved(spread, cubicSlope);
+    blur = convolved(gaussianSlope(variance, reach), cubic);
+  }
+};
+
+// Times a column of numbers: the weighted sums of those from each of the first `count` on.
+Eigen::MatrixXd band(const Eigen::ArrayXd& weight, Eigen::Index count)
+{
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count + weight.size() - 1);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    matrix.row(i).segment(i, weight.size()) = weight.transpose();
+  }
+  return matrix;
+}
+
+// The scene in a block, moved and blurred, and its derivatives by displacement and blur: width x height, by pixel number, too.
+struct Neighbourhood
+{
+  Eigen::MatrixXd value, right, down, blur;
+
+  Neighbourhood(const FieldData& data, const ImageWindow& window, Eigen::Index channel,
+    const Eigen::Vector2d& displacement, double variance)
+  {
+    const AxisKernel x(displacement.x(), variance);
+    const AxisKernel y(displacement.y(), variance);
+    const ImageExtent& extent = data.pair.extent;
+    const auto K = static_cast<std::size_t>(data.channels());
+    Eigen::MatrixXd scene(window.width + x.value.size() - 1, window.height + y.value.size() - 1);
+    for (Eigen::Index j = 0; j < scene.cols(); ++j)
+    {
+      const int v = std::clamp(window.y + y.first + static_cast<int>(j), 0, extent.height - 1);
+      for (Eigen::Index i = 0; i < scene.rows(); ++i)
+      {
+        const int u = std::clamp(window.x + x.first + static_cast<int>(i), 0, extent.width - 1);
+        scene(i, j) = static_cast<double>(
+          data.scene()[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)]);
+      }
+    }
+    const Eigen::MatrixXd along = band(x.value, window.width) * scene;
+    const Eigen::MatrixXd across = band(y.value, window.height).transpose();
+    value = along * across;
+    right = band(x.shift, window.width) * scene * across;
+    down = along * band(y.shift, window.height).transpose();
+    blur =
+      along * band(y.blur, window.height).transpose() + band(x.blur, window.width) * scene * across;
+  }
+};
+
+// By how much the place that a pixel shows differs from its own, as ChannelRegistration: the pixel at p shows
+// R(-rotation) (p - displacement) / (1 + magnification), both from the middle of the image.
+struct Displacement
+{
+  Eigen::Vector2d moved;
+  Eigen::Matrix2d bend; // change with the place
+
+  explicit Displacement(const ImageDisplacement& displacement)
+    : moved(displacement.right, displacement.down)
+  {
+    const double angle = Degree * displacement.rotation;
+    bend << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+    bend = Eigen::Matrix2d::Identity() - bend / (1.0 + displacement.magnification);
+  }
+  Eigen::Vector2d at(const Eigen::Vector2d& place) const { return moved + bend * (place - moved); }
+};
+
+// What happens to the scene before the detector, in one block and channel. Holds references.
+class BlockLight
+{
+public:
+  BlockLight(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
+    const FieldBlock& block, Eigen::Index channel, const AskedSteps& asked)
+    : Data(data)
+    , Block(block)
+    , Channel(static_cast<std::size_t>(channel))
+    , Steps(model.steps(ImageStage::Scene, ImageStage::Light, channel, asked))
+    , Glare(glare[channel])
+    , Middle(middleOf(data.pair, block.window))
+    , Where(model.displacement(channel))
+    , Near(data, block.window, channel, Where.at(Middle), model.blurVariance(channel))
+    , TailWeights(model.tailWeights(channel))
+  {
+    const auto pixels = static_cast<int>(block.window.pixels());
+    const FieldFactor factor(model);
+    for (int i = 0; i < pixels; ++i)
+    {
+      addElsewhere(data.pair, data.scene(), factor, placeOf(i), Channel, Others);
+    }
+    const ChannelSteps active = model.steps(ImageStage::Scene, ImageStage::Light, channel);
+    for (int i = 0; i < pixels; ++i)
+    {
+      ImagePixel told = pixel(i);
+      Signal.push_back(run(active, told, others(i), scene(i, told)));
+    }
+  }
+
+  // What the steps are told, but for other channels and lines.
+  ImagePixel pixel(int number) const
+  {
+    const ImagePlace place = placeOf(number);
+    ImagePixel pixel;
+    pixel.x = Data.pair.fieldX(place.x);
+    pixel.y = Data.pair.fieldY(place.y);
+    pixel.fromMiddleX = Data.pair.offX(place.x);
+    pixel.fromMiddleY = Data.pair.offY(place.y);
+    pixel.right = Near.right(number);
+    pixel.down = Near.down(number);
+    pixel.blur = Near.blur(number);
+    pixel.surround = Block.tail.data() +
+      (static_cast<std::size_t>(number) * Data.pair.channels.size() + Channel) * TailPasses;
+    pixel.tailWeights = TailWeights.data();
+    pixel.mean = Glare;
+    return pixel;
+  }
+  // The light on the detector; with its derivatives also by the steps that are asked for.
+  const double& signal(int number) const { return Signal[static_cast<std::size_t>(number)]; }
+  double signal(int number, ImagePixel& pixel, StepDerivatives& derivatives) const
+  {
+    return run(Steps, pixel, others(number), scene(number, pixel), &derivatives);
+  }
+
+private:
+  ImagePlace placeOf(int number) const
+  {
+    return { Block.window.x + number % Block.window.width,
+      Block.window.y + number / Block.window.width };
+  }
+  // Moved as in the middle of the block, and to first order by what is different at this pixel.
+  double scene(int number, const ImagePixel& pixel) const
+  {
+    const Eigen::Vector2d further =
+      Where.bend * (Eigen::Vector2d(pixel.fromMiddleX, pixel.fromMiddleY) - Middle);
+    return Near.value(number) + further.dot(Eigen::Vector2d(pixel.right, pixel.down));
+  }
+  const double* others(int number) const
+  {
+    return Others.data() + Others.size() / Block.window.pixels() * static_cast<std::size_t>(number);
+  }
+
+  const FieldData& Data;
+  const FieldBlock& Block;
+  std::size_t Channel;
+  ChannelSteps Steps;
+  double Glare;
+  Eigen::Vector2d Middle;
+  Displacement Where;
+  Neighbourhood Near;
+  std::array<double, TailPasses> TailWeights;
+  std::vector<double> Others; // light from elsewhere, of each pixel
+  std::vector<double> Signal;
+};
+}
+
 void forColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,
   const FieldBlock& block, const AskedSteps& asked,
   const std::function<void(Eigen::Index, ChannelColumns&)>& act)
@@ -119,21 +321,20 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
       ? std::make_unique<const BlockLight>(data, model, glare, block, channel, asked)
       : nullptr;
   };
-  // The light in this channel, and the signal of every pixel in it and in the channels beside it.
-  Light light = lightIn(0);
-  std::vector<double> before;
-  std::vector<double> signal = signalOf(light, block);
+  // In this channel and in those beside it.
+  std::unique_ptr<const BlockLight> previous, light, next = lightIn(0);
   ChannelColumns found;
+  StepDerivatives by;
   for (Eigen::Index channel = 0; channel < data.channels(); ++channel)
   {
-    const auto k = static_cast<std::size_t>(channel);
-    Light nextLight = lightIn(channel + 1);
-    std::vector<double> next = signalOf(nextLight, block);
-    StepDerivatives by;
+    previous = std::move(light);
+    light = std::move(next);
+    next = lightIn(channel + 1);
+    const float* real = block.real.data() + channel;
     found.pixel.clear();
     for (std::size_t i = 0; i < window.pixels(); ++i)
     {
-      if (std::isfinite(block.real[i * K + k]))
+      if (std::isfinite(real[i * K]))
       {
         found.pixel.push_back(static_cast<int>(i));
       }
@@ -145,37 +346,32 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     found.level.resize(count);
     const ChannelSteps behind =
       model.steps(ImageStage::Exposure, ImageStage::Detector, channel, asked);
+    by = StepDerivatives();
     for (Eigen::Index n = 0; n < count; ++n)
     {
       const int i = found.pixel[static_cast<std::size_t>(n)];
-      const auto at = static_cast<std::size_t>(i);
       ImagePixel pixel = light->pixel(i);
-      pixel.previous = channel > 0 ? &before[at] : nullptr;
-      pixel.next = channel + 1 < data.channels() ? &next[at] : nullptr;
+      pixel.previous = previous ? &previous->signal(i) : nullptr;
+      pixel.next = next ? &next->signal(i) : nullptr;
       pixel.row = rows[i / window.width];
       pixel.column = columns[i % window.width];
       pixel.self = light->signal(i, pixel, by);
       const double answer = run(behind, pixel, nullptr, pixel.self, &by);
       by.chain();
-      found.columns.row(n).head(FieldColumn::residual()) =
-        Eigen::Map<const Eigen::RowVectorXd>(by.values.data(), FieldColumn::residual());
-      found.columns(n, FieldColumn::residual()) =
-        static_cast<double>(block.real[at * K + k]) - answer;
+      found.columns.row(n) << Eigen::RowVectorXd::Map(by.values.data(), FieldColumn::residual()),
+        static_cast<double>(real[static_cast<std::size_t>(i) * K]) - answer;
       found.level[n] = answer;
     }
     act(channel, found);
-    before = std::move(signal);
-    signal = std::move(next);
-    light = std::move(nextLight);
   }
 }
 
 std::vector<FieldResidual> fieldResiduals(
   const FieldData& data, const FieldModel& model, const FieldLoop& loop)
 {
+  const AskedSteps asked{ &FieldColumn::stepOf(FieldColumn::gain()) };
   const Eigen::Index K = data.channels();
   const Eigen::ArrayXd glare = data.cells.mean(model);
-  const AskedSteps gain = stepWith(FieldColumn::gain());
   std::vector<FieldResidual> residuals(data.blocks.size() * static_cast<std::size_t>(K));
   loop(static_cast<int>(data.blocks.size()),
     [&](int b)
@@ -185,7 +381,7 @@ std::vector<FieldResidual> fieldResiduals(
       {
         return;
       }
-      forColumns(data, model, glare, block, gain,
+      forColumns(data, model, glare, block, asked,
         [&](Eigen::Index k, const ChannelColumns& found)
         {
           residuals[static_cast<std::size_t>(b * K + k)] = { found.pixel, found.level,

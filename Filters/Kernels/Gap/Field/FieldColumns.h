@@ -23,6 +23,7 @@ inline int count()
 }
 // Those of an axis (ImageAxis).
 std::vector<int> of(unsigned axis);
+const PlacedStep& stepOf(int column);
 // By a gain, relative to it: the response itself. By an offset.
 int gain();
 int offset();

@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Field/FieldCorrection.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
-#include "Kernels/Gap/Field/FieldBlockLight.h"
 #include "Kernels/Gap/Field/FieldData.h"
 
 #include <cmath>
@@ -17,14 +16,13 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   , Filled(filledScene(pair))
 {
   const auto K = static_cast<Eigen::Index>(pair.channels.size());
-  Eigen::ArrayXd right(K), down(K), magnification(K), rotation(K), variance(K);
+  Eigen::ArrayX4d moved(K, 4);
+  Eigen::ArrayXd variance(K);
   for (Eigen::Index k = 0; k < K; ++k)
   {
     const ImageDisplacement displacement = model.displacement(k);
-    right[k] = displacement.right;
-    down[k] = displacement.down;
-    magnification[k] = displacement.magnification;
-    rotation[k] = displacement.rotation;
+    moved.row(k) << displacement.right, displacement.down, displacement.magnification,
+      displacement.rotation;
     variance[k] = model.blurVariance(k);
     Tail.push_back(model.tailWeights(k));
     for (int pass = Passes; pass < TailPasses; ++pass)
@@ -32,9 +30,9 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
       Passes = Tail.back()[static_cast<std::size_t>(pass)] != 0.0 ? pass + 1 : Passes;
     }
   }
-  if ((right != 0.0 || down != 0.0 || magnification != 0.0 || rotation != 0.0).any())
+  if ((moved != 0.0).any())
   {
-    Registration.emplace(right, down, magnification, rotation, pair.extent);
+    Registration.emplace(moved.col(0), moved.col(1), moved.col(2), moved.col(3), pair.extent);
   }
   if ((variance > 0.0).any())
   {
@@ -46,8 +44,8 @@ void FieldCorrection::operator()(
   const ImageWindow& window, float* corrected, CorrectionWorkspace& workspace) const
 {
   const std::size_t K = Pair.channels.size();
-  const int halo = (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) +
-    2 * ((1 << Passes) - 1);
+  const int halo =
+    (Registration ? Registration->reach() : 0) + (Blur ? Blur->radius() : 0) + splineReach(Passes);
   PixelBuffer& signal = workspace.signal;
   signal.resize(grown(window, halo, Pair.extent), static_cast<int>(K));
   const ImageWindow& region = signal.window;

@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldData.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
+#include "Kernels/Numerics/OrderStatistic.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
@@ -15,36 +16,27 @@ namespace
 constexpr std::size_t MeanPixels = std::size_t(1) << 20;
 constexpr int CellsPerSide = 64;
 
-// A row of one channel: gaps become the mean of both sides, weighted by nearness.
+// Gaps in a row of one channel become the mean of both sides, weighted by nearness; `other` where the whole row is one.
 void fillRow(float* row, int pixels, std::size_t step, float other)
 {
+  const auto at = [=](int x) -> float& { return row[static_cast<std::size_t>(x) * step]; };
   int last = -1;
   for (int x = 0; x <= pixels; ++x)
   {
-    if (x < pixels && !std::isfinite(row[static_cast<std::size_t>(x) * step]))
+    if (x < pixels && !std::isfinite(at(x)))
     {
       continue;
     }
+    const float right = x < pixels ? at(x) : last >= 0 ? at(last) : other;
+    const float left = last >= 0 ? at(last) : right;
     for (int gap = last + 1; gap < x; ++gap)
     {
-      const float left = last >= 0 ? row[static_cast<std::size_t>(last) * step] : 0.0F;
-      const float right = x < pixels ? row[static_cast<std::size_t>(x) * step] : 0.0F;
-      const auto part = static_cast<float>(gap - last) / static_cast<float>(x - last);
-      row[static_cast<std::size_t>(gap) * step] = last < 0 && x == pixels ? other
-        : last < 0                                                        ? right
-        : x == pixels                                                     ? left
-                      : left + part * (right - left);
+      at(gap) =
+        left + static_cast<float>(gap - last) / static_cast<float>(x - last) * (right - left);
     }
     last = x;
   }
 }
-}
-
-bool hasGaps(const FieldPair& pair)
-{
-  const std::size_t count = pair.pixels() * pair.channels.size();
-  return !std::all_of(
-    pair.simulated, pair.simulated + count, [](float value) { return std::isfinite(value); });
 }
 
 SceneCells::SceneCells(const FieldPair& pair)
@@ -95,11 +87,13 @@ Eigen::ArrayXd SceneCells::mean(const FieldModel& model) const
 std::vector<float> filledScene(const FieldPair& pair)
 {
   const std::size_t K = pair.channels.size();
-  if (!hasGaps(pair))
+  const std::size_t count = pair.pixels() * K;
+  if (std::all_of(
+        pair.simulated, pair.simulated + count, [](float value) { return std::isfinite(value); }))
   {
     return {};
   }
-  std::vector<float> filled(pair.simulated, pair.simulated + pair.pixels() * K);
+  std::vector<float> filled(pair.simulated, pair.simulated + count);
   const Eigen::ArrayXd mean = SceneCells(pair).mean(FieldModel(static_cast<Eigen::Index>(K)));
   for (int y = 0; y < pair.extent.height; ++y)
   {
@@ -121,9 +115,49 @@ constexpr int Surround = 2; // finite neighbours
 constexpr int LargestMargin = 8;
 constexpr std::size_t MostBlocks = 208; // with up to 8 channels; fewer with more, down to half
 
+constexpr int SmallestBlock = 4; // pixels on a side
 constexpr std::size_t EnoughBlocks = 64;
 constexpr std::size_t FewestBlocks = 15;
 constexpr double UsablePart = 0.25;
+
+constexpr double OtherUnit = 5.0;   // times
+constexpr double Correlated = 0.25; // squared
+
+// The unit of each channel of the real image, where it is not that of the simulated one (white = 1): counts, say. 1 where the
+// images agree within a factor of five, else the same for all channels where that is enough.
+Eigen::ArrayXd fieldUnits(const FieldPair& pair)
+{
+  const std::size_t K = pair.channels.size();
+  std::vector<PairSums> sums(K);
+  const std::size_t step = 1 + pair.pixels() / MeanPixels;
+  for (std::size_t i = 0; i < pair.pixels(); i += step)
+  {
+    for (std::size_t k = 0; k < K; ++k)
+    {
+      sums[k].add(pair.real[i * K + k], pair.simulated[i * K + k]);
+    }
+  }
+  Eigen::ArrayXd ratio(static_cast<Eigen::Index>(K));
+  for (std::size_t k = 0; k < K; ++k)
+  {
+    const PairSums& sum = sums[k];
+    const double both = sum.ofBoth();
+    // A straight line where the images go together, else through the origin.
+    const bool line = both > 0.0 && both * both > Correlated * sum.ofReal() * sum.ofSimulated();
+    ratio[static_cast<Eigen::Index>(k)] = line
+      ? both / std::fmax(sum.ofSimulated(), 1e-30)
+      : sum.products / std::fmax(sum.simulatedSquares, 1e-30);
+  }
+  const auto alike = [](const Eigen::ArrayXd& values)
+  { return (values >= 1.0 / OtherUnit).all() && (values <= OtherUnit).all(); };
+  if (alike(ratio) || !(ratio > 0.0).all())
+  {
+    return Eigen::ArrayXd::Ones(ratio.size());
+  }
+  const double common = orderStatistic(ratio, ratio.size() / 2);
+  return alike(ratio / common) ? Eigen::ArrayXd(Eigen::ArrayXd::Constant(ratio.size(), common))
+                               : ratio;
+}
 
 struct Region
 {
@@ -151,8 +185,8 @@ std::vector<Region> regionsOf(const ImageExtent& extent)
       ImageWindow interior = whole;
       const auto cut = [](int& first, int& size, int all)
       {
-        const int before = first > 0 ? TailReach : 0;
-        const int behind = first + size < all ? TailReach : 0;
+        const int before = first > 0 ? splineReach(TailPasses) : 0;
+        const int behind = first + size < all ? splineReach(TailPasses) : 0;
         first += before;
         size -= before + behind;
       };
@@ -168,45 +202,41 @@ std::vector<Region> regionsOf(const ImageExtent& extent)
 }
 
 // Real values of a block, NaN where they cannot be used; returns how many pixels can.
-std::size_t readBlock(const FieldPair& pair, const ImageWindow& window, bool gaps, int margin,
-  std::vector<float>& real, const Eigen::ArrayXd* unit = nullptr)
+std::size_t readBlock(const FieldData& data, FieldBlock& block)
 {
+  const FieldPair& pair = data.pair;
   const std::size_t K = pair.channels.size();
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  real.assign(window.pixels() * K, nan);
-  std::size_t usable = 0;
-  std::size_t out = 0;
+  const int margin = std::min(LargestMargin, std::min(pair.extent.width, pair.extent.height) / 16);
   const ImageWindow inside{ margin, margin, pair.extent.width - 2 * margin,
     pair.extent.height - 2 * margin };
-  for (int y = window.y; y < window.y + window.height; ++y)
+  const auto surrounded = [&](int x, int y, std::size_t k)
   {
-    for (int x = window.x; x < window.x + window.width; ++x, out += K)
+    const ImageWindow near = grown({ x, y, 1, 1 }, Surround, pair.extent);
+    bool good = true;
+    for (int v = near.y; good && v < near.y + near.height; ++v)
     {
-      if (!inside.contains({ x, y, 1, 1 }))
+      for (int u = near.x; good && u < near.x + near.width; ++u)
       {
-        continue;
+        good = std::isfinite(pair.simulated[pair.index(u, v) * K + k]);
       }
+    }
+    return good;
+  };
+  block.real.assign(block.window.pixels() * K, std::numeric_limits<float>::quiet_NaN());
+  std::size_t usable = 0;
+  float* out = block.real.data();
+  for (int y = block.window.y; y < block.window.y + block.window.height; ++y)
+  {
+    for (int x = block.window.x; x < block.window.x + block.window.width; ++x, out += K)
+    {
       bool any = false;
-      for (std::size_t k = 0; k < K; ++k)
+      for (std::size_t k = 0; k < K && inside.contains({ x, y, 1, 1 }); ++k)
       {
-        bool good = std::isfinite(pair.real[pair.index(x, y) * K + k]);
-        if (good && gaps)
+        const float value = pair.real[pair.index(x, y) * K + k];
+        if (std::isfinite(value) && (data.filled.empty() || surrounded(x, y, k)))
         {
-          const ImageWindow near = grown({ x, y, 1, 1 }, Surround, pair.extent);
-          for (int v = near.y; good && v < near.y + near.height; ++v)
-          {
-            for (int u = near.x; good && u < near.x + near.width; ++u)
-            {
-              good = std::isfinite(pair.simulated[pair.index(u, v) * K + k]);
-            }
-          }
-        }
-        if (good)
-        {
-          const float value = pair.real[pair.index(x, y) * K + k];
-          real[out + k] = unit == nullptr ? value
-                                          : static_cast<float>(static_cast<double>(value) /
-                                              (*unit)[static_cast<Eigen::Index>(k)]);
+          out[k] = static_cast<float>(
+            static_cast<double>(value) / data.unit[static_cast<Eigen::Index>(k)]);
           any = true;
         }
       }
@@ -216,36 +246,34 @@ std::size_t readBlock(const FieldPair& pair, const ImageWindow& window, bool gap
   return usable;
 }
 
-std::vector<FieldBlock> blocksOf(const FieldPair& pair, const std::vector<Region>& regions,
-  int size, bool gaps, int margin, double& usable)
+// Those with enough usable pixels; their values are not kept, for there may be many more than are drawn.
+void findBlocks(FieldData& data, const std::vector<Region>& regions, int size)
 {
-  std::vector<FieldBlock> blocks;
+  data.blocks.clear();
   double looked = 0.0;
-  usable = 0.0;
+  double usable = 0.0;
   for (const Region& region : regions)
   {
-    for (int y = region.interior.y; y + size <= region.interior.y + region.interior.height;
-         y += size)
+    const ImageWindow& interior = region.interior;
+    for (int y = interior.y; y + size <= interior.y + interior.height; y += size)
     {
-      for (int x = region.interior.x; x + size <= region.interior.x + region.interior.width;
-           x += size)
+      for (int x = interior.x; x + size <= interior.x + interior.width; x += size)
       {
         FieldBlock block;
         block.window = { x, y, size, size };
-        const auto count =
-          static_cast<double>(readBlock(pair, block.window, gaps, margin, block.real));
-        looked += static_cast<double>(block.window.pixels());
+        const auto pixels = static_cast<double>(block.window.pixels());
+        const auto count = static_cast<double>(readBlock(data, block));
+        looked += pixels;
         usable += count;
-        if (count >= UsablePart * static_cast<double>(block.window.pixels()))
+        if (count >= UsablePart * pixels)
         {
-          block.real.clear();
-          blocks.push_back(std::move(block));
+          block.real = {};
+          data.blocks.push_back(std::move(block));
         }
       }
     }
   }
-  usable /= std::max(looked, 1.0);
-  return blocks;
+  data.usablePart = usable / std::fmax(looked, 1.0);
 }
 
 void addTails(FieldData& data, const Region& region)
@@ -255,7 +283,7 @@ void addTails(FieldData& data, const Region& region)
   buffer.resize(region.whole, static_cast<int>(K));
   for (int y = region.whole.y; y < region.whole.y + region.whole.height; ++y)
   {
-    std::copy_n(data.scene + data.pair.index(region.whole.x, y) * K,
+    std::copy_n(data.scene() + data.pair.index(region.whole.x, y) * K,
       static_cast<std::size_t>(region.whole.width) * K, buffer.pixel(region.whole.x, y));
   }
   for (int pass = 0; pass < TailPasses; ++pass)
@@ -268,12 +296,16 @@ void addTails(FieldData& data, const Region& region)
         continue;
       }
       const ImageWindow& window = block.window;
-      const std::size_t row = static_cast<std::size_t>(window.width) * K;
       block.tail.resize(window.pixels() * K * TailPasses);
-      float* out = block.tail.data() + static_cast<std::size_t>(pass) * window.pixels() * K;
-      for (int y = window.y; y < window.y + window.height; ++y, out += row)
+      double* out = block.tail.data() + pass;
+      for (int y = window.y; y < window.y + window.height; ++y)
       {
-        std::copy_n(buffer.pixel(window.x, y), row, out);
+        const float* row = buffer.pixel(window.x, y);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(window.width) * K; ++i)
+        {
+          *out = static_cast<double>(row[i]);
+          out += TailPasses;
+        }
       }
     }
   }
@@ -289,13 +321,12 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
   }
   FieldData data;
   data.pair = pair;
-  const bool gaps = hasGaps(pair);
+  data.filled = filledScene(pair);
+  data.unit = fieldUnits(pair);
   const auto regions = regionsOf(pair.extent);
-  const int margin = std::min(LargestMargin, std::min(pair.extent.width, pair.extent.height) / 16);
-  for (const int size : { 16, 8, 4 })
+  for (const int size : { 16, 8, SmallestBlock })
   {
-    data.blockSize = size;
-    data.blocks = blocksOf(pair, regions, size, gaps, margin, data.usablePart);
+    findBlocks(data, regions, size);
     if (data.blocks.size() >= EnoughBlocks)
     {
       break;
@@ -303,68 +334,18 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
   }
   if (data.blocks.size() < FewestBlocks)
   {
-    reject("the images share ", data.blocks.size(), " blocks of ", data.blockSize, " x ",
-      data.blockSize, " usable pixels; expected at least ", FewestBlocks,
+    reject("the images share ", data.blocks.size(), " blocks of ", SmallestBlock, " x ",
+      SmallestBlock, " usable pixels; expected at least ", FewestBlocks,
       ": pixels must be finite in both images, with finite neighbours in the simulated one");
   }
   dealBlocks(pair, data.blocks,
     std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
-  data.filled = filledScene(pair);
-  data.scene = gaps ? data.filled.data() : pair.simulated;
   data.cells = SceneCells(pair);
-  data.unit = fieldUnits(pair);
   loop(static_cast<int>(data.blocks.size()),
-    [&](int i)
-    {
-      FieldBlock& block = data.blocks[static_cast<std::size_t>(i)];
-      readBlock(pair, block.window, gaps, margin, block.real, &data.unit);
-    });
+    [&](int i) { readBlock(data, data.blocks[static_cast<std::size_t>(i)]); });
   loop(static_cast<int>(regions.size()),
     [&](int i) { addTails(data, regions[static_cast<std::size_t>(i)]); });
   return data;
-}
-
-namespace
-{
-constexpr double OtherUnit = 5.0;   // times
-constexpr double Correlated = 0.25; // squared
-constexpr std::size_t MostPixels = std::size_t(1) << 20;
-}
-
-Eigen::ArrayXd fieldUnits(const FieldPair& pair)
-{
-  const std::size_t K = pair.channels.size();
-  std::vector<PairSums> sums(K);
-  const std::size_t step = 1 + pair.pixels() / MostPixels;
-  for (std::size_t i = 0; i < pair.pixels(); i += step)
-  {
-    for (std::size_t k = 0; k < K; ++k)
-    {
-      sums[k].add(pair.real[i * K + k], pair.simulated[i * K + k]);
-    }
-  }
-  Eigen::ArrayXd ratio(static_cast<Eigen::Index>(K));
-  for (std::size_t k = 0; k < K; ++k)
-  {
-    const PairSums& sum = sums[k];
-    const double both = sum.ofBoth();
-    // A straight line where the images go together, else through the origin.
-    const bool line = both > 0.0 && both * both > Correlated * sum.ofReal() * sum.ofSimulated();
-    ratio[static_cast<Eigen::Index>(k)] = line
-      ? both / std::fmax(sum.ofSimulated(), 1e-30)
-      : sum.products / std::fmax(sum.simulatedSquares, 1e-30);
-  }
-  const auto alike = [](const Eigen::ArrayXd& values)
-  { return (values >= 1.0 / OtherUnit).all() && (values <= OtherUnit).all(); };
-  if (alike(ratio) || !(ratio > 0.0).all())
-  {
-    return Eigen::ArrayXd::Ones(ratio.size());
-  }
-  std::vector<double> sorted(ratio.begin(), ratio.end());
-  std::sort(sorted.begin(), sorted.end());
-  const double common = sorted[sorted.size() / 2];
-  return alike(ratio / common) ? Eigen::ArrayXd(Eigen::ArrayXd::Constant(ratio.size(), common))
-                               : ratio;
 }
 
 } // namespace msi

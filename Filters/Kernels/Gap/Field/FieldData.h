@@ -14,9 +14,6 @@
 namespace msi
 {
 
-// A pixel of the simulated image has no value.
-bool hasGaps(const FieldPair& pair);
-
 // The simulated image without gaps: gaps take the values at both sides in their row. Empty where there
 // are none.
 std::vector<float> filledScene(const FieldPair& pair);
@@ -36,10 +33,14 @@ private:
 
 inline constexpr int FieldFolds = 5;
 
-// Pixels around a window that TailPasses passes depend on.
-inline constexpr int TailReach = 2 * ((1 << TailPasses) - 1);
-
 using FieldLoop = std::function<void(int count, const std::function<void(int)>& body)>;
+
+// From the middle of the image to that of a window, in pixels.
+inline Eigen::Vector2d middleOf(const FieldPair& pair, const ImageWindow& window)
+{
+  return { pair.offX(window.x + 0.5 * (window.width - 1)),
+    pair.offY(window.y + 0.5 * (window.height - 1)) };
+}
 
 struct FieldBlock
 {
@@ -47,27 +48,23 @@ struct FieldBlock
   int fold = -1; // 0 .. FieldFolds - 1; -1: a test block that takes no part in choosing and fitting
   int group = 0; // dealBlocks
   std::vector<float> real; // pixel after pixel; NaN: not usable
-  // Passes 1 .. TailPasses of the broad tail (ScatterTail) for each value; pass after pass.
-  std::vector<float> tail;
+  // Of each value the passes 1 .. TailPasses of the broad tail (ScatterTail).
+  std::vector<double> tail;
 };
 
 struct FieldData
 {
   FieldPair pair;
-  std::vector<float> filled;    // the simulated image without gaps, where it had some
-  const float* scene = nullptr; // filled, or the simulated image itself
-  Eigen::ArrayXd unit; // of the real image's channels, K; FieldBlock::real is divided by it
-  int blockSize = 0;
+  std::vector<float> filled; // filledScene()
+  Eigen::ArrayXd unit;       // of the real image's channels, K; FieldBlock::real is divided by it
   std::vector<FieldBlock> blocks;
   double usablePart = 0.0; // of the image's pixels
   SceneCells cells;
 
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
+  // The simulated image without gaps.
+  const float* scene() const noexcept { return filled.empty() ? pair.simulated : filled.data(); }
 };
-
-// The unit of each channel of the real image, where it is not that of the simulated one (white = 1): counts, say. 1 where the
-// images agree within a factor of five, else the same for all channels where that is enough.
-Eigen::ArrayXd fieldUnits(const FieldPair& pair);
 
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and
 // that lies a little inside the image. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.

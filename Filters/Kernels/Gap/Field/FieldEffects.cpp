@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
-#include "Kernels/Gap/Field/FieldStripes.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Numerics/Angle.h"
 
@@ -115,7 +115,7 @@ std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
     }
     for (const ImageForm& form : effect.imageForms)
     {
-      choices.push_back({ &effect, form.form, form.terms, form.twice });
+      choices.push_back({ form, &effect });
     }
   }
   // Of effects that do as well the exact ones come first.
@@ -161,12 +161,12 @@ bool compatible(const FieldSet& set, const FieldChoice& choice)
 
 AskedSteps stepsOf(const FieldSet& set)
 {
-  AskedSteps asked(imageSteps().size(), 0);
+  AskedSteps asked;
   for (const FieldChoice* choice : set)
   {
     for (const ImageTerm& term : choice->terms)
     {
-      asked[static_cast<std::size_t>(&stepOf(term.parameter) - imageSteps().data())] = 1;
+      asked.insert(&stepOf(term.parameter));
     }
   }
   return asked;

@@ -16,12 +16,9 @@ namespace msi
 {
 
 // One form of one effect.
-struct FieldChoice
+struct FieldChoice : ImageForm
 {
   const EffectDefinition* effect;
-  std::string form;
-  std::vector<ImageTerm> terms;
-  bool twice; // ImageForm::twice
 
   bool has(EffectTrait::Bit trait) const noexcept { return effect->has(trait); }
   const PlacedStep& step() const { return stepOf(terms.front().parameter); }

@@ -2,7 +2,7 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
-#include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Numerics/LeastSquares.h"
 
 #include <Eigen/Cholesky>
 

@@ -4,9 +4,7 @@
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldObservation.h"
-#include "Kernels/Gap/Field/FieldStripes.h"
-#include "Kernels/Gap/Field/FieldWhere.h"
-#include "Kernels/Gap/GapAxes.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
@@ -90,7 +88,7 @@ CameraEffect regularPartOf(const FieldData& data, const FieldStatistics& left)
       channel = channel(columns, columns).eval();
     }
   }
-  return unmodelledPart(regularPart(products), data.pair.channels);
+  return regularPart(products, data.pair.channels);
 }
 
 // Adds it, where it predicts test blocks.
@@ -98,9 +96,7 @@ void addRest(FieldGap& gap, const FieldData& data, const FieldWeights& weights,
   const GapOptions& options, const FieldLoop& loop)
 {
   const PlacedStep& step = remainderStep();
-  AskedSteps asked(imageSteps().size(), 0);
-  asked[static_cast<std::size_t>(&step - imageSteps().data())] = 1;
-  const FieldStatistics left = fieldStatistics(data, gap.model, &weights, loop, asked);
+  const FieldStatistics left = fieldStatistics(data, gap.model, &weights, loop, { &step });
   const CameraEffect effect = regularPartOf(data, left);
   FieldModel model = gap.model;
   const Eigen::Map<const Eigen::ArrayXXd> numbers(effect.parameters.data(), data.channels(),
@@ -150,22 +146,25 @@ std::vector<std::string> indistinctEffects(
   std::vector<std::string> found;
   for (const FieldChoice& choice : choices)
   {
-    double information = 0.0;
-    for (Eigen::Index k = 0; choice.has(EffectTrait::ActsOnEdges) && k < data.channels(); ++k)
+    const std::string& name = choice.effect->name;
+    if (!choice.has(EffectTrait::ActsOnEdges) ||
+      std::find(found.begin(), found.end(), name) != found.end())
     {
-      const Eigen::VectorXd column =
-        columnsChanged(choice.terms.front().parameter, statistics.model, statistics.model, k);
+      continue;
+    }
+    const ImageTerm& first = choice.terms.front();
+    double information = 1e-30;
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::count());
+      column.head(FieldColumn::residual()) =
+        columnsChanged(first.parameter, statistics.model, statistics.model, k);
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
-        information += column.dot(
-          statistics.at(b, k).normal().topLeftCorner(column.size(), column.size()) * column);
+        information += column.dot(statistics.at(b, k).normal() * column);
       }
     }
-    const bool missing = choice.has(EffectTrait::ActsOnEdges) &&
-      Decision::SureDeviations / std::sqrt(std::fmax(information, 1e-30)) >
-        choice.terms.front().typical;
-    const std::string& name = choice.effect->name;
-    if (missing && std::find(found.begin(), found.end(), name) == found.end())
+    if (Decision::SureDeviations / std::sqrt(information) > first.typical)
     {
       found.push_back(name);
     }
@@ -248,17 +247,8 @@ std::vector<std::string> notesOn(
 std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options)
 {
   const std::vector<FieldChoice> choices = fieldChoices(options.without);
-  FieldLoop loop = options.parallelFor;
-  if (!loop)
-  {
-    loop = [](int count, const std::function<void(int)>& body)
-    {
-      for (int i = 0; i < count; ++i)
-      {
-        body(i);
-      }
-    };
-  }
+  const FieldLoop loop = [&options](int count, const std::function<void(int)>& body)
+  { options.forAll(count, body); };
   double done = 0.0;
   bool stopped = false;
   const auto say = [&](double fraction, const char* what)
@@ -303,10 +293,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     report.correction = fieldCorrection(finding.set(), gap->model, pair.channels);
     report.verdict = verdictOf(shrink, noiseAlone);
     explained = noiseAlone ? 1.0 : shrink;
-    if (report.unexplained.share > 0.0)
-    {
-      report.unexplained = remainderOf(report.unexplained.share, rest);
-    }
+    report.unexplained = remainderOf(report.unexplained.share, rest);
   }
   else
   {

@@ -3,7 +3,6 @@
 #include "Kernels/Numerics/CounterRandom.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -89,20 +88,17 @@ void dealBlocks(
     size[static_cast<std::size_t>(block.group)] += 1.0;
   }
   // Each group goes where most is missing: to the test blocks or a fold.
-  std::array<double, FieldFolds + 1> part{};
-  part.fill((1.0 - TestPart) / FieldFolds);
-  part.back() = TestPart;
-  std::array<double, FieldFolds + 1> dealt{};
+  using Parts = Eigen::Array<double, FieldFolds + 1, 1>;
+  Parts part = Parts::Constant((1.0 - TestPart) / FieldFolds);
+  part[FieldFolds] = TestPart;
+  Parts dealt = Parts::Zero();
   std::vector<int> fold(groups, -1);
   double all = 0.0;
   for (const std::size_t g : shuffled(groups, CounterRandom(seed, 82)))
   {
     all += size[g];
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < part.size(); ++i)
-    {
-      best = part[i] * all - dealt[i] > part[best] * all - dealt[best] ? i : best;
-    }
+    Eigen::Index best = 0;
+    (part * all - dealt).maxCoeff(&best);
     dealt[best] += size[g];
     fold[g] = best == FieldFolds ? -1 : static_cast<int>(best);
   }

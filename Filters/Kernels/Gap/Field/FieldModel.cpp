@@ -62,11 +62,12 @@ bool FieldModel::isNeutral(ImageParameter parameter) const
   return ((*this)[parameter] == numberOf(parameter).neutral).all();
 }
 
-bool FieldModel::isNeutral(const PlacedStep& step) const
+bool FieldModel::isNeutral(const PlacedStep& step, Eigen::Index channel) const
 {
   for (std::size_t n = 0; n < step.step->numbers.size(); ++n)
   {
-    if (step.step->numbers[n].pull == ImagePull::Neutral && !isNeutral(step.number + n))
+    const ImageNumber& number = step.step->numbers[n];
+    if (number.pull == ImagePull::Neutral && at(step.number + n, channel) != number.neutral)
     {
       return false;
     }
@@ -74,10 +75,24 @@ bool FieldModel::isNeutral(const PlacedStep& step) const
   return true;
 }
 
+bool FieldModel::isNeutral(const PlacedStep& step) const
+{
+  bool neutral = true;
+  for (Eigen::Index k = 0; k < Values.cols(); ++k)
+  {
+    neutral = neutral && isNeutral(step, k);
+  }
+  return neutral;
+}
+
 AskedSteps everyStep()
 {
-  AskedSteps asked(imageSteps().size(), 1);
-  asked[static_cast<std::size_t>(&remainderStep() - imageSteps().data())] = 0;
+  AskedSteps asked;
+  for (const PlacedStep& step : imageSteps())
+  {
+    asked.insert(&step);
+  }
+  asked.erase(&remainderStep());
   return asked;
 }
 
@@ -94,18 +109,11 @@ ChannelSteps FieldModel::steps(
   std::size_t light = 0;
   for (std::size_t s = 0; s < known.size(); ++s)
   {
-    const ImageStep& step = *known[s].step;
-    const double* own = numbers(known[s], channel);
-    bool neutral = true;
-    for (std::size_t n = 0; n < step.numbers.size(); ++n)
+    const ImageStage stage = known[s].step->stage;
+    if (stage >= first && stage <= last &&
+      (!isNeutral(known[s], channel) || asked.count(&known[s]) > 0))
     {
-      neutral = neutral &&
-        (step.numbers[n].pull != ImagePull::Neutral || own[n] == step.numbers[n].neutral);
-    }
-    if (step.stage >= first && step.stage <= last &&
-      (!neutral || (!asked.empty() && asked[s] != 0)))
-    {
-      steps.push_back({ &known[s], own, s, light });
+      steps.push_back({ &known[s], numbers(known[s], channel), s, light });
     }
     light += known[s].from != nullptr ? 1 : 0;
   }
@@ -139,6 +147,20 @@ double FieldFactor::operator()(double x, double y) const
   pixel.x = x;
   pixel.y = y;
   return run(Steps, pixel, nullptr, 1.0);
+}
+
+void addElsewhere(const FieldPair& pair, const float* scene, const FieldFactor& factor,
+  const ImagePlace& pixel, std::size_t channel, std::vector<double>& others)
+{
+  for (const PlacedStep& step : imageSteps())
+  {
+    if (step.from != nullptr)
+    {
+      const ImagePlace place = step.from(pixel, pair.extent);
+      others.push_back(factor(pair.fieldX(place.x), pair.fieldY(place.y)) *
+        static_cast<double>(scene[pair.index(place.x, place.y) * pair.channels.size() + channel]));
+    }
+  }
 }
 
 ImageDisplacement FieldModel::displacement(Eigen::Index channel) const
@@ -180,23 +202,21 @@ std::array<double, TailPasses> FieldModel::tailWeights(Eigen::Index channel) con
 
 FieldLines::FieldLines(
   const FieldModel& model, bool ofRows, Eigen::Index channel, int fold, int first, int count)
-  : sine(Eigen::ArrayXd::Zero(count))
-  , cosine(sine)
-  , gain(sine)
-  , offset(sine)
+  : Lines(Eigen::ArrayX4d::Zero(count, 4))
 {
   const FieldStripes& stripes = model.stripes(ofRows);
   if (stripes.period > 0.0)
   {
     const Eigen::ArrayXd angle =
       TwoPi / stripes.period * Eigen::ArrayXd::LinSpaced(count, first, first + count - 1);
-    sine = angle.sin();
-    cosine = angle.cos();
+    Lines.col(0) = angle.sin();
+    Lines.col(1) = angle.cos();
   }
   if (stripes.profile != nullptr)
   {
-    gain = FieldProfile::without(fold, stripes.profile->gain).col(channel).segment(first, count);
-    offset =
+    Lines.col(2) =
+      FieldProfile::without(fold, stripes.profile->gain).col(channel).segment(first, count);
+    Lines.col(3) =
       FieldProfile::without(fold, stripes.profile->offset).col(channel).segment(first, count);
   }
 }

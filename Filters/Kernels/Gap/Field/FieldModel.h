@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,7 @@ struct ChannelStep
 using ChannelSteps = std::vector<ChannelStep>;
 
 // Of all steps, those whose derivatives are asked for where they change nothing; elsewhere they are always given.
-using AskedSteps = std::vector<char>;
+using AskedSteps = std::set<const PlacedStep*>;
 AskedSteps everyStep();            // but remainderStep()
 const PlacedStep& remainderStep(); // of EffectTrait::Remainder
 
@@ -86,7 +87,9 @@ struct FieldModel
     return &Values(static_cast<Eigen::Index>(step.number), channel);
   }
   bool isNeutral(ImageParameter parameter) const;
-  bool isNeutral(const PlacedStep& step) const; // but for numbers that change nothing alone
+  // But for numbers that change nothing alone.
+  bool isNeutral(const PlacedStep& step) const;
+  bool isNeutral(const PlacedStep& step, Eigen::Index channel) const;
 
   void goHalfwayTo(const FieldModel& other) { Values = 0.5 * (Values + other.Values); }
 
@@ -120,6 +123,10 @@ private:
   ChannelSteps Steps;
 };
 
+// Appends the light at the places from where it falls on a pixel, too: of the unmoved, unblurred scene.
+void addElsewhere(const FieldPair& pair, const float* scene, const FieldFactor& factor,
+  const ImagePlace& pixel, std::size_t channel, std::vector<double>& others);
+
 // The stripes of `count` rows, or columns, of one channel from `first` on.
 struct FieldLines
 {
@@ -129,11 +136,11 @@ struct FieldLines
 
   ImageLine operator[](Eigen::Index line) const
   {
-    return { sine[line], cosine[line], gain[line], offset[line] };
+    return { Lines(line, 0), Lines(line, 1), Lines(line, 2), Lines(line, 3) };
   }
 
 private:
-  Eigen::ArrayXd sine, cosine, gain, offset;
+  Eigen::ArrayX4d Lines; // in the order of ImageLine
 };
 
 std::size_t fieldParameterCount();

@@ -4,7 +4,6 @@
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
-#include "Kernels/Gap/Field/FieldStripes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Field/FieldStarts.h"
 
 #include "Kernels/Camera/CameraEffect.h"
-#include "Kernels/Gap/Field/FieldColumns.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>
@@ -22,7 +21,7 @@ constexpr double BetterCorrelation = 0.002; // of correlation; less is not worth
 // Of a block in one channel: variances and covariance with the scene at each displacement.
 struct Match
 {
-  double x, y; // middle, from that of the image
+  Eigen::Vector2d place; // middle, from that of the image
   double real;
   Eigen::Array<double, Side, Side> scene, both; // down, right
 };
@@ -32,8 +31,7 @@ Match matchOf(const FieldData& data, const FieldBlock& block, Eigen::Index chann
   const auto K = static_cast<std::size_t>(data.channels());
   const auto k = static_cast<std::size_t>(channel);
   const ImageExtent& extent = data.pair.extent;
-  Match match{ data.pair.offX(block.window.x + 0.5 * (block.window.width - 1)),
-    data.pair.offY(block.window.y + 0.5 * (block.window.height - 1)), 0.0, {}, {} };
+  Match match{ middleOf(data.pair, block.window), 0.0, {}, {} };
   for (int down = -Farthest; down <= Farthest; ++down)
   {
     for (int right = -Farthest; right <= Farthest; ++right)
@@ -46,7 +44,7 @@ Match matchOf(const FieldData& data, const FieldBlock& block, Eigen::Index chann
         for (int x = block.window.x; x < block.window.x + block.window.width; ++x, i += K)
         {
           const int u = std::clamp(x - right, 0, extent.width - 1);
-          sums.add(block.real[i], data.scene[data.pair.index(u, v) * K + k]);
+          sums.add(block.real[i], data.scene()[data.pair.index(u, v) * K + k]);
         }
       }
       match.real = sums.ofReal();
@@ -68,10 +66,10 @@ double correlation(const std::vector<Match>& matches, const Similarity& similari
   double both = 0.0;
   for (const Match& match : matches)
   {
-    const auto right =
-      std::lround(similarity[0] + similarity[2] * match.x - similarity[3] * match.y);
-    const auto down =
-      std::lround(similarity[1] + similarity[2] * match.y + similarity[3] * match.x);
+    const auto right = std::lround(
+      similarity[0] + similarity[2] * match.place.x() - similarity[3] * match.place.y());
+    const auto down = std::lround(
+      similarity[1] + similarity[2] * match.place.y() + similarity[3] * match.place.x());
     if (std::max(std::labs(right), std::labs(down)) > Farthest)
     {
       return 0.0;

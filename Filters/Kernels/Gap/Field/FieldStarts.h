@@ -1,9 +1,12 @@
-// What the images show before a fit: where displacements and clipping start.
+// What images and the residuals of a model show before a fit: where displacements, clipping and stripes start.
 #pragma once
 
-#include "Kernels/Gap/Field/FieldData.h"
+#include "Kernels/Gap/Field/FieldColumns.h"
+#include "Kernels/Gap/Field/FieldEffects.h"
 
 #include <Eigen/Core>
+
+#include <vector>
 
 namespace msi
 {
@@ -26,5 +29,36 @@ const std::vector<ImageTerm>& clippingTerms();
 // real - min(model, level), among quantiles of the model; the neutral level where the image shows none. The residuals are those
 // of a model that does not clip.
 double findClipLevel(const std::vector<FieldResidual>& residuals);
+
+// Gain and offset of each line as the residuals of a model show them, without their mean and, but for keepTrend, without
+// the quadratic that may as well be light. The strongest fiftieth of the lines are cut to the next: a line that is defect
+// is no stripe.
+FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>& residuals,
+  bool alongRows, bool keepTrend, const Eigen::ArrayXd& limit);
+
+// Finds the period of a gain that goes with the row (or column), the same in all channels, phases and sizes free.
+//
+// Method: least-squares periodogram (N. R. Lomb, 1976, doi:10.1007/BF00648343) of the relative gain of each row of the
+//   training blocks, quadratic trend taken off; the channels' powers add. The largest power counts where noise
+//   of the same median power would reach it anywhere in the spectrum with a probability below 1e-3.
+// Range: 2 pixels to half the span. 0 where there is nothing beyond chance.
+void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals, bool alongRows,
+  const FieldLoop& loop, FieldStripes& stripes);
+
+inline constexpr Eigen::Index BandingHarmonics = 3;
+
+// sum over n of amplitude_kn sin(2 pi (n line / period + start_kn)); K x harmonics
+struct BandingSines
+{
+  double period = 0.0;
+  Eigen::ArrayXXd amplitude, start;
+  double part = 1.0; // of the profile's energy
+};
+
+// The three sines of a common period that come nearest to a profile, lines x K. Amplitudes stop at those of the library.
+BandingSines nearestSines(const Eigen::ArrayXXd& profile);
+
+// Those of a choice of banding: its own, or the nearest to its profile.
+BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model);
 
 } // namespace msi

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace msi
 {
@@ -20,55 +22,45 @@ constexpr double FewestPairs = 4.0; // in a block that tells the noise
 double trimmedMean(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());
-  const auto cut = static_cast<std::size_t>(Trimmed * static_cast<double>(values.size()));
-  double sum = 0.0;
-  for (std::size_t i = cut; i < values.size() - cut; ++i)
-  {
-    sum += values[i];
-  }
-  return sum / static_cast<double>(values.size() - 2 * cut);
+  const auto cut = static_cast<std::ptrdiff_t>(Trimmed * static_cast<double>(values.size()));
+  return std::accumulate(values.begin() + cut, values.end() - cut, 0.0) /
+    static_cast<double>(values.end() - values.begin() - 2 * cut);
 }
 
 // Mean squared differences over the pairs of usable pixels that lie `lag` apart.
 void addDifferences(const ChannelColumns& found, const ImageWindow& window, BlockSums& sums)
 {
-  std::vector<int> at(window.pixels(), -1);
-  for (std::size_t n = 0; n < found.pixel.size(); ++n)
-  {
-    at[static_cast<std::size_t>(found.pixel[n])] = static_cast<int>(n);
-  }
+  constexpr Eigen::Index lag = 2;
   const auto residual = found.columns.col(FieldColumn::residual());
-  constexpr int lag = 2;
+  // Of every pixel of the block, NaN where it is not usable.
+  Eigen::ArrayXXd left = Eigen::ArrayXXd::Constant(
+    window.width, window.height, std::numeric_limits<double>::quiet_NaN());
+  Eigen::ArrayXXd level = left;
+  left.reshaped()(found.pixel) = residual;
+  level.reshaped()(found.pixel) = found.level;
   double slope = 0.0;
   double pairs = 0.0;
   // Half the mean squared difference to the pixels at this place from each.
-  const auto difference = [&](int right, int down)
+  const auto difference = [&](Eigen::Index right, Eigen::Index down)
   {
-    double sum = 0.0;
-    double count = 0.0;
-    for (int i = 0; i < static_cast<int>(window.pixels()); ++i)
+    const auto change = [&](const Eigen::ArrayXXd& values) -> Eigen::ArrayXXd
     {
-      const int x = i % window.width + right;
-      const int y = i / window.width + down;
-      const int self = at[static_cast<std::size_t>(i)];
-      const int place = y * window.width + x;
-      const int other =
-        x < window.width && y < window.height ? at[static_cast<std::size_t>(place)] : -1;
-      if (self >= 0 && other >= 0)
-      {
-        sum += std::pow(residual[self] - residual[other], 2);
-        slope += std::pow(found.level[self] - found.level[other], 2);
-        count += 1.0;
-      }
-    }
+      const Eigen::Index width = values.rows() - right;
+      const Eigen::Index height = values.cols() - down;
+      return (values.bottomRightCorner(width, height) - values.topLeftCorner(width, height))
+        .square();
+    };
+    const Eigen::ArrayXXd squares = change(left);
+    const Eigen::ArrayXXd slopes = change(level);
+    const auto count = static_cast<double>(squares.isFinite().count());
+    slope += slopes.isFinite().select(slopes, 0.0).sum();
     pairs += count;
-    return count < FewestPairs ? 0.0 : 0.5 * sum / count;
+    return count < FewestPairs ? 0.0 : 0.5 * squares.isFinite().select(squares, 0.0).sum() / count;
   };
   sums.difference = difference(lag, 0);
   sums.differenceDown = difference(0, lag);
   sums.gradient = slope / std::fmax(pairs, 1.0);
 }
-
 }
 
 Eigen::MatrixXd BlockSums::normal() const
@@ -194,21 +186,17 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
         sums.level = found.level.mean();
         addDifferences(found, block.window, sums);
       }
-      Eigen::ArrayXd root(weights != nullptr ? found.columns.rows() : 0);
-      for (Eigen::Index n = 0; n < root.size(); ++n)
-      {
-        const double variance = noiseVariance(weights->noise[k], found.level[n]);
-        const double size = std::fabs(residual[n]);
-        const double limit = weights->limit[channel];
-        const double weight =
-          (size > limit ? limit / size : 1.0) / (variance + weights->tolerance[channel]);
-        sums.noise += variance;
-        sums.chance += variance * weight;
-        root[n] = std::sqrt(weight);
-      }
       if (weights != nullptr)
       {
-        found.columns.array().colwise() *= root;
+        const Eigen::ArrayXd variance = found.level.unaryExpr(
+          [&noise = weights->noise[k]](double level) { return noiseVariance(noise, level); });
+        const double limit = weights->limit[channel];
+        const Eigen::ArrayXd size = residual.array().abs();
+        const Eigen::ArrayXd weight =
+          (size > limit).select(limit / size, 1.0) / (variance + weights->tolerance[channel]);
+        sums.noise = variance.sum();
+        sums.chance = (variance * weight).sum();
+        found.columns.array().colwise() *= weight.sqrt();
       }
       const Eigen::Array<bool, 1, Eigen::Dynamic> any =
         (found.columns.array() != 0.0).colwise().any();

@@ -1,6 +1,7 @@
-#include "Kernels/Gap/Field/FieldStripes.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
 
 #include "Kernels/Numerics/Angle.h"
+#include "Kernels/Numerics/OrderStatistic.h"
 
 #include <Eigen/Cholesky>
 
@@ -13,73 +14,43 @@ namespace msi
 
 namespace
 {
-// Numbers of the lines with their weights; lines x K.
+// A number of each line and channel, and its weight; lines x K.
 struct LineValues
 {
   Eigen::ArrayXXd value, weight;
-};
 
-// The relative gain and the offset of the residual of each line, from one fold's blocks.
-struct LineSums
-{
-  LineValues gain, offset; // value: times weight
+  LineValues(Eigen::Index lines, Eigen::Index channels)
+    : value(Eigen::ArrayXXd::Zero(lines, channels))
+    , weight(value)
+  {
+  }
 };
 
 constexpr Eigen::Index DefectPart = 50; // one line of so many may be defect
 
-void join(LineValues& lines, const LineValues& part, Eigen::Index first)
-{
-  lines.value.middleRows(first, part.value.rows()) += part.value;
-  lines.weight.middleRows(first, part.value.rows()) += part.weight;
-}
-
-LineValues noLines(Eigen::Index lines, Eigen::Index channels)
-{
-  return { Eigen::ArrayXXd::Zero(lines, channels), Eigen::ArrayXXd::Zero(lines, channels) };
-}
-
-LineSums sumsOf(
-  const FieldData& data, const FieldResidual* channels, bool alongRows, const Eigen::ArrayXd& limit)
-{
-  LineSums sums{ noLines(data.blockSize, data.channels()),
-    noLines(data.blockSize, data.channels()) };
-  for (Eigen::Index k = 0; k < data.channels(); ++k)
-  {
-    const Eigen::ArrayXd& u = channels[k].gain;
-    const Eigen::ArrayXd& r = channels[k].residual;
-    for (Eigen::Index n = 0; n < u.size(); ++n)
-    {
-      const int pixel = channels[k].pixel[static_cast<std::size_t>(n)];
-      const int line = alongRows ? pixel / data.blockSize : pixel % data.blockSize;
-      const double size = std::fabs(r[n]);
-      const double weight = limit.size() > 0 && size > limit[k] ? limit[k] / size : 1.0;
-      sums.gain.value(line, k) += weight * u[n] * r[n];
-      sums.gain.weight(line, k) += weight * u[n] * u[n];
-      sums.offset.value(line, k) += weight * r[n];
-      sums.offset.weight(line, k) += weight;
-    }
-  }
-  return sums;
-}
-
-// Of each fold. limit: residuals count up to this size, K; empty: in full.
-std::vector<LineSums> lineSums(const FieldData& data, const std::vector<FieldResidual>& residuals,
-  bool alongRows, const Eigen::ArrayXd& limit)
+// The relative gain of the residual of each line, or its offset, from the blocks of each fold; value: times weight.
+// limit: residuals count up to this size, K; empty: in full.
+std::vector<LineValues> lineSums(const FieldData& data, const std::vector<FieldResidual>& residuals,
+  bool alongRows, bool ofGain, const Eigen::ArrayXd& limit)
 {
   const Eigen::Index lines = alongRows ? data.pair.extent.height : data.pair.extent.width;
-  const auto K = static_cast<std::size_t>(data.channels());
-  std::vector<LineSums> folds(
-    FieldFolds, { noLines(lines, data.channels()), noLines(lines, data.channels()) });
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  std::vector<LineValues> folds(FieldFolds, LineValues(lines, data.channels()));
+  for (std::size_t i = 0; i < residuals.size(); ++i)
   {
-    const FieldBlock& block = data.blocks[b];
-    if (block.fold >= 0)
+    const FieldResidual& part = residuals[i];
+    const FieldBlock& block = data.blocks[i / data.pair.channels.size()];
+    const auto k = static_cast<Eigen::Index>(i % data.pair.channels.size());
+    for (Eigen::Index n = 0; n < part.residual.size(); ++n)
     {
-      const LineSums sums = sumsOf(data, &residuals[b * K], alongRows, limit);
-      const int first = alongRows ? block.window.y : block.window.x;
-      LineSums& fold = folds[static_cast<std::size_t>(block.fold)];
-      join(fold.gain, sums.gain, first);
-      join(fold.offset, sums.offset, first);
+      LineValues& fold = folds[static_cast<std::size_t>(block.fold)];
+      const int pixel = part.pixel[static_cast<std::size_t>(n)];
+      const int line = alongRows ? block.window.y + pixel / block.window.width
+                                 : block.window.x + pixel % block.window.width;
+      const double u = ofGain ? part.gain[n] : 1.0;
+      const double size = std::fabs(part.residual[n]);
+      const double weight = limit.size() > 0 && size > limit[k] ? limit[k] / size : 1.0;
+      fold.value(line, k) += weight * u * part.residual[n];
+      fold.weight(line, k) += weight * u * u;
     }
   }
   return folds;
@@ -109,52 +80,46 @@ void cutDefects(Eigen::ArrayXXd& values)
   const Eigen::Index cut = values.rows() / DefectPart + 1;
   for (Eigen::Index k = 0; k < values.cols(); ++k)
   {
-    const Eigen::ArrayXd size = values.col(k).abs();
-    std::vector<double> sizes(size.begin(), size.end());
-    const auto next = sizes.end() - 1 - std::min(cut, values.rows() - 1);
-    std::nth_element(sizes.begin(), next, sizes.end());
-    values.col(k) = values.col(k).max(-*next).min(*next);
+    const double next =
+      orderStatistic(values.col(k).abs(), values.rows() - 1 - std::min(cut, values.rows() - 1));
+    values.col(k) = values.col(k).max(-next).min(next);
   }
 }
 
 // The mean of each line over all folds but one.
-LineValues meansWithout(
-  const std::vector<LineSums>& folds, std::size_t without, LineValues LineSums::*kind)
+LineValues meansWithout(const std::vector<LineValues>& folds, std::size_t without)
 {
-  LineValues lines = noLines((folds[0].*kind).value.rows(), (folds[0].*kind).value.cols());
+  LineValues lines(folds[0].value.rows(), folds[0].value.cols());
   for (std::size_t fold = 0; fold < folds.size(); ++fold)
   {
     if (fold != without)
     {
-      join(lines, folds[fold].*kind, 0);
+      lines.value += folds[fold].value;
+      lines.weight += folds[fold].weight;
     }
   }
   lines.value /= lines.weight.max(1e-12);
   return lines;
-}
-
-Eigen::ArrayXXd profileWithout(const std::vector<LineSums>& folds, std::size_t without,
-  LineValues LineSums::*kind, bool keepTrend)
-{
-  LineValues lines = meansWithout(folds, without, kind);
-  detrend(lines, keepTrend ? 1 : 3);
-  lines.value = (lines.weight > 0.0).select(lines.value, 0.0);
-  cutDefects(lines.value);
-  return lines.value;
 }
 }
 
 FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>& residuals,
   bool alongRows, bool keepTrend, const Eigen::ArrayXd& limit)
 {
-  const std::vector<LineSums> folds = lineSums(data, residuals, alongRows, limit);
-  FieldProfile profile;
-  for (std::size_t without = 0; without <= folds.size(); ++without)
+  const auto profiles = [&](bool ofGain)
   {
-    profile.gain.push_back(profileWithout(folds, without, &LineSums::gain, keepTrend));
-    profile.offset.push_back(profileWithout(folds, without, &LineSums::offset, keepTrend));
-  }
-  return profile;
+    const std::vector<LineValues> folds = lineSums(data, residuals, alongRows, ofGain, limit);
+    std::vector<Eigen::ArrayXXd> found;
+    for (std::size_t without = 0; without <= folds.size(); ++without)
+    {
+      LineValues lines = meansWithout(folds, without);
+      detrend(lines, keepTrend ? 1 : 3);
+      found.emplace_back((lines.weight > 0.0).select(lines.value, 0.0));
+      cutDefects(found.back());
+    }
+    return found;
+  };
+  return { profiles(true), profiles(false) };
 }
 
 namespace
@@ -168,31 +133,24 @@ const double ExponentialMedian = std::log(2.0);
 // Weighted energy that a sine takes away, of each channel.
 Eigen::ArrayXd powerAt(const LineValues& profile, double frequency)
 {
-  const Eigen::Index K = profile.value.cols();
-  Eigen::ArrayXd cc = Eigen::ArrayXd::Zero(K);
-  Eigen::ArrayXd cs = cc;
-  Eigen::ArrayXd ss = cc;
-  Eigen::ArrayXd cz = cc;
-  Eigen::ArrayXd sz = cc;
+  Eigen::ArrayXd c(profile.value.rows());
+  Eigen::ArrayXd s(c.size());
   const std::complex<double> turn = std::polar(1.0, TwoPi * frequency);
   std::complex<double> now = 1.0;
-  for (Eigen::Index line = 0; line < profile.value.rows(); ++line, now *= turn)
+  for (Eigen::Index line = 0; line < c.size(); ++line, now *= turn)
   {
-    const double c = now.real();
-    const double s = now.imag();
-    for (Eigen::Index k = 0; k < K; ++k)
-    {
-      const double w = profile.weight(line, k);
-      const double z = w * profile.value(line, k);
-      cc[k] += w * c * c;
-      cs[k] += w * c * s;
-      ss[k] += w * s * s;
-      cz[k] += z * c;
-      sz[k] += z * s;
-    }
+    c[line] = now.real();
+    s[line] = now.imag();
   }
-  const Eigen::ArrayXd determinant = (cc * ss - cs * cs).max(1e-300);
-  return (ss * cz * cz - 2.0 * cs * cz * sz + cc * sz * sz) / determinant;
+  const auto sums = [](const Eigen::ArrayXd& factor, const Eigen::ArrayXXd& values)
+  { return Eigen::ArrayXd((values.matrix().transpose() * factor.matrix()).array()); };
+  const Eigen::ArrayXd cc = sums(c.square(), profile.weight);
+  const Eigen::ArrayXd cs = sums(c * s, profile.weight);
+  const Eigen::ArrayXd ss = sums(s.square(), profile.weight);
+  const Eigen::ArrayXXd weighted = profile.weight * profile.value;
+  const Eigen::ArrayXd cz = sums(c, weighted);
+  const Eigen::ArrayXd sz = sums(s, weighted);
+  return (ss * cz * cz - 2.0 * cs * cz * sz + cc * sz * sz) / (cc * ss - cs * cs).max(1e-300);
 }
 
 // Probability that the sum of `channels` exponential deviates of mean one exceeds x.
@@ -213,8 +171,8 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
   const FieldLoop& loop, FieldStripes& stripes)
 {
   stripes.period = stripes.periodError = 0.0;
-  LineValues profile = meansWithout(
-    lineSums(data, residuals, alongRows, Eigen::ArrayXd()), FieldFolds, &LineSums::gain);
+  LineValues profile =
+    meansWithout(lineSums(data, residuals, alongRows, true, Eigen::ArrayXd()), FieldFolds);
   const Eigen::Index lines = profile.value.rows();
   const Eigen::Index K = profile.value.cols();
   if (lines < FewestLines)
@@ -224,7 +182,8 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
   detrend(profile, 3);
   const double span = static_cast<double>(lines);
   const auto count = static_cast<int>(PeriodOversampling * (0.5 * span - 2.0)) + 1;
-  const auto frequencyOf = [&](int i) { return (2.0 + i / PeriodOversampling) / span; };
+  const auto frequencyOf = [&](Eigen::Index i)
+  { return (2.0 + static_cast<double>(i) / PeriodOversampling) / span; };
   Eigen::ArrayXXd power(count, K);
   constexpr int Batch = 64;
   loop((count + Batch - 1) / Batch,
@@ -238,23 +197,11 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
   Eigen::ArrayXd scale(K);
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    std::vector<double> values(power.col(k).begin(), power.col(k).end());
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    scale[k] = std::fmax(*middle / ExponentialMedian, 1e-300);
+    scale[k] = std::fmax(orderStatistic(power.col(k), count / 2) / ExponentialMedian, 1e-300);
   }
   const auto total = [&](double frequency) { return (powerAt(profile, frequency) / scale).sum(); };
-  int best = 0;
-  double most = -1.0;
-  for (int i = 0; i < count; ++i)
-  {
-    const double value = (power.row(i).transpose() / scale).sum();
-    if (value > most)
-    {
-      most = value;
-      best = i;
-    }
-  }
+  Eigen::Index best = 0;
+  const double most = (power.rowwise() / scale.transpose()).rowwise().sum().maxCoeff(&best);
   if (gammaSurvival(most, K) * span > FalseAlarm)
   {
     return;
@@ -313,12 +260,15 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
 {
   const Eigen::Index lines = profile.rows();
   BandingSines sines = noSines(profile.cols(), BandingHarmonics);
+  LineValues even(lines, profile.cols());
+  even.value = profile;
+  even.weight.setOnes();
   // Of all channels, at i / (Oversampling lines) cycles a line.
   Eigen::ArrayXd energy(Oversampling * lines / 2 + 1);
   for (Eigen::Index i = 0; i < energy.size(); ++i)
   {
-    const double frequency = static_cast<double>(i) / static_cast<double>(Oversampling * lines);
-    energy[i] = powerAt({ profile, Eigen::ArrayXXd::Ones(lines, profile.cols()) }, frequency).sum();
+    energy[i] =
+      powerAt(even, static_cast<double>(i) / static_cast<double>(Oversampling * lines)).sum();
   }
   // Two cycles at least; harmonics beyond two pixels a cycle are those of another period.
   Eigen::Index best = 2 * Oversampling;
@@ -336,9 +286,8 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
       best = i;
     }
   }
-  sines.period = static_cast<double>(Oversampling * lines) /
-    static_cast<double>(std::max<Eigen::Index>(best, 1));
-  sines.period = std::fmax(sines.period, 2.0);
+  sines.period =
+    std::fmax(static_cast<double>(Oversampling * lines) / static_cast<double>(best), 2.0);
   Eigen::MatrixXd basis = basisOf(lines, sines.period);
   Eigen::MatrixXd normal = basis.transpose() * basis;
   normal.diagonal().array() += 1e-6 * static_cast<double>(lines);

@@ -1,7 +1,7 @@
-#include "Kernels/Gap/Field/FieldWhere.h"
+#include "Kernels/Gap/Field/FieldStatistics.h"
 
-#include "Kernels/Gap/GapAxes.h"
 #include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Numerics/LeastSquares.h"
 
 #include <Eigen/Cholesky>
 
@@ -32,17 +32,12 @@ std::vector<FieldAxis> fieldAxisBases(const FieldModel& model, bool gaps)
     { "position", {}, FieldColumn::of(ImageAxis::Position) },
     { "edges", {}, FieldColumn::of(ImageAxis::Edges) },
   };
-  for (const PlacedStep& step : imageSteps())
+  const auto ofSurround = [](int column)
+  { return FieldColumn::stepOf(column).step->stage == ImageStage::Surround; };
+  if (gaps)
   {
     std::vector<int>& edges = axes.back().own;
-    if (gaps && step.step->stage == ImageStage::Surround)
-    {
-      const auto first = static_cast<int>(step.column);
-      const auto end = static_cast<int>(step.column + step.step->width());
-      edges.erase(
-        std::remove_if(edges.begin(), edges.end(), [&](int c) { return c >= first && c < end; }),
-        edges.end());
-    }
+    edges.erase(std::remove_if(edges.begin(), edges.end(), ofSurround), edges.end());
   }
   for (const bool rows : { true, false })
   {
@@ -71,50 +66,8 @@ std::vector<Eigen::MatrixXd> sumOfNormals(
   return sum;
 }
 
-// Least squares in which the numbers of a channel meet only each other and those common to all channels.
-struct ArrowEquations
-{
-  Eigen::MatrixXd common;
-  Eigen::VectorXd gradient; // of the common numbers
-  // Of each channel; across: own x common.
-  std::vector<Eigen::MatrixXd> own, across;
-  std::vector<Eigen::VectorXd> ownGradient;
-};
-struct ArrowSolution
-{
-  Eigen::VectorXd common;
-  std::vector<Eigen::VectorXd> own;
-};
-// Eliminates the channels one by one, then solves for the common numbers.
-ArrowSolution solved(ArrowEquations equations)
-{
-  const Eigen::Index C = equations.common.rows();
-  std::vector<Eigen::MatrixXd> toCommon;
-  ArrowSolution solution;
-  for (std::size_t k = 0; k < equations.own.size(); ++k)
-  {
-    const Eigen::MatrixXd& across = equations.across[k];
-    const Eigen::VectorXd& gradient = equations.ownGradient[k];
-    const bool own = gradient.size() > 0;
-    const Eigen::LDLT<Eigen::MatrixXd> factor(equations.own[k]);
-    toCommon.emplace_back(own && C > 0 ? Eigen::MatrixXd(factor.solve(across)) : across);
-    solution.own.emplace_back(own ? Eigen::VectorXd(factor.solve(gradient)) : gradient);
-    if (own)
-    {
-      equations.common -= across.transpose() * toCommon.back();
-      equations.gradient -= across.transpose() * solution.own.back();
-    }
-  }
-  solution.common =
-    C > 0 ? Eigen::VectorXd(equations.common.ldlt().solve(equations.gradient)) : equations.gradient;
-  for (std::size_t k = 0; k < equations.own.size(); ++k)
-  {
-    solution.own[k] -= toCommon[k] * solution.common;
-  }
-  return solution;
-}
-
-// Least squares of the common and the channels' own columns; change of the columns, K.
+// Least squares of columns common to all channels and of each channel's own; change of the columns, K. The numbers of a
+// channel meet only each other and the common ones: they are eliminated channel by channel.
 std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
   const std::vector<int>& common, const std::vector<int>& own)
 {
@@ -125,24 +78,29 @@ std::vector<Eigen::VectorXd> regress(const std::vector<Eigen::MatrixXd>& normal,
     return matrix;
   };
   const auto C = static_cast<Eigen::Index>(common.size());
-  ArrowEquations equations{ Eigen::MatrixXd::Zero(C, C), Eigen::VectorXd::Zero(C), {}, {}, {} };
+  std::vector<int> others = common;
+  others.push_back(FieldColumn::residual());
+  Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(C + 1, C + 1);
   for (const Eigen::MatrixXd& N : normal)
   {
-    const Eigen::VectorXd residual = N.col(FieldColumn::residual());
-    equations.common += N(common, common);
-    equations.gradient += residual(common);
-    equations.own.push_back(ridged(N(own, own)));
-    equations.ownGradient.emplace_back(residual(own));
-    equations.across.emplace_back(N(own, common));
+    reduced += N(others, others);
   }
-  equations.common = ridged(equations.common);
-  const ArrowSolution solution = solved(std::move(equations));
+  reduced.topLeftCorner(C, C) = ridged(reduced.topLeftCorner(C, C));
+  std::vector<Eigen::MatrixXd>
+    byOthers; // the channel's numbers that go with the common ones, and the residual's
+  for (const Eigen::MatrixXd& N : normal)
+  {
+    const Eigen::MatrixXd across = N(own, others);
+    byOthers.emplace_back(ridged(N(own, own)).ldlt().solve(across));
+    reduced -= across.transpose() * byOthers.back();
+  }
+  const Eigen::VectorXd shared = reduced.topLeftCorner(C, C).ldlt().solve(reduced.col(C).head(C));
   std::vector<Eigen::VectorXd> change;
-  for (const Eigen::VectorXd& mine : solution.own)
+  for (const Eigen::MatrixXd& mine : byOthers)
   {
     change.emplace_back(Eigen::VectorXd::Zero(FieldColumn::residual()));
-    change.back()(own) += mine;
-    change.back()(common) += solution.common;
+    change.back()(own) = mine.col(C) - mine.leftCols(C) * shared;
+    change.back()(common) = shared;
   }
   return change;
 }

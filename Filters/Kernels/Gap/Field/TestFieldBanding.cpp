@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Field/FieldStripes.h"
+#include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/Field/TestFieldReport.h"
 
 #include <gtest/gtest.h>

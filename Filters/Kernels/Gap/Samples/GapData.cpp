@@ -119,7 +119,7 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options)
     data.observed.col(j) =
       (data.count.col(j).array() > 0.0).select(data.observed.col(j), data.simulated.col(j));
   }
-  data.elements = (data.count.array() > 0.0).count();
+  data.elements = data.measured().count();
   if (data.usable.size() < 2)
   {
     reject("a diagnosis needs 2 samples or more with reading and reflectance; ", data.usable.size(),
@@ -132,12 +132,10 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options)
 
 void setWeights(GapData& data)
 {
-  const auto measured = (data.count.array() > 0.0).cast<double>();
-  const Eigen::ArrayXXd gap =
-    (data.count.array() > 0.0).select(data.observed - data.simulated, 0.0).array();
-  const double energy = gap.square().sum() / static_cast<double>(data.elements);
+  const Eigen::MatrixXd gap = data.measured().select(data.observed - data.simulated, 0.0);
+  const double energy = gap.squaredNorm() / static_cast<double>(data.elements);
   const double tolerance = Decision::FormPart * energy + 1e-14;
-  data.weight = measured / (data.variance.array() + tolerance);
+  data.weight = data.measured().cast<double>() / (data.variance.array() + tolerance);
 }
 
 std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed)

@@ -29,6 +29,7 @@ struct GapData
   int folds = 0;
   Eigen::Index elements = 0; // with weight
 
+  auto measured() const { return count.array() > 0.0; }
   Eigen::Index channels() const noexcept { return observed.rows(); }
   Eigen::Index samples() const noexcept { return observed.cols(); }
 };

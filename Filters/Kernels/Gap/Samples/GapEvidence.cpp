@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <vector>
 
 namespace msi
 {
 
 namespace
 {
-constexpr std::size_t FewSamples = 3;
+constexpr Eigen::Index FewSamples = 3;
 
 // Energy explained over energy left where the gap shrinks by Decision::SmallPart.
 double leastOverLeft()
@@ -23,7 +22,7 @@ double leastOverLeft()
 
 Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
 {
-  return (data.count.array() > 0.0).select(values, 0.0);
+  return data.measured().select(values, 0.0);
 }
 
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)
@@ -75,31 +74,21 @@ double negligibleEnergy(
 bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
   const Eigen::MatrixXd& integration)
 {
-  const double left = after.squaredNorm();
-  const double explained = before.squaredNorm() - left;
-  const Eigen::MatrixXd allowed = Decision::EstimateFactor * measuredOnly(data, integration);
-  double beyond = 0.0;
-  for (Eigen::Index j = 0; j < data.samples(); ++j)
-  {
-    const double taken = before.col(j).squaredNorm() - after.col(j).squaredNorm();
-    beyond += std::fmax(taken - allowed.col(j).sum(), 0.0);
-  }
-  return explained > leastOverLeft() * left &&
+  const Eigen::ArrayXd taken = before.colwise().squaredNorm() - after.colwise().squaredNorm();
+  const Eigen::ArrayXd allowed =
+    Decision::EstimateFactor * measuredOnly(data, integration).colwise().sum();
+  const double explained = taken.sum();
+  const double beyond = (taken - allowed).max(0.0).sum();
+  return explained > leastOverLeft() * after.squaredNorm() &&
     (explained > allowed.sum() || beyond > 0.5 * explained);
 }
 
 bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)
 {
-  const Eigen::VectorXd energy = measuredOnly(data, change).colwise().squaredNorm();
-  std::vector<double> sorted(energy.data(), energy.data() + energy.size());
-  std::sort(sorted.begin(), sorted.end(), std::greater<>());
-  const auto few = std::min(sorted.size(), FewSamples);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < few; ++i)
-  {
-    sum += sorted[i];
-  }
-  return sum > (1.0 - Decision::SmallPart) * energy.sum();
+  Eigen::VectorXd energy = measuredOnly(data, change).colwise().squaredNorm();
+  std::sort(energy.begin(), energy.end(), std::greater<>());
+  return energy.head(std::min(energy.size(), FewSamples)).sum() >
+    (1.0 - Decision::SmallPart) * energy.sum();
 }
 
 } // namespace msi

@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
+#include "Kernels/Numerics/OrderStatistic.h"
 #include "Kernels/Spectra/Interpolation.h"
 
 #include <Eigen/Cholesky>
@@ -17,18 +18,23 @@ namespace
 constexpr double FineStep = 1.0;           // nm
 constexpr double MedianOfNormal = 0.67449; // of the sizes of standard normal values
 
+// Of one reading of each element, K x S.
+Eigen::ArrayXXd readingVariances(const GapData& data, const CameraNoise& noise)
+{
+  return data.observed.unaryExpr([&noise](double u) { return noiseVariance(noise, u); }).array();
+}
+
 // Variances of the repeats are as uncertain as they are large: four rounds of weights.
 CameraNoise fitRepeats(const GapData& data)
 {
-  const Eigen::ArrayXd degrees = (data.count.array() - 1.0).max(0.0).reshaped();
-  const Eigen::ArrayXd variance = data.scatter.array().reshaped() / degrees.max(1.0);
-  const Eigen::ArrayXd response = (degrees > 0.0).select(data.observed.array().reshaped(), 0.0);
+  const Eigen::ArrayXXd degrees = (data.count.array() - 1.0).max(0.0);
+  const Eigen::ArrayXXd variance = data.scatter.array() / degrees.max(1.0);
+  const Eigen::ArrayXXd response = (degrees > 0.0).select(data.observed.array(), 0.0);
   CameraNoise noise{ std::sqrt(data.scatter.sum() / std::fmax(degrees.sum(), 1.0)) };
   for (int round = 0; round < 4; ++round)
   {
-    const Eigen::ArrayXd model =
-      response.unaryExpr([&noise](double u) { return std::fmax(noiseVariance(noise, u), 1e-14); });
-    noise = fittedNoise(response, variance, degrees / model.square());
+    const Eigen::ArrayXXd weight = degrees / readingVariances(data, noise).max(1e-14).square();
+    noise = fittedNoise(response.reshaped(), variance.reshaped(), weight.reshaped());
   }
   return noise;
 }
@@ -54,15 +60,11 @@ NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& gi
   {
     return finding;
   }
-  double ratio = 0.0;
-  for (Eigen::Index i = 0; i < data.count.size(); ++i)
-  {
-    if (data.count(i) > 1.0)
-    {
-      ratio += data.scatter(i) / std::fmax(noiseVariance(*given, data.observed(i)), 1e-14);
-    }
-  }
-  ratio /= finding.degrees;
+  const double ratio =
+    (data.count.array() > 1.0)
+      .select(data.scatter.array() / readingVariances(data, *given).max(1e-14), 0.0)
+      .sum() /
+    finding.degrees;
   finding.excess = std::sqrt(ratio);
   finding.excessDeviations = (ratio - 1.0) / std::sqrt(2.0 / finding.degrees);
   if (finding.excess > Decision::BeyondNoise && finding.excessDeviations > Decision::SureDeviations)
@@ -79,13 +81,8 @@ NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& gi
 
 Eigen::MatrixXd readingVariance(const GapData& data, const CameraNoise& noise)
 {
-  Eigen::MatrixXd variance(data.channels(), data.samples());
-  for (Eigen::Index i = 0; i < variance.size(); ++i)
-  {
-    // A short series of equal rounded readings is no proof of no noise at all.
-    variance(i) = noiseVariance(noise, data.observed(i)) / std::fmax(data.count(i), 1.0) + 1e-12;
-  }
-  return variance;
+  // A short series of equal rounded readings is no proof of no noise at all.
+  return (readingVariances(data, noise) / data.count.array().max(1.0) + 1e-12).matrix();
 }
 
 Eigen::VectorXd reflectanceErrorGain(const CameraModel& camera)
@@ -159,9 +156,7 @@ double robustDeviation(std::vector<double> values)
 {
   std::transform(
     values.begin(), values.end(), values.begin(), [](double v) { return std::fabs(v); });
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle / MedianOfNormal;
+  return orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)) / MedianOfNormal;
 }
 
 namespace
@@ -191,10 +186,9 @@ struct SecondDifferences
 void setUnknownNoise(GapData& data)
 {
   data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());
-  const auto measured = data.count.array() > 0.0;
+  const auto measured = data.measured();
   const Eigen::MatrixXd residual =
-    shareOverAxes(data, measured.select(data.observed - data.simulated, 0.0), false)
-      .heldOutResidual;
+    shareOverAxes(data, measured.select(data.observed - data.simulated, 0.0)).heldOutResidual;
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(data.channels());
   for (Eigen::Index k = 0; k < data.channels(); ++k)
   {
@@ -279,7 +273,7 @@ double logLikelihood(const GapData& data, const Eigen::MatrixXd& residual,
 
 double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, double unpredicted)
 {
-  const auto measured = data.count.array() > 0.0;
+  const auto measured = data.measured();
   const Eigen::VectorXd gain = reflectanceErrorGain(data.camera);
   const double noise = measured.select(data.variance.array(), 0.0).sum();
   const double perUnit = measured.select(gain.replicate(1, data.samples()).array(), 0.0).sum();
@@ -307,7 +301,7 @@ double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, 
 double excessScatter(const GapData& data, const Eigen::MatrixXd& residual,
   const Eigen::MatrixXd& noise, const Eigen::MatrixXd& integration)
 {
-  const auto measured = data.count.array() > 0.0;
+  const auto measured = data.measured();
   const Eigen::MatrixXd& m = data.camera.responsivity();
   const Eigen::MatrixXd through = m * m.transpose();
   const auto noisy = [&](double factor) -> Eigen::ArrayXXd

@@ -140,11 +140,8 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
 void noteSaturation(std::vector<std::string>& notes, const GapData& data)
 {
   const double top = data.observed.maxCoeff();
-  Eigen::Index equal = 0;
-  for (Eigen::Index i = 0; i < data.observed.size(); ++i)
-  {
-    equal += data.count(i) > 0.0 && data.observed(i) >= top - 1e-6 * std::fabs(top) ? 1 : 0;
-  }
+  const Eigen::Index equal =
+    (data.measured() && data.observed.array() >= top - 1e-6 * std::fabs(top)).count();
   if (static_cast<double>(equal) > ClippedReadings * static_cast<double>(data.elements))
   {
     notes.push_back(textOf(3, equal, " readings share the largest value ", top,
@@ -176,7 +173,7 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
   }
   const Eigen::MatrixXd expected = readingVariance(data, *given);
   const Eigen::MatrixXd found = readingVariance(data, noise.reading);
-  const auto measured = (data.count.array() > 0.0).cast<double>();
+  const auto measured = data.measured().cast<double>();
   const double excess =
     (measured * (found - expected).array()).sum() / static_cast<double>(data.elements);
   const double before2 = report.gap.rmsBefore * report.gap.rmsBefore;

@@ -30,7 +30,7 @@ protected:
       }
     }
     Gap = values;
-    return msi::shareOverAxes(Data, values, true);
+    return msi::shareOverAxes(Data, values);
   }
   Eigen::MatrixXd Gap;
 };

@@ -74,11 +74,11 @@ HWY_INLINE void product(
         }
       }
     }
-    for (Eigen::Index i = 0; i < 4; ++i)
+    for (const auto& ofRow : sums)
     {
       for (Eigen::Index part = 0; part < Side; ++part, out += lanes)
       {
-        hn::StoreU(end(sums[i][part], part, out), d, out);
+        hn::StoreU(end(ofRow[part], part, out), d, out);
       }
     }
   }

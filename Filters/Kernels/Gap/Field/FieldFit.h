@@ -36,10 +36,8 @@ public:
   // Holds references.
   FieldFitter(const FieldData& data, const FieldStatistics& statistics);
 
-  const FieldStatistics& statistics() const noexcept { return Statistics; }
-
   // The effects of `set` free; every other effect of the model is taken back to neutral. Bounds by fixing what is
-  // beyond. Each parameter has a prior of ten times its typical size. The estimate without a fold comes from
+  // beyond. The prior is that of fitPrecision(). The estimate without a fold comes from
   // the normal equations without it: exact where the model is linear.
   // start: numbers of effects that the model does not have yet, where they are to start from.
   FieldFit fit(const FieldSet& set, const FieldShape& start = {}) const;

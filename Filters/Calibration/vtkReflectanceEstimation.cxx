@@ -7,7 +7,10 @@
 #include "SpectralImage.h"
 #include "TransformTable.h"
 
+#include "vtkAbstractArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -18,6 +21,7 @@
 
 #include "Kernels/Spectra/PossibleValues.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -69,6 +73,25 @@ void fillUncertainty(const QualityMapsOf& maps, const Value* deviation, vtkIdTyp
       deviation + (pixel - begin) * bands, bands);
     maps.uncertainty->SetValue(pixel, static_cast<float>(std::sqrt(values.square().mean())));
   }
+}
+
+// When the table or one of its arrays changed last; 0 without a table.
+vtkMTimeType newestOf(vtkTable* table)
+{
+  vtkMTimeType newest = 0;
+  if (table)
+  {
+    newest = std::max(table->GetMTime(), table->GetRowData()->GetMTime());
+    for (vtkFieldData* arrays :
+      { static_cast<vtkFieldData*>(table->GetRowData()), table->GetFieldData() })
+    {
+      for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+      {
+        newest = std::max(newest, arrays->GetAbstractArray(i)->GetMTime());
+      }
+    }
+  }
+  return newest;
 }
 
 template <typename ArrayType>
@@ -133,6 +156,18 @@ void estimateImage(vtkAlgorithm* self, const msi::EstimationModel& model, vtkDat
 }
 }
 
+// The model of the last run. Where the tables are the same the next image, or the next piece of one, finds it as it is: the
+// estimator may have prepared itself.
+struct vtkReflectanceEstimation::KnownModel
+{
+  vtkTable* transform = nullptr; // to compare, not to use
+  vtkTable* metamerism = nullptr;
+  vtkMTimeType newest = 0; // of both and their columns
+  msi::EstimationModel model;
+};
+
+vtkReflectanceEstimation::~vtkReflectanceEstimation() = default;
+
 vtkReflectanceEstimation::vtkReflectanceEstimation()
 {
   this->SetNumberOfInputPorts(3);
@@ -183,8 +218,17 @@ int vtkReflectanceEstimation::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      const auto model =
-        msi::readEstimator(vtkTable::GetData(inputs[1]), vtkTable::GetData(inputs[2]));
+      auto* transform = vtkTable::GetData(inputs[1]);
+      auto* metamerism = vtkTable::GetData(inputs[2]);
+      const vtkMTimeType newest = std::max(newestOf(transform), newestOf(metamerism));
+      if (!this->Known || this->Known->transform != transform ||
+        this->Known->metamerism != metamerism || this->Known->newest != newest)
+      {
+        this->Known.reset();
+        this->Known = std::make_unique<KnownModel>(
+          KnownModel{ transform, metamerism, newest, msi::readEstimator(transform, metamerism) });
+      }
+      const msi::EstimationModel& model = this->Known->model;
       const bool uncertainty = model.estimator->knowsUncertainty() && this->Uncertainty != 1;
 
       if (auto* table = vtkTable::GetData(inputs[0]))

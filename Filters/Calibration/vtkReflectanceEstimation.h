@@ -17,6 +17,7 @@
 #include "MultispectralFiltersCalibrationModule.h"
 #include "vtkPassInputTypeAlgorithm.h"
 
+#include <memory>
 #include <string>
 
 class MULTISPECTRALFILTERSCALIBRATION_EXPORT vtkReflectanceEstimation
@@ -93,7 +94,7 @@ public:
 
 protected:
   vtkReflectanceEstimation();
-  ~vtkReflectanceEstimation() override = default;
+  ~vtkReflectanceEstimation() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(
@@ -113,6 +114,9 @@ private:
   bool TrustResponses = false;
   double OutOfRangeShare = -1.0;
   double MissingShare = -1.0;
+
+  struct KnownModel;
+  std::unique_ptr<KnownModel> Known;
 };
 
 #endif

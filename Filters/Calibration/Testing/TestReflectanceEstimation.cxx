@@ -7,7 +7,9 @@
 #include "Support/vtk/PieceSource.h"
 #include "Support/vtk/Runs.h"
 
+#include "vtkDataArray.h"
 #include "vtkNew.h"
+#include "vtkTable.h"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +49,28 @@ protected:
       vtkImageData::SafeDownCast(this->Estimation->GetOutputDataObject(0)), ReflectanceArray);
   }
 };
+
+// The model of the last run is kept for the next one, but not longer than its table stays as it is.
+TEST_F(ImageEstimation, FollowsATransformThatChanges)
+{
+  const auto response = this->responses(12);
+  const auto image = newImage<vtkDoubleArray>(4, 3, ResponsesArray, response, this->Channels);
+  this->Fit->Update();
+  vtkNew<vtkTable> table;
+  table->DeepCopy(this->Fit->GetOutputDataObject(0));
+  this->Estimation->SetInputData(1, table);
+  const Eigen::MatrixXd before = this->run(image);
+  this->Estimation->Modified();
+  EXPECT_EQ(this->run(image), before);
+  // Another constant in the first band.
+  auto* constants = vtkDataArray::SafeDownCast(table->GetColumn(table->GetNumberOfColumns() - 1));
+  constants->SetComponent(0, 0, constants->GetComponent(0, 0) + 0.25);
+  constants->Modified();
+  table->Modified();
+  const Eigen::MatrixXd change = this->run(image) - before;
+  EXPECT_LT((change.row(0).array() - 0.25).abs().maxCoeff(), 1e-12);
+  EXPECT_EQ(change.bottomRows(change.rows() - 1).cwiseAbs().maxCoeff(), 0.0);
+}
 
 TEST_F(ImageEstimation, ComputesEveryPixelAsNumPyWould)
 {

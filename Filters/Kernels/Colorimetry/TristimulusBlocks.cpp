@@ -4,13 +4,10 @@
 
 #include "Kernels/Colorimetry/TristimulusBlocks.h"
 
-#include "Kernels/Spectra/FusedMultiply-inl.h"
-
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace msi
@@ -43,11 +40,7 @@ void somePixels(const float* weights, const float* constant, Eigen::Index groups
         for (Eigen::Index g = begin; g < std::min(begin + GroupsAFold, groups); ++g)
         {
           const float* at = values + (g + 1 < groups ? Together * g : lastGroup);
-          for (Eigen::Index i = 0; i < Together; ++i)
-          {
-            fold[i] =
-              std::fma(weights[16 * g + Together * plane + i], at[pixel * stride + i], fold[i]);
-          }
+          fold += Sums::Map(weights + 16 * g + Together * plane) * Sums::Map(at + pixel * stride);
         }
         total += fold;
       }
@@ -84,7 +77,8 @@ HWY_INLINE void addGroup(Sums* sums, const float* weights, const float* at, Eige
   const Sums weight = hn::LoadU(d, weights);
   for (Eigen::Index pixel = 0; pixel < Pixels; ++pixel)
   {
-    sums[pixel] = fusedMultiplyAdd(d, weight, hn::LoadDup128(d, at + pixel * stride), sums[pixel]);
+    const Sums weighed = hn::Mul(weight, hn::LoadDup128(d, at + pixel * stride));
+    sums[pixel] = hn::Add(sums[pixel], weighed);
   }
 }
 

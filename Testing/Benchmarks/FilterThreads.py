@@ -4,7 +4,7 @@
 usage: FilterThreads.py [FILTER...]      with MULTISPECTRAL_PYTHON, the folder of the build's package multispectral
 
 Processes take turns, so that other work on the machine slows all alike; the fastest of their runs count. Each filter has
-768 x 768 pixels, 31 wavelengths and 16 channels. A core is slower while the other one works too, on machines where they
+2048 x 2048 pixels, 31 wavelengths and 16 channels. A core is slower while the other one works too, on machines where they
 share clock, caches or the core itself: the peer "each core one thread" does the work twice at the same time in two processes
 of one thread, which is what two threads can reach at the most (2 times as fast).
 """
@@ -17,7 +17,7 @@ import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "Plugin", "Scripts"))
-SIDE = 768
+SIDE = 2048
 ROUNDS = 3
 FILTERS = ("Synthetic Scene", "Camera Simulator, ideal", "Camera Simulator, effects and noise", "Channel Displacement",
            "Channel Registration", "Reflectance Estimation, transfer", "Reflectance Estimation, affine",

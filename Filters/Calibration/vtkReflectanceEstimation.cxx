@@ -7,7 +7,6 @@
 #include "SpectralImage.h"
 #include "TransformTable.h"
 
-#include "vtkAbstractArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -78,20 +77,9 @@ void fillUncertainty(const QualityMapsOf& maps, const Value* deviation, vtkIdTyp
 // When the table or one of its arrays changed last; 0 without a table.
 vtkMTimeType newestOf(vtkTable* table)
 {
-  vtkMTimeType newest = 0;
-  if (table)
-  {
-    newest = std::max(table->GetMTime(), table->GetRowData()->GetMTime());
-    for (vtkFieldData* arrays :
-      { static_cast<vtkFieldData*>(table->GetRowData()), table->GetFieldData() })
-    {
-      for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
-      {
-        newest = std::max(newest, arrays->GetAbstractArray(i)->GetMTime());
-      }
-    }
-  }
-  return newest;
+  return table ? std::max({ table->GetMTime(), table->GetRowData()->GetMTime(),
+                   table->GetFieldData()->GetMTime() })
+               : 0;
 }
 
 template <typename ArrayType>
@@ -224,7 +212,6 @@ int vtkReflectanceEstimation::RequestData(
       if (!this->Known || this->Known->transform != transform ||
         this->Known->metamerism != metamerism || this->Known->newest != newest)
       {
-        this->Known.reset();
         this->Known = std::make_unique<KnownModel>(
           KnownModel{ transform, metamerism, newest, msi::readEstimator(transform, metamerism) });
       }

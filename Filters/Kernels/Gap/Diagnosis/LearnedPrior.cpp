@@ -118,6 +118,11 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
 }
 }
 
+double widePrecision(double typical) noexcept
+{
+  return std::pow(Decision::FreeSpread * typical, -2);
+}
+
 Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers)
 {
   const auto count = static_cast<Eigen::Index>(numbers.size());
@@ -131,7 +136,7 @@ Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers)
     }
     else
     {
-      block.diagonal().setConstant(1.0 / squareOf(Decision::FreeSpread * group.kind.typical));
+      block.diagonal().setConstant(widePrecision(group.kind.typical));
     }
   }
   return precision;

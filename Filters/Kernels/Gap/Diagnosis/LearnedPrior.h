@@ -31,9 +31,11 @@ struct FreeNumber
   double variance = 0.0;  // of the deviation, once the data have spoken
 };
 
-// Precision of the numbers' prior in a fit: standard deviation Decision::FreeSpread for a common number, so that only what the data
-// do not determine stays neutral; for numbers of single channels that are no longer neutral the variance learned from them, so that a
-// common effect beside them takes what they have in common.
+// Of a number that a fit leaves neutral only where the data do not determine it: standard deviation Decision::FreeSpread.
+double widePrecision(double typical) noexcept;
+
+// Precision of the numbers' prior in a fit: widePrecision() for a common number; for numbers of single channels that are no longer neutral the
+// variance learned from them, so that a common effect beside them takes what they have in common.
 Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers);
 
 // The prior by which a fit is judged.

@@ -1,6 +1,5 @@
 #include "Kernels/Gap/Field/FieldFit.h"
 
-#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Numerics/LeastSquares.h"
 
@@ -29,7 +28,7 @@ double valueIn(const FieldModel& model, const FieldNumber& number)
 
 double precisionBefore(const FieldNumber& number)
 {
-  return std::pow(Decision::FreeSpread * number.typical, -2);
+  return widePrecision(number.typical);
 }
 }
 

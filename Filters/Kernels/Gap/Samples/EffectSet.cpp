@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Samples/EffectSet.h"
 
 #include "Kernels/Camera/CameraSimulator.h"
-#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ const EffectDefinition& levelEffect()
 
 double FreeParameter::precision() const noexcept
 {
-  return std::pow(Decision::FreeSpread * scale, -2);
+  return widePrecision(scale);
 }
 
 bool EffectSet::whiteAfterEffects() const noexcept

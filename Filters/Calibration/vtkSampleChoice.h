@@ -4,7 +4,7 @@
  *
  * Input 0 is the sample table of the chart, input 1 that of the candidates; of both only the camera
  * responses (C400, C420, ..) are used. The output has the chosen candidates, the most informative
- * first: all columns of the candidates between rank (1, 2, ..) and explained, the share of the expected squared
+ * first: all columns of the candidates between rank (1, 2, ..) and explained, the share of the expected
  * error over all candidates that measuring this sample and those before it takes away
  * (see Kernels/Estimation/SampleChoice.h).
  */

@@ -58,16 +58,16 @@ def main():
         cell = row[names.index(called)] if called else ""
         label = f"  {cell:.0f}" if isinstance(cell, float) else f"  {cell}".rstrip()
         command.say(f"{row[names.index('rank')]:4.0f}  {100 * row[names.index('explained')]:7.1f} %{label}")
-    command.say("(explained: share of the expected squared error over all candidates that measuring this sample and "
+    command.say("(explained: share of the expected error over all candidates that measuring this sample and "
                 "those before it takes away)")
     shown = [[row[names.index("rank")], str(row[names.index(called)]) if called else "", f"{100 * row[names.index('explained')]:.1f} %"]
              for row in rows]
     report.write(folder, "Which samples to measure", [
         report.table("In this order", ["rank", "sample", "explained together with those above"], shown, fold=False,
-                     note="Explained: share of the expected squared error over all candidates that measuring the samples takes away. "
+                     note="Explained: share of the expected error over all candidates that measuring the samples takes away. "
                           "It comes from the camera responses alone.")],
         f"Measure {'this 1 sample: it explains' if len(rows) == 1 else f'these {len(rows)} samples: together they explain'} {shown[-1][2]} "
-        "of the expected squared error over all candidates." if rows else "", pipeline.warnings)
+        "of the expected error over all candidates." if rows else "", pipeline.warnings)
     command.say(f"choice and report.html: {folder}")
 
 

@@ -140,7 +140,7 @@ def other_commands(launcher, base):
              ["The method transfer has the least", "mean \u0394E94 ", " (A, 10 degree observer) against "]),
             ("demo", ["demo", *under], ["16 measured swatches reduce", "from \u0394E94 ", "(A, 10 degree observer)."]),
             ("choose", ["choose", "--calibration", CHART, "--candidates", fabric, "--count", "1"],
-             ["Measure this 1 sample: it explains ", " % of the expected squared error"]),
+             ["Measure this 1 sample: it explains ", " % of the expected error"]),
             ("chart", chart, ["24 of 24 patches seen"]),
             ("exposed", [*chart, "--exposure", "2", "--white-exposure", "1"], ["24 of 24 patches seen"]),
             ("saturated", [*chart, "--saturation", "1e-9"], ["the image has no value above 0"])):

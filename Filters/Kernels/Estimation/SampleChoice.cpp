@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -50,6 +51,11 @@ Eigen::MatrixXd candidateCovariance(
     ofChart.llt().matrixL().solve(covariance(kernel, a, a.cols(), b, 0));
   return covariance(kernel, b, 0, b, 0) - white.transpose() * white;
 }
+
+Eigen::ArrayXd expectedErrors(const Eigen::ArrayXd& variances)
+{
+  return variances.max(0.0).sqrt();
+}
 }
 
 SampleChoice chooseSamples(const Eigen::MatrixXd& chartResponses,
@@ -77,21 +83,24 @@ SampleChoice chooseSamples(const Eigen::MatrixXd& chartResponses,
   const Eigen::VectorXd scales = inverseScales(chartResponses);
   Eigen::MatrixXd left = candidateCovariance(
     kernel, scales.asDiagonal() * chartResponses, scales.asDiagonal() * candidateResponses);
-  const double before = left.trace();
+  const double before = expectedErrors(left.diagonal().array()).sum();
 
   SampleChoice choice;
-  Eigen::VectorXd available = Eigen::VectorXd::Ones(left.cols());
+  Eigen::ArrayXd remaining = Eigen::ArrayXd::Zero(left.cols()); // were this candidate measured, too
   while (static_cast<Eigen::Index>(choice.samples.size()) < count)
   {
-    const Eigen::VectorXd reductions = left.colwise().squaredNorm().transpose().cwiseQuotient(
-      (left.diagonal().array() + noise).matrix());
+    const Eigen::ArrayXd variances = left.diagonal().array();
+    for (Eigen::Index i = 0; i < left.cols(); ++i)
+    {
+      remaining[i] =
+        expectedErrors(variances - left.col(i).array().square() / (variances[i] + noise)).sum();
+    }
+    remaining(choice.samples).setConstant(std::numeric_limits<double>::infinity());
     Eigen::Index next = 0;
-    (reductions.array() * available.array() + available.array()).maxCoeff(&next);
-    available[next] = 0.0;
+    choice.explained.push_back(1.0 - remaining.minCoeff(&next) / before);
+    choice.samples.push_back(next);
     const Eigen::VectorXd column = left.col(next) / std::sqrt(left(next, next) + noise);
     left -= column * column.transpose();
-    choice.samples.push_back(next);
-    choice.explained.push_back(1.0 - left.trace() / before);
   }
   return choice;
 }

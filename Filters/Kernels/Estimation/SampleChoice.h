@@ -11,7 +11,7 @@ namespace msi
 struct SampleChoice
 {
   std::vector<Eigen::Index> samples; // columns of the candidates, the most informative first
-  // Per rank: the share of the expected squared error over all candidates that the chart leaves, and
+  // Per rank: the share of the expected error, summed over all candidates, that the chart leaves, and
   // that measuring this sample and those before it takes away. Increasing, 0..1.
   std::vector<double> explained;
 };
@@ -19,9 +19,9 @@ struct SampleChoice
 // Greedy choice for the method "transfer": its Gaussian processes with the hyperparameters from which
 // its fit starts tell how uncertain the reflectance of every candidate is once the chart is known, and
 // how far a measurement of one candidate reduces that of all. Each sample chosen is the one that reduces
-// the sum most, given those before it; of equal candidates the first.
+// the sum of standard deviations most, given those before it; of equal candidates the first.
 //
-// Source: choice by the expected mean variance: Cohn, "Neural network exploration using optimal
+// Source: choice by the expected mean error, there squared: Cohn, "Neural network exploration using optimal
 //         experiment design", 1996, doi 10.1016/0893-6080(95)00137-9; Seo, Wallat, Graepel and
 //         Obermayer, "Gaussian process regression: active data selection", 2000, doi
 //         10.1109/IJCNN.2000.861310.

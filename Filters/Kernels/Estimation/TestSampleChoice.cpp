@@ -23,8 +23,8 @@ Eigen::MatrixXd someResponses(Eigen::Index count, unsigned seed)
 
 TEST(SampleChoice, ExplainsWhatTheWholeMatrixSays)
 {
-  // Rasmussen and Williams, Eq. 2.26, with the inverse of the whole matrix: the variance of all
-  // candidates with and without the chosen ones.
+  // Rasmussen and Williams, Eq. 2.26, with the inverse of the whole matrix: the standard
+  // deviations of all candidates with and without the chosen ones.
   const Eigen::MatrixXd chart = someResponses(15, 1);
   const Eigen::MatrixXd candidates = someResponses(12, 2);
   const auto choice = msi::chooseSamples(chart, candidates, 5);
@@ -34,7 +34,7 @@ TEST(SampleChoice, ExplainsWhatTheWholeMatrixSays)
   const Eigen::MatrixXd a = features.ofChart(scaledChart);
   const Eigen::MatrixXd b = features.ofChart(scales.cwiseInverse().asDiagonal() * candidates);
   const auto kernel = msi::startingKernel();
-  const auto varianceGiven = [&](const std::vector<Eigen::Index>& chosen)
+  const auto deviationsGiven = [&](const std::vector<Eigen::Index>& chosen)
   {
     Eigen::MatrixXd known(4, 15 + static_cast<Eigen::Index>(chosen.size()));
     known << a, b(Eigen::all, chosen);
@@ -42,9 +42,13 @@ TEST(SampleChoice, ExplainsWhatTheWholeMatrixSays)
     k.diagonal().array() += kernel[msi::TransferKernel::ChartNoise];
     EXPECT_EQ(kernel[msi::TransferKernel::ChartNoise], kernel[msi::TransferKernel::TargetNoise]);
     const Eigen::MatrixXd cross = msi::covariance(kernel, known, 15, b, 0);
-    return (msi::covariance(kernel, b, 0, b, 0) - cross.transpose() * k.inverse() * cross).trace();
+    return (msi::covariance(kernel, b, 0, b, 0) - cross.transpose() * k.inverse() * cross)
+      .diagonal()
+      .cwiseMax(0.0)
+      .cwiseSqrt()
+      .sum();
   };
-  const double before = varianceGiven({});
+  const double before = deviationsGiven({});
   std::vector<Eigen::Index> chosen;
   for (std::size_t rank = 0; rank < 5; ++rank)
   {
@@ -56,12 +60,12 @@ TEST(SampleChoice, ExplainsWhatTheWholeMatrixSays)
       {
         auto with = chosen;
         with.push_back(i);
-        least = std::min(least, varianceGiven(with));
+        least = std::min(least, deviationsGiven(with));
       }
     }
     chosen.push_back(choice.samples[rank]);
-    EXPECT_NEAR(choice.explained[rank], 1.0 - varianceGiven(chosen) / before, 1e-9);
-    EXPECT_NEAR(varianceGiven(chosen), least, 1e-9 * before);
+    EXPECT_NEAR(choice.explained[rank], 1.0 - deviationsGiven(chosen) / before, 1e-9);
+    EXPECT_NEAR(deviationsGiven(chosen), least, 1e-9 * before);
   }
 }
 

@@ -39,12 +39,10 @@ inline constexpr double StandIn = 0.5 * DecisiveOdds;
 // How sure?
 
 // Probabilities of sets are raised to 1 / this: what the data hold is less independent than the criterion takes it to be.
-inline constexpr double Temperature = 3.0;
+inline constexpr double Temperature = 2.0;
 
-// Part of the gap's energy that is left when a cause that the library does not have is as likely as none, and how fast that
-// turns: the odds grow with this power of the rest.
-inline constexpr double UnknownRest = 0.13;
-inline constexpr double UnknownSteepness = 0.8;
+// Part of the gap's size that is left when a cause that the library does not have is as likely as none; the odds are proportional to it.
+inline constexpr double UnknownRest = 1.0 / 3.0;
 
 // Of what samples left out cannot confirm; of scatter beyond the noise model where an error of each sample looks the same.
 inline constexpr double Unconfirmed = 0.4;
@@ -58,9 +56,11 @@ inline constexpr double PartlyShrink = 0.25;
 // Of what all causes together get: one that gets less is none.
 inline constexpr double LeastPart = 0.03;
 
-// Small beside the whole: numbers of single channels, of what all causes get, since every camera has small errors in its channels;
-// what is predicted or explained, beside the noise or what is left. All but this part is nearly all.
+// Small beside the whole: what is predicted or explained, beside the noise or what is left. All but this part is nearly all.
 inline constexpr double SmallPart = 0.1;
+
+// Numbers of single channels that get less are none: every camera has small errors in its channels.
+inline constexpr double LeastPartPerChannel = 2.0 * SmallPart;
 
 // Is there a gap beyond noise?
 

@@ -194,9 +194,8 @@ int standInsOf(const Observation& data, const ObservedFit& fit)
 // An effect that is not in the library is e times less likely than one that is.
 double unknownProbability(double shrink, double chanceOfCurve, int standIns)
 {
-  const double rest = std::pow(1.0 - std::clamp(shrink, 0.0, 1.0), 2);
   double odds =
-    std::pow(rest / Decision::UnknownRest, Decision::UnknownSteepness) + std::exp(-1.0) * standIns;
+    (1.0 - std::clamp(shrink, 0.0, 1.0)) / Decision::UnknownRest + std::exp(-1.0) * standIns;
   const double chance = std::fmax(chanceOfCurve, std::numeric_limits<double>::epsilon());
   if (chance < std::exp(-1.0))
   {

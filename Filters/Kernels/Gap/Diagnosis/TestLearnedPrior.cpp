@@ -72,9 +72,9 @@ TEST(LearnedPrior, NothingFreeIsNothingKnown)
 TEST(UnknownProbability, GrowsWithWhatIsLeft)
 {
   EXPECT_EQ(msi::unknownProbability(1.0), 0.0);
-  EXPECT_LT(msi::unknownProbability(0.9), 0.2);
-  EXPECT_GT(msi::unknownProbability(0.3), 0.7);
-  EXPECT_GT(msi::unknownProbability(0.0), 0.8);
+  EXPECT_LT(msi::unknownProbability(0.9), 0.25);
+  EXPECT_NEAR(msi::unknownProbability(1.0 - msi::Decision::UnknownRest), 0.5, 1e-12);
+  EXPECT_GT(msi::unknownProbability(0.0), 0.7);
   // 1 / (-e p ln p) times that of an effect: the largest odds that the chance p can give.
   const double chance = 1e-4;
   const double odds =

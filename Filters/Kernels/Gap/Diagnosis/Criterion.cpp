@@ -52,7 +52,8 @@ double Criterion::preview(const ObservedFit& from, const GapPreview& with) const
   // Numbers of single channels have a variance that suits them.
   const double known = option.perChannel ? with.gain / (with.parameters * Dispersion) : Numbers;
   return fitOf(energy) - 0.5 * with.parameters * std::log(1.0 + std::fmax(known, 0.0)) -
-    (option.perChannel ? 0.5 * with.parameters : 0.0) - option.improbability;
+    (option.perChannel ? 0.5 * with.parameters : 0.0) - option.improbability -
+    Decision::StandIn * option.standIns;
 }
 
 double Criterion::occam(const ObservedFit& fit) const
@@ -63,9 +64,10 @@ double Criterion::occam(const ObservedFit& fit) const
 double Criterion::improbability(const ObservedFit& fit) const
 {
   double sum = fit.atBound ? Decision::StandIn : 0.0;
-  for (const std::size_t option : fit.set)
+  for (const std::size_t number : fit.set)
   {
-    sum += Data.options()[option].improbability;
+    const GapOption& option = Data.options()[number];
+    sum += option.improbability + Decision::StandIn * option.standIns;
   }
   return sum;
 }

@@ -177,7 +177,7 @@ std::vector<GapCandidate> foundCandidates(
 
 namespace
 {
-// Causes of a medium beside another of it, and a parameter at its bound.
+// Causes of a medium beside another of it, a parameter at its bound, and what the options tell.
 int standInsOf(const Observation& data, const ObservedFit& fit)
 {
   std::set<std::string> media;
@@ -185,6 +185,7 @@ int standInsOf(const Observation& data, const ObservedFit& fit)
   for (const std::size_t option : fit.set)
   {
     const std::string& medium = data.options()[option].medium;
+    count += data.options()[option].standIns;
     count += !medium.empty() && !media.insert(medium).second ? 1 : 0;
   }
   return count;

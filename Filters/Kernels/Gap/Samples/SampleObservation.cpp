@@ -39,10 +39,10 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, cons
           (choice.form->has(FormTrait::BesideLine)
               ? 0.0
               : static_cast<double>(
-                  choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0))) +
-        (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter ? Decision::StandIn : 0.0) +
-        (onlyMedium ? Decision::StandIn : 0.0),
-      choice.form->has(FormTrait::BesideLine) });
+                  choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0))),
+      choice.form->has(FormTrait::BesideLine),
+      (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter ? 1 : 0) +
+        (onlyMedium ? 1 : 0) });
   }
   return options;
 }

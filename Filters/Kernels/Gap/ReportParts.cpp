@@ -201,7 +201,7 @@ bool isOfLinearFit(const std::string& effect, const std::string& form)
   return found != nullptr && found->has(FormTrait::BesideLine);
 }
 
-void creditCauses(GapReport& report, std::vector<GapCause> causes)
+void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastPerChannel)
 {
   const auto sumOf = [](const std::vector<GapCause>& some)
   {
@@ -209,11 +209,11 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes)
       [](double sum, const GapCause& cause) { return sum + cause.share; });
   };
   const double all = sumOf(causes);
-  const auto isCause = [all](const GapCause& cause)
+  const auto isCause = [all, leastPerChannel](const GapCause& cause)
   {
-    return isOfLinearFit(cause.effect, cause.form) ? cause.share > Decision::PartlyShrink
-                                                   : cause.share >
-        (cause.perChannel ? Decision::LeastPartPerChannel : Decision::LeastPart) * all;
+    return isOfLinearFit(cause.effect, cause.form)
+      ? cause.share > Decision::PartlyShrink
+      : cause.share > (cause.perChannel ? leastPerChannel : Decision::LeastPart) * all;
   };
   const auto first = std::stable_partition(causes.begin(), causes.end(), isCause);
   report.uncredited.clear();

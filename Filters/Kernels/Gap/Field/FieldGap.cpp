@@ -289,7 +289,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   double explained = 0.0;
   if (!finding.set().empty() && shrink > 0.0)
   {
-    creditCauses(report, foundCauses(*finding.observation, finding.found, shrink));
+    creditCauses(
+      report, foundCauses(*finding.observation, finding.found, shrink), Decision::LeastPart);
     report.correction = fieldCorrection(finding.set(), gap->model, pair.channels);
     report.verdict = verdictOf(shrink, noiseAlone);
     explained = noiseAlone ? 1.0 : shrink;

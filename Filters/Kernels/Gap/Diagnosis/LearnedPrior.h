@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace msi
@@ -29,6 +30,10 @@ struct FreeNumber
   double deviation = 0.0; // from neutral
   double typical = 1.0;   // size
   double variance = 0.0;  // of the deviation, once the data have spoken
+  // Ends of its range, and the middle of its prior in a fit; from neutral.
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double wanted = 0.0;
 };
 
 // Of a number that a fit leaves neutral only where the data do not determine it: standard deviation Decision::FreeSpread.

@@ -172,17 +172,23 @@ AskedSteps stepsOf(const FieldSet& set)
   return asked;
 }
 
-std::vector<FieldNumber> numbersOf(const FieldSet& set, Eigen::Index channels)
+std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
 {
   std::vector<FieldNumber> numbers;
   for (const FieldChoice* choice : set)
   {
+    const bool hasCommonForm = !isPerChannel(choice->effect->imageForms.front().terms);
     for (const ImageTerm& term : choice->terms)
     {
-      for (Eigen::Index k = 0; k < (term.perChannel ? channels : 1); ++k)
+      const ImageNumber& kind = numberOf(term.parameter);
+      for (Eigen::Index k = 0; k < (term.perChannel ? model.channels() : 1); ++k)
       {
-        numbers.push_back({ choice, &term, term.parameter, term.perChannel ? k : -1, term.lower,
-          term.upper, term.typical });
+        const double deviation = model.at(term.parameter, k) - kind.neutral;
+        numbers.push_back(
+          { { term.parameter, term.perChannel, hasCommonForm, deviation, term.typical, 0.0,
+              term.lower - kind.neutral, term.upper - kind.neutral,
+              kind.pull == ImagePull::Neutral ? 0.0 : deviation },
+            &term, term.perChannel ? k : -1 });
       }
     }
   }
@@ -195,23 +201,9 @@ bool isPerChannel(const std::vector<ImageTerm>& terms)
     terms.begin(), terms.end(), [](const ImageTerm& term) { return term.perChannel; });
 }
 
-std::vector<FreeNumber> freeNumbers(const FieldSet& set, const FieldModel& model)
-{
-  std::vector<FreeNumber> numbers;
-  for (const FieldNumber& number : numbersOf(set, model.channels()))
-  {
-    const ImageTerm& term = *number.term;
-    const double value = model.at(term.parameter, std::max<Eigen::Index>(number.channel, 0));
-    numbers.push_back({ term.parameter, term.perChannel,
-      !isPerChannel(number.choice->effect->imageForms.front().terms),
-      value - numberOf(term.parameter).neutral, term.typical });
-  }
-  return numbers;
-}
-
 Eigen::Index parameterCount(const FieldChoice& choice, Eigen::Index channels)
 {
-  return static_cast<Eigen::Index>(numbersOf({ &choice }, channels).size()) +
+  return static_cast<Eigen::Index>(numbersOf({ &choice }, FieldModel(channels)).size()) +
     (isBanding(choice) ? 1 : 0) + // the period
     (isProfile(choice) ? ProfileParameters * channels : 0);
 }
@@ -220,7 +212,6 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
   const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next)
 {
   std::vector<GapParameter> parameters;
-  const auto K = static_cast<Eigen::Index>(channels.size());
   if (isBanding(choice))
   {
     return bandingParameters(choice, model, channels, error, next);
@@ -236,7 +227,7 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
     next += passes;
     return parameters;
   }
-  for (const FieldNumber& number : numbersOf({ &choice }, K))
+  for (const FieldNumber& number : numbersOf({ &choice }, model))
   {
     const ImageTerm& term = *number.term;
     const Eigen::Index k = std::max<Eigen::Index>(number.channel, 0);
@@ -267,8 +258,7 @@ std::vector<CameraEffect> fieldCorrection(
   {
     CameraEffect effect = neutralEffect(choice->effect->name, channels, choice->form);
     const std::vector<EffectParameter> names = effectParameters(effect, channels);
-    const std::size_t numbers =
-      numbersOf({ choice }, static_cast<Eigen::Index>(channels.size())).size();
+    const std::size_t numbers = numbersOf({ choice }, model).size();
     const Eigen::VectorXd exact = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers));
     Eigen::Index next = 0;
     for (const GapParameter& found : fieldParameters(*choice, model, channels, exact, next))

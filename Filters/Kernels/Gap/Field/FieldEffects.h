@@ -47,18 +47,13 @@ bool hasChoice(const FieldSet& set, Condition condition)
 }
 
 // One of the numbers that a set has to fit: terms in order, channels within a term that has a number for each.
-struct FieldNumber
+struct FieldNumber : FreeNumber
 {
-  const FieldChoice* choice;
   const ImageTerm* term;
-  ImageParameter parameter;
   Eigen::Index channel; // -1: common to all
-  double lower, upper, typical;
 };
-std::vector<FieldNumber> numbersOf(const FieldSet& set, Eigen::Index channels);
-
-// The same numbers, where a model has them, for their prior.
-std::vector<FreeNumber> freeNumbers(const FieldSet& set, const FieldModel& model);
+// Where a model has them; those of shapes, which no prior pulls, want to stay there.
+std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model);
 bool isPerChannel(const std::vector<ImageTerm>& terms);
 
 // Neither the same effect nor parameters in common.

@@ -1,9 +1,6 @@
 #include "Kernels/Gap/Field/FieldFit.h"
 
-#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Numerics/LeastSquares.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -14,46 +11,29 @@ namespace msi
 
 namespace
 {
-constexpr int Rounds = 3;
 constexpr int Iterations = 6;
 constexpr double Rising = 1.001;   // of the energy, by the prior alone
 constexpr double SmallStep = 0.02; // typical sizes
-constexpr double Held = 1e4;       // times the information, of a parameter that is held
-
-// Of one common to the channels that of the first.
-double valueIn(const FieldModel& model, const FieldNumber& number)
-{
-  return model.at(number.parameter, std::max<Eigen::Index>(number.channel, 0));
 }
 
-double precisionBefore(const FieldNumber& number)
-{
-  return widePrecision(number.typical);
-}
-}
-
-// A number with the value that is wanted, by its prior or because it is held there.
-struct FieldFitter::Bound
-{
-  FieldNumber number;
-  double wanted;
-  bool held;
-};
-
-// Of a channel: the numbers that act in it, and what each changes in its columns.
 struct FieldFitter::Design
 {
   std::vector<Eigen::Index> numbers;
   Eigen::MatrixXd columns;
 
-  Eigen::MatrixXd information(const Eigen::MatrixXd& normal) const
+  // normal: products of the columns; change: of these, known beforehand.
+  void add(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change, NormalEquations& sum) const
   {
-    return columns.transpose() *
-      normal.topLeftCorner(FieldColumn::residual(), FieldColumn::residual()) * columns;
+    const Eigen::Index last = FieldColumn::residual();
+    const auto products = normal.topLeftCorner(last, last);
+    sum.matrix(numbers, numbers) += columns.transpose() * products * columns;
+    sum.gradient(numbers) += gradient(normal, change);
   }
-  Eigen::VectorXd gradient(const Eigen::MatrixXd& normal) const
+  Eigen::VectorXd gradient(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change) const
   {
-    return columns.transpose() * normal.col(FieldColumn::residual()).head(FieldColumn::residual());
+    const Eigen::Index last = FieldColumn::residual();
+    return columns.transpose() *
+      (normal.col(last).head(last) - normal.topLeftCorner(last, last) * change);
   }
 };
 
@@ -63,7 +43,6 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
 {
   const auto K = static_cast<std::size_t>(data.channels());
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count());
-  Total.assign(K, zero);
   Fold.assign(FieldFolds, std::vector<Eigen::MatrixXd>(K, zero));
   for (std::size_t b = 0; b < data.blocks.size(); ++b)
   {
@@ -72,7 +51,6 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
     {
       const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
       const Eigen::MatrixXd normal = sums.normal();
-      Total[k] += normal;
       Fold[static_cast<std::size_t>(fold)][k] += normal;
       Energy += normal(FieldColumn::residual(), FieldColumn::residual());
       Chance += sums.chance;
@@ -83,7 +61,7 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
 std::vector<FieldFitter::Design> FieldFitter::designs(
   const std::vector<FieldNumber>& numbers, const FieldModel& about) const
 {
-  std::vector<Design> designs(Total.size());
+  std::vector<Design> designs(static_cast<std::size_t>(Data.channels()));
   for (std::size_t k = 0; k < designs.size(); ++k)
   {
     const auto channel = static_cast<Eigen::Index>(k);
@@ -93,7 +71,8 @@ std::vector<FieldFitter::Design> FieldFitter::designs(
       if (numbers[n].channel < 0 || numbers[n].channel == channel)
       {
         designs[k].numbers.push_back(static_cast<Eigen::Index>(n));
-        columns.push_back(columnsChanged(numbers[n].parameter, Statistics.model, about, channel));
+        columns.push_back(
+          columnsChanged(numbers[n].term->parameter, Statistics.model, about, channel));
       }
     }
     designs[k].columns.resize(FieldColumn::residual(), static_cast<Eigen::Index>(columns.size()));
@@ -116,149 +95,74 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
       about[parameter].setConstant(value);
     }
   }
-  std::vector<FieldNumber> numbers = numbersOf(set, Data.channels());
-  std::vector<Bound> bounds;
-  const auto hold = [&](ImageParameter parameter, double typical, double wanted)
+  std::vector<FieldNumber> numbers = numbersOf(set, about);
+  FieldFit fit{ model, 0.0, 0.0, {}, {}, {} };
+  std::vector<char> isFree(fieldParameterCount(), 0);
+  for (FieldNumber& number : numbers)
   {
-    for (Eigen::Index k = 0; k < Data.channels(); ++k)
+    const ImageParameter parameter = number.term->parameter;
+    isFree[parameter] = 1;
+    if (number.channel < 0 && (model[parameter] != model.at(parameter, 0)).any())
     {
-      bounds.push_back({ { nullptr, nullptr, parameter, k, 0.0, 0.0, typical }, wanted, true });
+      fit.next[parameter].setConstant(
+        model[parameter].mean()); // alike in all channels from here on
     }
-  };
-  std::vector<char> known(fieldParameterCount(), 0);
-  for (const FieldNumber& number : numbers)
-  {
-    const ImageNumber& kind = numberOf(number.parameter);
-    const bool stays = isShape(number.parameter) || kind.pull == ImagePull::Itself;
-    bounds.push_back({ number, stays ? about.at(number.parameter, 0) : kind.neutral, false });
-    known[number.parameter] = 1;
-    const Eigen::ArrayXd value = model[number.parameter];
-    if (number.channel < 0 && (value != value[0]).any())
-    {
-      // Alike in all channels from here on; the common number moves them together.
-      hold(number.parameter, number.typical, value.mean());
-    }
+    number.deviation = fit.next.at(parameter, std::max<Eigen::Index>(number.channel, 0)) -
+      numberOf(parameter).neutral;
   }
   for (ImageParameter parameter = 0; parameter < fieldParameterCount(); ++parameter)
   {
-    if (known[parameter] == 0 && !isShape(parameter) && !model.isNeutral(parameter))
+    if (isFree[parameter] == 0 && !isShape(parameter))
     {
-      hold(parameter, 1.0, numberOf(parameter).neutral);
+      fit.next[parameter].setConstant(numberOf(parameter).neutral);
     }
   }
-  numbers.clear();
-  for (const Bound& bound : bounds)
-  {
-    numbers.push_back(bound.number);
-  }
   const std::vector<Design> design = designs(numbers, about);
-  const Eigen::MatrixXd prior = priorOf(set, bounds);
-  Eigen::VectorXd step;
-  bool beyond = true;
-  for (int round = 0; round < Rounds && beyond; ++round)
+  // What the columns change by numbers that are not free.
+  std::vector<Eigen::VectorXd> known;
+  for (Eigen::Index k = 0; k < Data.channels(); ++k)
   {
-    step = solve(Total, design, bounds, prior);
-    beyond = false;
-    for (std::size_t n = 0; n < bounds.size(); ++n)
+    known.emplace_back(Eigen::VectorXd::Zero(FieldColumn::residual()));
+    for (ImageParameter parameter = 0; parameter < fieldParameterCount(); ++parameter)
     {
-      Bound& bound = bounds[n];
-      const double value = valueIn(model, bound.number) + step[static_cast<Eigen::Index>(n)];
-      if (!bound.held && (value < bound.number.lower || value > bound.number.upper))
+      const double change = fit.next.at(parameter, k) - model.at(parameter, k);
+      if (change != 0.0)
       {
-        bound.held = true;
-        bound.wanted = std::clamp(value, bound.number.lower, bound.number.upper);
-        beyond = true;
+        known.back() += change * columnsChanged(parameter, model, about, k);
+        fit.step = std::fmax(fit.step, std::fabs(change));
       }
     }
   }
-  FieldFit fit{ model, 0.0, 0.0, {} };
-  for (std::size_t n = 0; n < bounds.size(); ++n)
+  std::vector<NormalEquations> folds;
+  for (const std::vector<Eigen::MatrixXd>& normal : Fold)
   {
-    const Bound& bound = bounds[n];
-    const Eigen::Index channel = bound.number.channel;
-    const double change =
-      bound.held ? bound.wanted - valueIn(model, bound.number) : step[static_cast<Eigen::Index>(n)];
-    fit.step = std::fmax(fit.step, std::fabs(change) / bound.number.typical);
-    fit.next[bound.number.parameter].segment(
-      std::max<Eigen::Index>(channel, 0), channel < 0 ? Data.channels() : 1) += change;
-  }
-  for (const std::vector<Eigen::MatrixXd>& own : Fold)
-  {
-    std::vector<Eigen::MatrixXd> others = Total;
-    for (std::size_t k = 0; k < others.size(); ++k)
+    folds.emplace_back(static_cast<Eigen::Index>(numbers.size()));
+    for (std::size_t k = 0; k < design.size(); ++k)
     {
-      others[k] -= own[k];
+      design[k].add(normal[k], known[k], folds.back());
     }
-    const Eigen::VectorXd without = solve(others, design, bounds, prior);
+  }
+  fit.linear = LinearFit({ numbers.begin(), numbers.end() }, folds, set.size() > 1);
+  fit.increase = fit.linear.step();
+  for (std::size_t n = 0; n < numbers.size(); ++n)
+  {
+    const FieldNumber& number = numbers[n];
+    const double change = fit.increase[static_cast<Eigen::Index>(n)];
+    fit.step = std::fmax(fit.step, std::fabs(change) / number.typical);
+    fit.next[number.term->parameter].segment(std::max<Eigen::Index>(number.channel, 0),
+      number.channel < 0 ? Data.channels() : 1) += change;
+  }
+  for (std::size_t f = 0; f < Fold.size(); ++f)
+  {
+    const Eigen::VectorXd without = fit.linear.stepWithout(folds[f]);
     fit.change.emplace_back();
-    for (std::size_t k = 0; k < others.size(); ++k)
+    for (std::size_t k = 0; k < design.size(); ++k)
     {
-      fit.change.back().emplace_back(design[k].columns * without(design[k].numbers));
-      fit.energy += energyLeft(own[k], fit.change.back().back());
+      fit.change.back().emplace_back(known[k] + design[k].columns * without(design[k].numbers));
+      fit.energy += energyLeft(Fold[f][k], fit.change.back().back());
     }
   }
   return fit;
-}
-
-Eigen::MatrixXd FieldFitter::priorOf(const FieldSet& set, const std::vector<Bound>& bounds) const
-{
-  const auto count = static_cast<Eigen::Index>(bounds.size());
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(count, count);
-  for (Eigen::Index n = 0; n < count; ++n)
-  {
-    prior(n, n) = precisionBefore(bounds[static_cast<std::size_t>(n)].number);
-  }
-  // Beside others numbers of single channels keep to what they do not have in common.
-  std::vector<FreeNumber> numbers = freeNumbers(set, Statistics.model);
-  const auto own = static_cast<Eigen::Index>(numbers.size());
-  if (set.size() > 1 &&
-    std::any_of(
-      numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.perChannel; }))
-  {
-    const Eigen::MatrixXd posterior = information(set) + prior.topLeftCorner(own, own);
-    const Eigen::VectorXd variance =
-      posterior.ldlt().solve(Eigen::MatrixXd::Identity(own, own)).diagonal();
-    for (Eigen::Index n = 0; n < own; ++n)
-    {
-      numbers[static_cast<std::size_t>(n)].variance = variance[n];
-    }
-    prior.topLeftCorner(own, own) = fitPrecision(numbers);
-  }
-  return prior;
-}
-
-Eigen::VectorXd FieldFitter::solve(const std::vector<Eigen::MatrixXd>& normal,
-  const std::vector<Design>& design, const std::vector<Bound>& bounds,
-  const Eigen::MatrixXd& prior) const
-{
-  const auto count = static_cast<Eigen::Index>(bounds.size());
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count);
-  if (count == 0)
-  {
-    return gradient;
-  }
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
-  for (std::size_t k = 0; k < normal.size(); ++k)
-  {
-    information(design[k].numbers, design[k].numbers) += design[k].information(normal[k]);
-    gradient(design[k].numbers) += design[k].gradient(normal[k]);
-  }
-  Eigen::VectorXd off(count);
-  Eigen::MatrixXd precision = prior;
-  for (Eigen::Index n = 0; n < count; ++n)
-  {
-    const Bound& bound = bounds[static_cast<std::size_t>(n)];
-    off[n] = bound.wanted - valueIn(Statistics.model, bound.number);
-    if (bound.held)
-    {
-      precision.row(n).setZero();
-      precision.col(n).setZero();
-      precision(n, n) = Held * (information(n, n) + 1.0);
-    }
-  }
-  gradient += precision * off;
-  information += precision;
-  return information.ldlt().solve(gradient);
 }
 
 Eigen::VectorXd blockEnergies(
@@ -356,53 +260,30 @@ FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, con
   return best;
 }
 
-Eigen::MatrixXd FieldFitter::information(const FieldSet& set) const
+Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set, const FieldFit& fit) const
 {
-  const std::vector<FieldNumber> numbers = numbersOf(set, Data.channels());
+  const std::vector<FieldNumber> numbers = numbersOf(set, Statistics.model);
+  const std::vector<Design> design = designs(numbers, Statistics.model);
   const auto count = static_cast<Eigen::Index>(numbers.size());
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
-  const std::vector<Design> design = designs(numbers, Statistics.model);
-  for (std::size_t k = 0; k < design.size(); ++k)
-  {
-    information(design[k].numbers, design[k].numbers) += design[k].information(Total[k]);
-  }
-  return information;
-}
-
-Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set) const
-{
-  const std::vector<FieldNumber> numbers = numbersOf(set, Data.channels());
-  const std::vector<Design> design = designs(numbers, Statistics.model);
-  Eigen::MatrixXd normal = information(set);
-  const Eigen::Index p = normal.rows();
-  for (Eigen::Index n = 0; n < p; ++n)
-  {
-    normal(n, n) += precisionBefore(numbers[static_cast<std::size_t>(n)]);
-  }
-  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(p, p);
   std::map<int, Eigen::VectorXd> ofGroup;
   for (std::size_t b = 0; b < Data.blocks.size(); ++b)
   {
-    if (Data.blocks[b].fold < 0)
+    const FieldBlock& block = Data.blocks[b];
+    for (std::size_t k = 0; block.fold >= 0 && k < design.size(); ++k)
     {
-      continue;
-    }
-    Eigen::VectorXd& g =
-      ofGroup.try_emplace(Data.blocks[b].group, Eigen::VectorXd::Zero(p)).first->second;
-    for (std::size_t k = 0; k < design.size(); ++k)
-    {
-      g(design[k].numbers) +=
-        design[k].gradient(Statistics.at(b, static_cast<Eigen::Index>(k)).normal());
+      ofGroup.try_emplace(block.group, Eigen::VectorXd::Zero(count))
+        .first->second(design[k].numbers) +=
+        design[k].gradient(Statistics.at(b, static_cast<Eigen::Index>(k)).normal(),
+          fit.change[static_cast<std::size_t>(block.fold)][k]);
     }
   }
-  for (const auto& [number, g] : ofGroup)
+  Eigen::MatrixXd scores(count, 0);
+  for (const auto& [number, score] : ofGroup)
   {
-    scatter += g * g.transpose();
+    scores.conservativeResize(Eigen::NoChange, scores.cols() + 1);
+    scores.rightCols(1) = score;
   }
-  const Eigen::LDLT<Eigen::MatrixXd> factor(normal);
-  const Eigen::MatrixXd half = factor.solve(scatter);
-  const Eigen::MatrixXd covariance = factor.solve(half.transpose());
-  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return fit.linear.covariance(scores).diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
 } // namespace msi

@@ -1,6 +1,7 @@
 // Effects fitted to the normal equations of an image pair's blocks.
 #pragma once
 
+#include "Kernels/Gap/Diagnosis/LinearFit.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
@@ -23,6 +24,8 @@ struct FieldFit
   double energy = 0.0; // cross-validated, weighted
   // What the steps without a fold change in the columns; fold, K.
   std::vector<std::vector<Eigen::VectorXd>> change;
+  LinearFit linear;         // of the set's numbers
+  Eigen::VectorXd increase; // of these in the step
 };
 
 // Cross-validated energy of each block; 0 for test blocks.
@@ -36,9 +39,7 @@ public:
   // Holds references.
   FieldFitter(const FieldData& data, const FieldStatistics& statistics);
 
-  // The effects of `set` free; every other effect of the model is taken back to neutral. Bounds by fixing what is
-  // beyond. The prior is that of fitPrecision(). The estimate without a fold comes from
-  // the normal equations without it: exact where the model is linear.
+  // The effects of `set` free; every other effect of the model is taken back to neutral.
   // start: numbers of effects that the model does not have yet, where they are to start from.
   FieldFit fit(const FieldSet& set, const FieldShape& start = {}) const;
   // Effects that the model does not have yet start from the best of their starts (ImageTerm::starts).
@@ -50,26 +51,17 @@ public:
   // Sums of BlockSums::normal() over the training blocks: of each fold those of the channels.
   const std::vector<std::vector<Eigen::MatrixXd>>& folds() const noexcept { return Fold; }
 
-  // Standard deviation of each number of the set. Sandwich over groups of blocks.
-  Eigen::VectorXd standardErrors(const FieldSet& set) const;
-
-  // Normal matrix of the numbers in the same order, without their priors.
-  Eigen::MatrixXd information(const FieldSet& set) const;
+  // Standard deviation of each number of the set.
+  Eigen::VectorXd standardErrors(const FieldSet& set, const FieldFit& fit) const;
 
 private:
-  struct Bound;
+  // Of a channel: the numbers that act in it, and what each changes in its columns.
   struct Design;
   std::vector<Design> designs(
     const std::vector<FieldNumber>& numbers, const FieldModel& about) const;
-  Eigen::VectorXd solve(const std::vector<Eigen::MatrixXd>& normal,
-    const std::vector<Design>& design, const std::vector<Bound>& bounds,
-    const Eigen::MatrixXd& prior) const;
-  // Precision of the numbers of the set, which come first, and of those that are held.
-  Eigen::MatrixXd priorOf(const FieldSet& set, const std::vector<Bound>& bounds) const;
 
   const FieldData& Data;
   const FieldStatistics& Statistics;
-  std::vector<Eigen::MatrixXd> Total;             // K
   std::vector<std::vector<Eigen::MatrixXd>> Fold; // fold, K
   double Energy = 0.0;
   double Chance = 0.0;

@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Field/FieldObservation.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 
@@ -237,28 +236,12 @@ FitPointer FieldObservation::reduced(const ObservedFit& from, std::size_t positi
 FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
 {
   auto described = std::make_shared<FieldObservedFit>();
-  const FieldModel& model = hypothesis.fit.next;
   for (const FieldChoice* choice : hypothesis.set)
   {
     described->set.push_back(static_cast<std::size_t>(choice - Choices.data()));
   }
   described->energy = hypothesis.fit.energy;
-  for (const FieldNumber& number : numbersOf(hypothesis.set, Data.channels()))
-  {
-    const ImageTerm& term = *number.term;
-    const double value = model.at(term.parameter, std::max<Eigen::Index>(number.channel, 0));
-    if (numberOf(term.parameter).pull == ImagePull::Itself)
-    {
-      described->surprise += 0.5 * std::pow(value / term.typical, 2); // axes are near the middle
-    }
-    described->atBound = described->atBound ||
-      ((value <= term.lower || value >= term.upper) && !isShape(term.parameter));
-  }
-  const LearnedPrior prior(freeNumbers(hypothesis.set, model));
-  described->information =
-    prior.informationOf(FieldFitter(Data, *hypothesis.statistics).information(hypothesis.set));
-  described->surprise += prior.surprise;
-  described->chanceOfCurve = prior.chanceOfCurve;
+  hypothesis.fit.linear.describe(*described, hypothesis.fit.increase);
   described->hypothesis = std::move(hypothesis);
   return described;
 }
@@ -276,7 +259,7 @@ std::vector<std::vector<GapParameter>> FieldObservation::parameters(const Observ
 {
   const FieldHypothesis& hypothesis = hypothesisOf(fit);
   const Eigen::VectorXd error =
-    FieldFitter(Data, *hypothesis.statistics).standardErrors(hypothesis.set);
+    FieldFitter(Data, *hypothesis.statistics).standardErrors(hypothesis.set, hypothesis.fit);
   const FieldModel& model = hypothesis.statistics->model;
   Eigen::Index next = 0;
   std::vector<std::vector<GapParameter>> parameters;

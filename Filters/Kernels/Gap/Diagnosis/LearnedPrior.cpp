@@ -103,14 +103,14 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
       variance += at(first + p).variance / static_cast<double>(group.size);
     }
     const double widest = squareOf(Decision::FreeSpread * group.kind.typical);
+    const bool ownMean = group.kind.perChannel && group.kind.ownMean;
     const bool isNeutral = (group.deviation == 0.0).all();
-    group.deviation -= group.kind.ownMean ? group.deviation.mean() : 0.0;
+    group.deviation -= ownMean ? group.deviation.mean() : 0.0;
     group.learned = isNeutral ? widest
                               : std::fmin(group.deviation.square().mean() + variance +
                                     squareOf(LeastDeviation * group.kind.typical),
                                   widest);
-    group.covariance =
-      Eigen::MatrixXd::Constant(group.size, group.size, group.kind.ownMean ? widest : 0.0);
+    group.covariance = Eigen::MatrixXd::Constant(group.size, group.size, ownMean ? widest : 0.0);
     group.covariance.diagonal().array() += group.learned;
     groups.push_back(std::move(group));
   }

@@ -11,8 +11,9 @@ namespace msi
 
 namespace
 {
-constexpr int Rounds = 3;    // of holding numbers at their bounds
-constexpr int Learnings = 3; // of expectation and maximization
+constexpr int Rounds = 3;         // of holding numbers at their bounds
+constexpr int Learnings = 3;      // of expectation and maximization
+constexpr double Rounding = 1e-9; // typical sizes
 
 Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& symmetric)
 {
@@ -21,13 +22,14 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& symmetric)
 }
 
 LinearFit::LinearFit(
-  std::vector<FreeNumber> numbers, const std::vector<NormalEquations>& folds, bool besideOthers)
+  std::vector<FreeNumber> numbers, std::vector<NormalEquations> folds, bool besideOthers)
   : Numbers(std::move(numbers))
+  , Folds(std::move(folds))
   , All(static_cast<Eigen::Index>(Numbers.size()))
   , Precision(All.matrix)
   , Off(All.gradient)
 {
-  for (const NormalEquations& fold : folds)
+  for (const NormalEquations& fold : Folds)
   {
     All.matrix += fold.matrix;
     All.gradient += fold.gradient;
@@ -57,11 +59,11 @@ LinearFit::LinearFit(
   }
 }
 
-Eigen::VectorXd LinearFit::stepWithout(const NormalEquations& fold) const
+Eigen::VectorXd LinearFit::stepWithout(std::size_t fold) const
 {
   NormalEquations others = All;
-  others.matrix -= fold.matrix;
-  others.gradient -= fold.gradient;
+  others.matrix -= Folds[fold].matrix;
+  others.gradient -= Folds[fold].gradient;
   return step(std::move(others), 0.0);
 }
 
@@ -97,6 +99,11 @@ Eigen::VectorXd LinearFit::step(NormalEquations equations, double damping) const
   return step;
 }
 
+void LinearFit::settle()
+{
+  All.gradient = -Precision * Off;
+}
+
 double LinearFit::penalty(const Eigen::VectorXd& step) const
 {
   const Eigen::VectorXd off = step - Off;
@@ -115,9 +122,10 @@ void LinearFit::describe(ObservedFit& fit, const Eigen::VectorXd& step) const
   std::vector<FreeNumber> moved = Numbers;
   for (std::size_t n = 0; n < moved.size(); ++n)
   {
-    moved[n].deviation += step[static_cast<Eigen::Index>(n)];
-    fit.atBound =
-      fit.atBound || moved[n].deviation <= moved[n].lower || moved[n].deviation >= moved[n].upper;
+    FreeNumber& number = moved[n];
+    number.deviation += step[static_cast<Eigen::Index>(n)];
+    const double room = std::min(number.upper - number.deviation, number.deviation - number.lower);
+    fit.atBound = fit.atBound || room < Rounding * number.typical;
   }
   const LearnedPrior prior(moved);
   fit.information = prior.informationOf(All.matrix);

@@ -37,20 +37,23 @@ class LinearFit
 public:
   LinearFit() = default;
   // folds: equations of each, about the numbers' deviations. besideOthers: whether the set has several effects.
-  LinearFit(
-    std::vector<FreeNumber> numbers, const std::vector<NormalEquations>& folds, bool besideOthers);
+  LinearFit(std::vector<FreeNumber> numbers, std::vector<NormalEquations> folds, bool besideOthers);
 
   // damping: part by which the diagonal is larger (Levenberg and Marquardt).
   Eigen::VectorXd step(double damping = 0.0) const { return step(All, damping); }
-  Eigen::VectorXd stepWithout(const NormalEquations& fold) const;
+  Eigen::VectorXd stepWithout(std::size_t fold) const;
+  std::size_t folds() const noexcept { return Folds.size(); }
+  // The fit goes no further: from here on step() is none, and stepWithout() what leaving out the fold alone does.
+  void settle();
   // Twice the prior's minus logarithm after a step.
   double penalty(const Eigen::VectorXd& step) const;
 
   // Of the numbers, by a sandwich over groups. scores: a column a group, J'r of its residuals held out.
   Eigen::MatrixXd covariance(const Eigen::MatrixXd& scores) const;
 
-  // Everything but set, energy and coherence, after a step.
+  // Everything but set, energy and coherence: of the numbers here, or after a step.
   void describe(ObservedFit& fit, const Eigen::VectorXd& step) const;
+  void describe(ObservedFit& fit) const { describe(fit, Eigen::VectorXd::Zero(Off.size())); }
 
   const Eigen::MatrixXd& information() const noexcept { return All.matrix; } // without prior
   const Eigen::MatrixXd& precision() const noexcept { return Precision; }    // of the prior
@@ -59,6 +62,7 @@ private:
   Eigen::VectorXd step(NormalEquations equations, double damping) const;
 
   std::vector<FreeNumber> Numbers;
+  std::vector<NormalEquations> Folds;
   NormalEquations All;
   Eigen::MatrixXd Precision;
   Eigen::VectorXd Off; // from the number to what its prior wants

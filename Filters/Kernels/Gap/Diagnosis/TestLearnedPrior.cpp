@@ -17,6 +17,8 @@ TEST(LearnedPrior, ACommonNumberIsCauchyByItsTypicalSize)
   EXPECT_NEAR(prior.covariance(0, 0), 0.01, 1e-15);
   EXPECT_NEAR(prior.surprise, std::log(10.0), 1e-12);
   EXPECT_NEAR(prior.informationOf(Eigen::MatrixXd::Constant(1, 1, 500.0))[0], 5.0, 1e-12);
+  // A mean of their own have numbers of channels only.
+  EXPECT_NEAR(msi::LearnedPrior({ { 0, false, true, 0.3, 0.1 } }).surprise, std::log(10.0), 1e-12);
 }
 
 // Numbers +-d scatter by d: each is one deviation from its mean, whatever d is.

@@ -142,7 +142,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
       design[k].add(normal[k], known[k], folds.back());
     }
   }
-  fit.linear = LinearFit({ numbers.begin(), numbers.end() }, folds, set.size() > 1);
+  fit.linear = LinearFit({ numbers.begin(), numbers.end() }, std::move(folds), set.size() > 1);
   fit.increase = fit.linear.step();
   for (std::size_t n = 0; n < numbers.size(); ++n)
   {
@@ -154,7 +154,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
   }
   for (std::size_t f = 0; f < Fold.size(); ++f)
   {
-    const Eigen::VectorXd without = fit.linear.stepWithout(folds[f]);
+    const Eigen::VectorXd without = fit.linear.stepWithout(f);
     fit.change.emplace_back();
     for (std::size_t k = 0; k < design.size(); ++k)
     {

@@ -1,7 +1,6 @@
 #include "Kernels/Gap/Samples/EffectSet.h"
 
 #include "Kernels/Camera/CameraSimulator.h"
-#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,11 +56,6 @@ const EffectDefinition& levelEffect()
 {
   return effectWith(EffectTrait::CommonGain);
 }
-}
-
-double FreeParameter::precision() const noexcept
-{
-  return widePrecision(scale);
 }
 
 bool EffectSet::whiteAfterEffects() const noexcept
@@ -159,8 +153,20 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
 {
   std::vector<FreeParameter> free;
   std::size_t group = 0;
+  const auto add = [&](const EffectParameter& parameter, std::size_t e, std::size_t index,
+                     Eigen::Index channel, bool hasCommonForm, const std::string& name)
+  {
+    const double neutral = parameter.neutral;
+    free.push_back({ { group, parameter.perChannel, hasCommonForm, 0.0, parameter.typical, 0.0,
+                       parameter.lower - neutral, parameter.upper - neutral },
+      e, index, channel, neutral, name, parameter.unit });
+    free.back().deviation = value(free.back()) - neutral;
+  };
   for (std::size_t e = 0; e < effects.size(); ++e)
   {
+    const std::vector<EffectParameter>& plain = choices[e].effect->forms.front().parameters;
+    const bool hasCommonForm = std::none_of(
+      plain.begin(), plain.end(), [](const EffectParameter& one) { return one.perChannel; });
     std::size_t index = 0;
     for (const EffectParameter& parameter : choices[e].form->parameters)
     {
@@ -169,15 +175,14 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
         !parameter.searched && !parameter.given && (!parameter.secondary || secondaryFree[e] != 0);
       for (Eigen::Index k = 0; k < count; ++k, ++index)
       {
-        if (isFree)
+        if (isFree && parameter.perChannel)
         {
-          std::string name = parameter.name;
-          if (parameter.perChannel)
-          {
-            name += "[" + camera.channels()[static_cast<std::size_t>(k)] + "]";
-          }
-          free.push_back({ e, index, parameter.perChannel ? k : -1, group, parameter.neutral,
-            parameter.lower, parameter.upper, parameter.typical, name, parameter.unit });
+          add(parameter, e, index, k, hasCommonForm,
+            parameter.name + "[" + camera.channels()[static_cast<std::size_t>(k)] + "]");
+        }
+        else if (isFree)
+        {
+          add(parameter, e, index, -1, hasCommonForm, parameter.name);
         }
       }
       ++group;
@@ -185,9 +190,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
   }
   if (leveled())
   {
-    const EffectParameter& gain = levelEffect().forms.front().parameters.front();
-    free.push_back({ effects.size(), 0, -1, group, gain.neutral, gain.lower, gain.upper,
-      gain.typical, "level", gain.unit });
+    add(levelEffect().forms.front().parameters.front(), effects.size(), 0, -1, true, "level");
   }
   return free;
 }
@@ -204,23 +207,14 @@ double EffectSet::value(const FreeParameter& parameter) const
                                            : level;
 }
 
-Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>& free)
-{
-  Eigen::VectorXd values(static_cast<Eigen::Index>(free.size()));
-  for (std::size_t p = 0; p < free.size(); ++p)
-  {
-    values[static_cast<Eigen::Index>(p)] = set.value(free[p]);
-  }
-  return values;
-}
-
-void setValues(
-  EffectSet& set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& values)
+EffectSet changed(
+  EffectSet set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& change)
 {
   for (std::size_t p = 0; p < free.size(); ++p)
   {
-    set.value(free[p]) = values[static_cast<Eigen::Index>(p)];
+    set.value(free[p]) += change[static_cast<Eigen::Index>(p)];
   }
+  return set;
 }
 
 Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set)
@@ -258,9 +252,8 @@ Eigen::MatrixXd jacobian(
   Eigen::MatrixXd columns(base.size(), static_cast<Eigen::Index>(free.size()));
   const auto stepOf = [&](const FreeParameter& parameter)
   {
-    const double value = set.value(parameter);
-    const double step = RelativeStep * parameter.scale;
-    return value + step > parameter.upper ? -step : step;
+    const double step = RelativeStep * parameter.typical;
+    return set.value(parameter) - parameter.neutral + step > parameter.upper ? -step : step;
   };
   std::size_t first = 0;
   while (first < free.size())

@@ -5,6 +5,7 @@
 #include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/SampleScene.h"
 #include "Kernels/Camera/StagedResponse.h"
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 
 #include <Eigen/Core>
 
@@ -28,16 +29,13 @@ struct EffectChoice
   bool leveled = false;
 };
 
-struct FreeParameter
+struct FreeParameter : FreeNumber
 {
   std::size_t effect;   // in EffectSet::effects; their number for the level
   std::size_t index;    // in CameraEffect::parameters
   Eigen::Index channel; // -1: common to all channels
-  std::size_t group;    // parameters of one group differ in the channel only
-  double neutral, lower, upper, scale;
+  double neutral;
   std::string name, unit;
-
-  double precision() const noexcept; // of its prior about neutral in a fit
 };
 
 // The parameter that says when a step takes place: its index in CameraEffect::parameters, that of its width behind it.
@@ -72,9 +70,9 @@ struct EffectSet
   double& value(const FreeParameter& parameter);
 };
 
-Eigen::VectorXd valuesOf(const EffectSet& set, const std::vector<FreeParameter>& free);
-void setValues(
-  EffectSet& set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& values);
+// The set with its parameters changed.
+EffectSet changed(
+  EffectSet set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& change);
 
 // Noise-free response of the camera with these effects, K x S; noResponse() where a channel is left without light.
 Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set);

@@ -32,9 +32,8 @@ Predictor predictorOf(const SampleObservation& data, const ObservedFit& explanat
 {
   Predictor predictor{ data.linearised(explanation), {}, 0.0 };
   const EffectFit& fit = predictor.fit;
-  const Eigen::MatrixXd ofData = fit.informationOfData();
-  const Eigen::MatrixXd prior = fit.information - ofData;
-  const Eigen::MatrixXd posterior = ofData / std::fmax(fit.dispersion, 1.0) + prior;
+  const Eigen::MatrixXd posterior =
+    fit.linear.information() / std::fmax(fit.dispersion, 1.0) + fit.linear.precision();
   predictor.covariance =
     posterior.ldlt().solve(Eigen::MatrixXd::Identity(posterior.rows(), posterior.cols()));
   const GroupEnergies energies = data.energies(fit);

@@ -95,7 +95,7 @@ public:
       .rankUpdate((Basis.transpose() * weighted).transpose(), -1.0);
     for (Eigen::Index p = 0; p < columns.cols(); ++p)
     {
-      normal(p, p) += free[static_cast<std::size_t>(p)].precision();
+      normal(p, p) += widePrecision(free[static_cast<std::size_t>(p)].typical);
     }
     const Eigen::VectorXd gradient = weighted.transpose() * residual;
     return residual.squaredNorm() - gradient.dot(normal.ldlt().solve(gradient));
@@ -277,15 +277,7 @@ FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> 
   described->coherence = fit.energy > 0.0
     ? fit.dispersion * std::fmax(Fitter.trainingElements(), 1.0) / fit.energy
     : 1.0;
-  for (const FreeParameter& parameter : fit.free)
-  {
-    const double value = fit.set.value(parameter);
-    described->atBound = described->atBound || value <= parameter.lower || value >= parameter.upper;
-  }
-  const LearnedPrior prior(fit.numbers());
-  described->information = prior.informationOf(fit.informationOfData());
-  described->surprise = prior.surprise;
-  described->chanceOfCurve = prior.chanceOfCurve;
+  fit.linear.describe(*described);
   // The place of a step is a number, too, found among those of the samples.
   described->surprise +=
     static_cast<double>(fit.set.steps()) * std::log(static_cast<double>(Fitter.training().size()));

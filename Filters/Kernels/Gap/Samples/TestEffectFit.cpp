@@ -176,7 +176,7 @@ TEST(EffectChoices, OnlyWhatTheCaptureCanShow)
 }
 
 // The plain product of all rows, for effects that keep to their channel and for one that reaches the neighbours.
-TEST(NormalMatrix, IsThePlainProduct)
+TEST(NormalEquations, ArePlainProducts)
 {
   const msi::GapData data = dataOf(captureWith({}));
   for (const char* name : { "dark_offset", "channel_crosstalk" })
@@ -197,11 +197,18 @@ TEST(NormalMatrix, IsThePlainProduct)
     std::iota(samples.begin(), samples.end(), 20);
     Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(data.channels(), data.samples());
     weight.middleCols(20, 40) = data.weight.middleCols(20, 40);
-    const Eigen::Map<const Eigen::VectorXd> flat(weight.data(), weight.size());
-    const Eigen::MatrixXd expected = columns.transpose() * flat.asDiagonal() * columns;
-    const Eigen::MatrixXd found =
-      msi::normalMatrix(columns, data.weight.array(), free, set.reach(), samples);
-    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff())
+    const Eigen::ArrayXXd root = weight.array().sqrt();
+    const Eigen::ArrayXXd residual = root * data.observed.array();
+    const Eigen::MatrixXd weighted = root.reshaped().matrix().asDiagonal() * columns;
+    const Eigen::MatrixXd expected = weighted.transpose() * weighted;
+    const Eigen::VectorXd gradient = weighted.transpose() * residual.reshaped().matrix();
+    const msi::NormalEquations found =
+      msi::normalEquations(columns, root, residual, free, set.reach(), samples);
+    EXPECT_LT(
+      (found.matrix - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff())
+      << name;
+    EXPECT_LT(
+      (found.gradient - gradient).cwiseAbs().maxCoeff(), 1e-10 * gradient.cwiseAbs().maxCoeff())
       << name;
   }
 }

@@ -1,0 +1,117 @@
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/LinearFit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace msi;
+
+class Described : public ObservedFit
+{
+};
+
+NormalEquations equations(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& gradient)
+{
+  NormalEquations normal(gradient.size());
+  normal.matrix = matrix;
+  normal.gradient = gradient;
+  return normal;
+}
+
+FreeNumber common(double deviation, double lower, double upper)
+{
+  FreeNumber number;
+  number.deviation = deviation;
+  number.lower = lower;
+  number.upper = upper;
+  return number;
+}
+
+const double Wide = std::pow(Decision::FreeSpread, -2); // of a number of typical size 1
+}
+
+// n values of a constant: their sum over n, less what the prior holds back.
+TEST(LinearFit, AMeanIsThatOfTheData)
+{
+  FreeNumber number;
+  const LinearFit fit({ number },
+    { equations(Eigen::MatrixXd::Constant(1, 1, 3.0), Eigen::VectorXd::Constant(1, 6.0)),
+      equations(Eigen::MatrixXd::Constant(1, 1, 2.0), Eigen::VectorXd::Constant(1, 1.0)) },
+    false);
+  EXPECT_NEAR(fit.step()[0], 7.0 / (5.0 + Wide), 1e-12);
+  EXPECT_NEAR(fit.stepWithout(0)[0], 1.0 / (2.0 + Wide), 1e-12);
+  EXPECT_NEAR(fit.stepWithout(1)[0], 6.0 / (3.0 + Wide), 1e-12);
+  EXPECT_NEAR(fit.step(1.0)[0], 7.0 / (2.0 * (5.0 + Wide)), 1e-12);
+  EXPECT_NEAR(fit.penalty(Eigen::VectorXd::Constant(1, 2.0)), 4.0 * Wide, 1e-15);
+}
+
+// Without data a number goes where its prior wants it.
+TEST(LinearFit, WithoutDataThePriorDecides)
+{
+  FreeNumber number;
+  number.deviation = 0.3;
+  number.wanted = 0.1;
+  const LinearFit fit({ number }, { NormalEquations(1) }, false);
+  EXPECT_NEAR(fit.step()[0], -0.2, 1e-12);
+  EXPECT_EQ(LinearFit().step().size(), 0);
+}
+
+// x^2 + y^2 + x y - 3 x - 3 y has its least value at (1, 1); where x may not pass .4 at y = 1.3.
+TEST(LinearFit, BeyondABoundTheOthersAreSolvedForAgain)
+{
+  Eigen::Matrix2d matrix;
+  matrix << 2.0, 1.0, 1.0, 2.0;
+  matrix *= 1e6; // the prior counts nothing
+  const LinearFit fit({ common(0.1, -1.0, 0.4), common(0.0, -9.0, 9.0) },
+    { equations(matrix, 1e6 * Eigen::Vector2d(2.8, 2.9)) }, false);
+  const Eigen::VectorXd step = fit.step();
+  EXPECT_NEAR(step[0], 0.3, 1e-12);
+  EXPECT_NEAR(step[1], 1.3, 1e-6);
+  Described description;
+  fit.describe(description);
+  EXPECT_FALSE(description.atBound);
+  fit.describe(description, step);
+  EXPECT_TRUE(description.atBound);
+  EXPECT_NEAR(description.surprise, std::log1p(0.16) + std::log1p(1.69), 1e-5);
+}
+
+// Where the fit has settled leaving out nothing changes nothing, and leaving out a fold takes its own pull away.
+TEST(LinearFit, ASettledFitStays)
+{
+  FreeNumber number;
+  number.deviation = 0.5;
+  const NormalEquations one =
+    equations(Eigen::MatrixXd::Constant(1, 1, 4.0), Eigen::VectorXd::Constant(1, 1.0));
+  LinearFit fit({ number }, { one, one }, false);
+  fit.settle();
+  EXPECT_NEAR(fit.step()[0], 0.0, 1e-15);
+  EXPECT_NEAR(fit.stepWithout(0)[0], -1.0 / (4.0 + Wide), 1e-12);
+}
+
+// Numbers +-d, known exactly: beside another effect their variance is d^2, alone the prior stays wide.
+TEST(LinearFit, NumbersOfChannelsLearnTheirVarianceBesideOthers)
+{
+  FreeNumber up;
+  up.perChannel = true;
+  up.deviation = 0.2;
+  FreeNumber down = up;
+  down.deviation = -0.2;
+  const NormalEquations exact =
+    equations(1e9 * Eigen::MatrixXd::Identity(2, 2), Eigen::VectorXd::Zero(2));
+  EXPECT_NEAR(LinearFit({ up, down }, { exact }, true).precision()(0, 0), 25.0, 1e-4);
+  EXPECT_NEAR(LinearFit({ up, down }, { exact }, false).precision()(0, 0), Wide, 1e-12);
+}
+
+// One number, n groups with scores +-s: s^2 n / information^2 n / (n - 1).
+TEST(LinearFit, CovarianceIsTheSandwich)
+{
+  FreeNumber number;
+  const LinearFit fit({ number },
+    { equations(Eigen::MatrixXd::Constant(1, 1, 10.0), Eigen::VectorXd::Zero(1)) }, false);
+  const Eigen::RowVectorXd scores = Eigen::RowVector4d(2.0, -2.0, 2.0, -2.0);
+  EXPECT_NEAR(fit.covariance(scores)(0, 0), 16.0 / std::pow(10.0 + Wide, 2) * 4.0 / 3.0, 1e-12);
+}

@@ -79,6 +79,7 @@ struct Group
   FreeNumber kind;            // of the first number
   Eigen::ArrayXd deviation;   // from neutral; with a mean of their own from that
   double learned = 0.0;       // variance of numbers of single channels
+  double mean = 0.0;          // from neutral, of those with a mean of their own
   Eigen::MatrixXd covariance; // of these
 };
 
@@ -90,7 +91,7 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
   { return numbers[static_cast<std::size_t>(n)]; };
   for (Eigen::Index first = 0; first < count; first += groups.back().size)
   {
-    Group group{ first, 1, at(first), {}, 0.0, {} };
+    Group group{ first, 1, at(first), {}, 0.0, 0.0, {} };
     while (first + group.size < count && at(first + group.size).group == group.kind.group)
     {
       ++group.size;
@@ -105,7 +106,8 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
     const double widest = squareOf(Decision::FreeSpread * group.kind.typical);
     const bool ownMean = group.kind.perChannel && group.kind.ownMean;
     const bool isNeutral = (group.deviation == 0.0).all();
-    group.deviation -= ownMean ? group.deviation.mean() : 0.0;
+    group.mean = ownMean ? group.deviation.mean() : 0.0;
+    group.deviation -= group.mean;
     group.learned = isNeutral ? widest
                               : std::fmin(group.deviation.square().mean() + variance +
                                     squareOf(LeastDeviation * group.kind.typical),
@@ -149,16 +151,20 @@ LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
   for (const Group& group : groupsOf(numbers))
   {
     auto block = covariance.block(group.first, group.first, group.size, group.size);
+    const double square = squareOf(group.kind.typical);
+    const auto cauchy = [&](double value) { return std::log1p(value * value / square); };
     if (group.kind.perChannel)
     {
-      block = group.covariance;
-      surprise += 0.5 * group.deviation.square().sum() / group.learned;
+      block.setConstant(group.kind.ownMean ? square : 0.0);
+      block.diagonal().array() += group.learned;
+      surprise += 0.5 * group.deviation.square().sum() / group.learned + cauchy(group.mean);
       chanceOfCurve = std::fmin(chanceOfCurve, chanceOfCubic(group.deviation.matrix()));
     }
     else
     {
-      block.diagonal().setConstant(squareOf(group.kind.typical));
-      surprise += (group.deviation / group.kind.typical).square().log1p().sum();
+      block.diagonal().setConstant(square);
+      surprise += group.kind.normal ? 0.5 * group.deviation.square().sum() / square
+                                    : group.deviation.unaryExpr(cauchy).sum();
     }
   }
 }

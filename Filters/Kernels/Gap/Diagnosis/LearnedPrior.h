@@ -34,6 +34,8 @@ struct FreeNumber
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double wanted = 0.0;
+  bool normal =
+    false; // of a common number: known to be near neutral, its prior is normal and not Cauchy
 };
 
 // Of a number that a fit leaves neutral only where the data do not determine it: standard deviation Decision::FreeSpread.
@@ -46,7 +48,7 @@ Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers);
 // The prior by which a fit is judged.
 //   A common number: a Cauchy distribution whose scale is the typical size (H. Jeffreys, Theory of Probability, 1961, 5.2).
 //   Numbers of single channels: normal, their variance learned from them by a step of expectation and maximization; and, where
-//   `ownMean`, a mean with the standard deviation Decision::FreeSpread.
+//   `ownMean`, a mean with the prior of a common number.
 struct LearnedPrior
 {
   explicit LearnedPrior(const std::vector<FreeNumber>& numbers);

@@ -43,13 +43,20 @@ TEST(LearnedPrior, UncertainNumbersMayScatterMore)
   EXPECT_NEAR(prior.covariance(0, 0), 0.09 + 0.07, 1e-9);
 }
 
-// What is common to all channels is a number of its own where the effect has a form with one.
+// What is common to all channels is a number of its own where the effect has a form with one: 1 of typical size, +-.1 about it.
 TEST(LearnedPrior, ACommonPartIsNoScatter)
 {
   const msi::LearnedPrior prior({ { 0, true, true, 1.1, 1.0 }, { 0, true, true, 0.9, 1.0 } });
-  const double widest = std::pow(msi::Decision::FreeSpread, 2);
-  EXPECT_NEAR(prior.covariance(0, 1), widest, 1e-9);
+  EXPECT_NEAR(prior.covariance(0, 1), 1.0, 1e-12);
   EXPECT_NEAR(prior.covariance(0, 0) - prior.covariance(0, 1), 0.01, 1e-6);
+  EXPECT_NEAR(prior.surprise, 1.0 + std::log(2.0), 1e-6);
+}
+
+TEST(LearnedPrior, ANumberNearNeutralIsNormal)
+{
+  msi::FreeNumber number{ 0, false, false, 0.3, 0.1 };
+  number.normal = true;
+  EXPECT_NEAR(msi::LearnedPrior({ number }).surprise, 4.5, 1e-12);
 }
 
 TEST(FitPrecision, IsWideUntilNumbersOfChannelsAreKnown)

@@ -92,9 +92,9 @@ TEST(FieldGap, LargeImages)
   const GapReport report = diagnose(pair);
   SCOPED_TRACE(describe(report));
   EXPECT_EQ(report.verdict, GapVerdict::Explained);
-  // About a center off the middle it is the same to second order.
+  // About a center off the middle, 0.25 from it, it is the same to second order; the third is .03 x .06.
   EXPECT_LE(report.causes.size(), 2U);
-  expectParameter(report, "vignetting", "falloff", 0.06, 0.002);
+  expectParameter(report, "vignetting", "falloff", 0.06, 0.005);
 }
 
 TEST(FieldGap, VignettingOffTheMiddle)

@@ -40,23 +40,24 @@ LinearFit::LinearFit(
     Precision(n, n) = widePrecision(number.typical);
     Off[n] = number.wanted - number.deviation;
   }
-  const auto learn = [this]
-  {
-    const Eigen::VectorXd variance = inverseOf(All.matrix + Precision).diagonal();
-    for (std::size_t n = 0; n < Numbers.size(); ++n)
-    {
-      Numbers[n].variance = variance[static_cast<Eigen::Index>(n)];
-    }
-  };
-  learn();
   const bool learns = besideOthers &&
     std::any_of(
       Numbers.begin(), Numbers.end(), [](const FreeNumber& number) { return number.perChannel; });
   for (int round = 0; learns && round < Learnings; ++round)
   {
-    Precision = fitPrecision(Numbers);
-    learn();
+    Precision = fitPrecision(withVariance());
   }
+}
+
+std::vector<FreeNumber> LinearFit::withVariance() const
+{
+  const Eigen::VectorXd variance = inverseOf(All.matrix + Precision).diagonal();
+  std::vector<FreeNumber> numbers = Numbers;
+  for (std::size_t n = 0; n < numbers.size(); ++n)
+  {
+    numbers[n].variance = variance[static_cast<Eigen::Index>(n)];
+  }
+  return numbers;
 }
 
 Eigen::VectorXd LinearFit::stepWithout(std::size_t fold) const
@@ -119,7 +120,7 @@ Eigen::MatrixXd LinearFit::covariance(const Eigen::MatrixXd& scores) const
 
 void LinearFit::describe(ObservedFit& fit, const Eigen::VectorXd& step) const
 {
-  std::vector<FreeNumber> moved = Numbers;
+  std::vector<FreeNumber> moved = withVariance();
   for (std::size_t n = 0; n < moved.size(); ++n)
   {
     FreeNumber& number = moved[n];

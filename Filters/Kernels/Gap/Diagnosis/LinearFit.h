@@ -60,6 +60,7 @@ public:
 
 private:
   Eigen::VectorXd step(NormalEquations equations, double damping) const;
+  std::vector<FreeNumber> withVariance() const;
 
   std::vector<FreeNumber> Numbers;
   std::vector<NormalEquations> Folds;

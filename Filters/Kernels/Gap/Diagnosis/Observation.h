@@ -72,7 +72,7 @@ public:
   virtual double noiseEnergy() const = 0; // what noise alone leaves of the energy
 
   virtual FitPointer nominal() const = 0;
-  // Options whose effect the fit does not have, the largest gain first.
+  // Options whose effect the fit does not have.
   virtual std::vector<GapPreview> previews(const ObservedFit& from) const = 0;
   virtual FitPointer extended(const ObservedFit& from, const GapPreview& with) const = 0;
   // The positions of `from` whose bit is set.

@@ -83,7 +83,11 @@ private:
     }
     std::stable_sort(all.begin(), all.end(),
       [&](const GapPreview& a, const GapPreview& b)
-      { return hopeful.preview(from, a) > hopeful.preview(from, b); });
+      {
+        const double one = hopeful.preview(from, a);
+        const double other = hopeful.preview(from, b);
+        return one != other ? one > other : a.gain > b.gain;
+      });
     std::vector<GapPreview> chosen;
     for (GapPreview& preview : all)
     {

@@ -174,8 +174,6 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
     preview.gain = from.energy - energy + parameters;
     previews.push_back(std::move(preview));
   }
-  std::stable_sort(previews.begin(), previews.end(),
-    [](const GapPreview& a, const GapPreview& b) { return a.gain > b.gain; });
   return previews;
 }
 

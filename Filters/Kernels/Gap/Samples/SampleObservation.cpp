@@ -238,8 +238,6 @@ std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) con
     }
     previews.push_back(std::move(best));
   }
-  std::stable_sort(previews.begin(), previews.end(),
-    [](const GapPreview& a, const GapPreview& b) { return a.gain > b.gain; });
   return previews;
 }
 

@@ -201,7 +201,17 @@ bool isOfLinearFit(const std::string& effect, const std::string& form)
   return found != nullptr && found->has(FormTrait::BesideLine);
 }
 
-void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastPerChannel)
+namespace
+{
+bool isSmallErrorOfChannels(const GapCause& cause, double share)
+{
+  const EffectDefinition* effect = findEffect(cause.effect);
+  return cause.perChannel && effect != nullptr && effect->stage != EffectStage::Image &&
+    share <= Decision::LeastPartPerChannel;
+}
+}
+
+void creditCauses(GapReport& report, std::vector<GapCause> causes)
 {
   const auto sumOf = [](const std::vector<GapCause>& some)
   {
@@ -209,11 +219,11 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double leastP
       [](double sum, const GapCause& cause) { return sum + cause.share; });
   };
   const double all = sumOf(causes);
-  const auto isCause = [all, leastPerChannel](const GapCause& cause)
+  const auto isCause = [all](const GapCause& cause)
   {
-    return isOfLinearFit(cause.effect, cause.form)
-      ? cause.share > Decision::PartlyShrink
-      : cause.share > (cause.perChannel ? leastPerChannel : Decision::LeastPart) * all;
+    return isOfLinearFit(cause.effect, cause.form) ? cause.share > Decision::PartlyShrink
+                                                   : cause.share > Decision::LeastPart * all &&
+        !isSmallErrorOfChannels(cause, cause.share / all);
   };
   const auto first = std::stable_partition(causes.begin(), causes.end(), isCause);
   report.uncredited.clear();

@@ -105,7 +105,7 @@ void credit(
   const EffectSet& effects = static_cast<const SampleFit&>(*found.best).effects;
   report.correction = effects.simulated();
   report.whiteAfterEffects = effects.whiteAfterEffects();
-  creditCauses(report, foundCauses(observation, found, shrink), Decision::LeastPartPerChannel);
+  creditCauses(report, foundCauses(observation, found, shrink));
 }
 
 }

@@ -59,7 +59,8 @@ inline constexpr double LeastPart = 0.03;
 // Small beside the whole: what is predicted or explained, beside the noise or what is left. All but this part is nearly all.
 inline constexpr double SmallPart = 0.1;
 
-// Numbers of single channels that get less are none in tables, since every camera has small errors in its channels.
+// Numbers of single channels that get less are none, since every camera has small errors in its channels; but for effects that
+// need an image, which a pattern tells from everything else.
 inline constexpr double LeastPartPerChannel = 2.0 * SmallPart;
 
 // Is there a gap beyond noise?

@@ -289,8 +289,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   double explained = 0.0;
   if (!finding.set().empty() && shrink > 0.0)
   {
-    creditCauses(
-      report, foundCauses(*finding.observation, finding.found, shrink), Decision::LeastPart);
+    creditCauses(report, foundCauses(*finding.observation, finding.found, shrink));
     report.correction = fieldCorrection(finding.set(), gap->model, pair.channels);
     report.verdict = verdictOf(shrink, noiseAlone);
     explained = noiseAlone ? 1.0 : shrink;

@@ -9,6 +9,14 @@
 namespace msi
 {
 
+namespace
+{
+double improbabilityOf(const GapOption& option)
+{
+  return option.improbability + Decision::StandIn * option.standIns;
+}
+}
+
 Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double numbers)
   : Data(data)
   , Gap(std::fmax(nominal.energy - data.noiseEnergy(), 0.0))
@@ -52,8 +60,7 @@ double Criterion::preview(const ObservedFit& from, const GapPreview& with) const
   // Numbers of single channels have a variance that suits them.
   const double known = option.perChannel ? with.gain / (with.parameters * Dispersion) : Numbers;
   return fitOf(energy) - 0.5 * with.parameters * std::log(1.0 + std::fmax(known, 0.0)) -
-    (option.perChannel ? 0.5 * with.parameters : 0.0) - option.improbability -
-    Decision::StandIn * option.standIns;
+    (option.perChannel ? 0.5 * with.parameters : 0.0) - improbabilityOf(option);
 }
 
 double Criterion::occam(const ObservedFit& fit) const
@@ -66,8 +73,7 @@ double Criterion::improbability(const ObservedFit& fit) const
   double sum = fit.atBound ? Decision::StandIn : 0.0;
   for (const std::size_t number : fit.set)
   {
-    const GapOption& option = Data.options()[number];
-    sum += option.improbability + Decision::StandIn * option.standIns;
+    sum += improbabilityOf(Data.options()[number]);
   }
   return sum;
 }

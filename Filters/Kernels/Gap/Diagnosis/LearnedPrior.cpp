@@ -76,12 +76,24 @@ double squareOf(double value)
 struct Group
 {
   Eigen::Index first, size;
-  FreeNumber kind;            // of the first number
-  Eigen::ArrayXd deviation;   // from neutral; with a mean of their own from that
-  double learned = 0.0;       // variance of numbers of single channels
-  double mean = 0.0;          // from neutral, of those with a mean of their own
-  Eigen::MatrixXd covariance; // of these
+  FreeNumber kind;          // of the first number
+  Eigen::ArrayXd deviation; // from neutral; with a mean of their own from that
+  double learned = 0.0;     // variance of numbers of single channels
+  double mean = 0.0;        // from neutral, of those with a mean of their own
+
+  // Of numbers of single channels, whose mean has this variance where it is their own.
+  Eigen::MatrixXd covariance(double ofMean) const
+  {
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(size, size, kind.ownMean ? ofMean : 0.0);
+    covariance.diagonal().array() += learned;
+    return covariance;
+  }
 };
+
+double widestVariance(double typical)
+{
+  return squareOf(Decision::FreeSpread * typical);
+}
 
 std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
 {
@@ -91,7 +103,7 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
   { return numbers[static_cast<std::size_t>(n)]; };
   for (Eigen::Index first = 0; first < count; first += groups.back().size)
   {
-    Group group{ first, 1, at(first), {}, 0.0, 0.0, {} };
+    Group group{ first, 1, at(first), {} };
     while (first + group.size < count && at(first + group.size).group == group.kind.group)
     {
       ++group.size;
@@ -103,7 +115,7 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
       group.deviation[p] = at(first + p).deviation;
       variance += at(first + p).variance / static_cast<double>(group.size);
     }
-    const double widest = squareOf(Decision::FreeSpread * group.kind.typical);
+    const double widest = widestVariance(group.kind.typical);
     const bool ownMean = group.kind.perChannel && group.kind.ownMean;
     const bool isNeutral = (group.deviation == 0.0).all();
     group.mean = ownMean ? group.deviation.mean() : 0.0;
@@ -112,8 +124,6 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
                               : std::fmin(group.deviation.square().mean() + variance +
                                     squareOf(LeastDeviation * group.kind.typical),
                                   widest);
-    group.covariance = Eigen::MatrixXd::Constant(group.size, group.size, ownMean ? widest : 0.0);
-    group.covariance.diagonal().array() += group.learned;
     groups.push_back(std::move(group));
   }
   return groups;
@@ -134,7 +144,9 @@ Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers)
     auto block = precision.block(group.first, group.first, group.size, group.size);
     if (group.kind.perChannel)
     {
-      block = group.covariance.llt().solve(Eigen::MatrixXd::Identity(group.size, group.size));
+      block = group.covariance(widestVariance(group.kind.typical))
+                .llt()
+                .solve(Eigen::MatrixXd::Identity(group.size, group.size));
     }
     else
     {
@@ -155,8 +167,7 @@ LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
     const auto cauchy = [&](double value) { return std::log1p(value * value / square); };
     if (group.kind.perChannel)
     {
-      block.setConstant(group.kind.ownMean ? square : 0.0);
-      block.diagonal().array() += group.learned;
+      block = group.covariance(square);
       surprise += 0.5 * group.deviation.square().sum() / group.learned + cauchy(group.mean);
       chanceOfCurve = std::fmin(chanceOfCurve, chanceOfCubic(group.deviation.matrix()));
     }

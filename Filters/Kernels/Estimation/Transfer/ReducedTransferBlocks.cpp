@@ -3,7 +3,7 @@
 #include <hwy/foreach_target.h>
 
 #include "Kernels/Estimation/Transfer/ReducedTransfer.h"
-#include "Kernels/Spectra/FusedMultiply-inl.h"
+#include "Kernels/Spectra/FloatVectors-inl.h"
 
 #include <hwy/aligned_allocator.h>
 #include <hwy/cache_control.h>
@@ -21,12 +21,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // A lane is a pixel; several vectors of pixels side by side, so that a coefficient is read once for all of them. As many as
 // there are registers for.
-using FloatTag = hn::CappedTag<float, 16>;
-using FloatVector = hn::Vec<FloatTag>;
-constexpr Eigen::Index Side = hn::MaxLanes(FloatTag()) == 16 ? 4 : 2;
+constexpr Eigen::Index Side = MostFloats == 16 ? 4 : 2;
 
 // 2^x for x <= 0.5 to 1.5e-7 of its value, held at 2^-64, where no product is denormal: minimax polynomial on [-1/2, 1/2].
-HWY_INLINE FloatVector powerOfTwo(FloatTag d, FloatVector x)
+HWY_INLINE FloatsVector powerOfTwo(FloatsTag d, FloatsVector x)
 {
   const auto magic = hn::Set(d, 12582912.0F); // 1.5 * 2^23: leaves the integer in the low bits
   x = hn::Max(x, hn::Set(d, -64.0F));
@@ -35,9 +33,9 @@ HWY_INLINE FloatVector powerOfTwo(FloatTag d, FloatVector x)
   auto sum = hn::Set(d, 0.0013276472F);
   for (const float next : { 0.0096755413F, 0.055507133F, 0.24022120F, 0.69314697F, 1.00000007F })
   {
-    sum = fusedMultiplyAdd(d, sum, r, hn::Set(d, next));
+    sum = fused(sum, r, hn::Set(d, next));
   }
-  const hn::Rebind<std::int32_t, FloatTag> integers;
+  const hn::Rebind<std::int32_t, FloatsTag> integers;
   return hn::BitCast(
     d, hn::Add(hn::BitCast(integers, sum), hn::ShiftLeft<23>(hn::BitCast(integers, shifted))));
 }
@@ -45,13 +43,13 @@ HWY_INLINE FloatVector powerOfTwo(FloatTag d, FloatVector x)
 // out[row] = end(start[row] + sum over the columns, its vector).
 template <class End>
 HWY_INLINE void product(
-  FloatTag d, const GroupedMatrix& matrix, const float* in, float* out, const End& end)
+  FloatsTag d, const GroupedMatrix& matrix, const float* in, float* out, const End& end)
 {
   const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
   const float* a = matrix.values.data();
   for (Eigen::Index row = 0; row < matrix.rows; row += 4)
   {
-    FloatVector sums[4][Side];
+    FloatsVector sums[4][Side];
     for (Eigen::Index i = 0; i < 4; ++i)
     {
       std::fill_n(sums[i], Side, hn::Set(d, a[i]));
@@ -60,17 +58,17 @@ HWY_INLINE void product(
     const float* x = in;
     for (Eigen::Index column = 0; column < matrix.columns; ++column, a += 4, x += Side * lanes)
     {
-      FloatVector values[Side];
+      FloatsVector values[Side];
       for (Eigen::Index part = 0; part < Side; ++part)
       {
         values[part] = hn::LoadU(d, x + part * lanes);
       }
       for (Eigen::Index i = 0; i < 4; ++i)
       {
-        const FloatVector coefficient = hn::Set(d, a[i]);
+        const FloatsVector coefficient = hn::Set(d, a[i]);
         for (Eigen::Index part = 0; part < Side; ++part)
         {
-          sums[i][part] = fusedMultiplyAdd(d, coefficient, values[part], sums[i][part]);
+          sums[i][part] = fused(coefficient, values[part], sums[i][part]);
         }
       }
     }
@@ -95,7 +93,7 @@ struct ReducedScratch
 
 // Channels of pixels as rows of pixels; the last pixel fills up. 'fours' has room for as much: vectors are loaded long
 // after the pieces they consist of were stored, else each load would wait for the stores.
-HWY_INLINE void loadPixels(FloatTag d, const float* pixels, Eigen::Index count,
+HWY_INLINE void loadPixels(FloatsTag d, const float* pixels, Eigen::Index count,
   Eigen::Index channels, float* fours, float* rows)
 {
   const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
@@ -119,10 +117,10 @@ HWY_INLINE void loadPixels(FloatTag d, const float* pixels, Eigen::Index count,
   {
     for (float* row = rows; row < rows + width; row += lanes, fours += 4 * lanes)
     {
-      FloatVector v0;
-      FloatVector v1;
-      FloatVector v2;
-      FloatVector v3;
+      FloatsVector v0;
+      FloatsVector v1;
+      FloatsVector v2;
+      FloatsVector v3;
       hn::LoadInterleaved4(d, fours, v0, v1, v2, v3);
       hn::Store(v0, d, row);
       hn::Store(v1, d, row + width);
@@ -135,11 +133,11 @@ HWY_INLINE void loadPixels(FloatTag d, const float* pixels, Eigen::Index count,
 // The other way round. The last bands are written first: what they write too much of, the pixel
 // behind them overwrites.
 HWY_INLINE void storePixels(
-  FloatTag d, const float* rows, Eigen::Index count, Eigen::Index bands, float* pixels)
+  FloatsTag d, const float* rows, Eigen::Index count, Eigen::Index bands, float* pixels)
 {
   const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
   const Eigen::Index width = Side * lanes;
-  HWY_ALIGN float four[4 * 16];
+  HWY_ALIGN float four[4 * MostFloats];
   for (Eigen::Index first = (bands - 1) / 4 * 4; first >= 0; first -= 4)
   {
     for (Eigen::Index begin = 0; begin < count; begin += lanes)
@@ -166,12 +164,12 @@ HWY_INLINE void storePixels(
 }
 
 // Adds one expert's share to the mean of the pixels side by side.
-HWY_INLINE void addReducedExpert(FloatTag d, const ReducedTransferExpert& e, Eigen::Index channels,
+HWY_INLINE void addReducedExpert(FloatsTag d, const ReducedTransferExpert& e, Eigen::Index channels,
   const ReducedScratch& s, bool isFirst)
 {
   const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
-  FloatVector norm[Side];
-  FloatVector poison[Side];
+  FloatsVector norm[Side];
+  FloatsVector poison[Side];
   std::fill_n(norm, Side, hn::Zero(d));
   std::fill_n(poison, Side, hn::Zero(d));
   const bool isRoot = e.space == TransferSpace::SquareRoot;
@@ -192,16 +190,16 @@ HWY_INLINE void addReducedExpert(FloatTag d, const ReducedTransferExpert& e, Eig
       poison[part] = hn::Add(poison[part], hn::Mul(v, hn::Zero(d)));
     }
   }
-  for (FloatVector& of : norm)
+  for (FloatsVector& of : norm)
   {
     of = hn::Mul(of, hn::Set(d, e.decay));
   }
-  const auto asIs = [](FloatVector sum, Eigen::Index, const float*) HWY_ATTR { return sum; };
+  const auto asIs = [](FloatsVector sum, Eigen::Index, const float*) HWY_ATTR { return sum; };
   product(d, e.projection, s.features, s.projected, asIs);
   product(d, e.points, s.projected, s.features + Side * channels * lanes,
-    [&](FloatVector sum, Eigen::Index part, const float*) HWY_ATTR
+    [&](FloatsVector sum, Eigen::Index part, const float*) HWY_ATTR
     { return powerOfTwo(d, hn::Add(sum, norm[part])); });
-  const auto addToMean = [&](FloatVector y, Eigen::Index part, const float* mean) HWY_ATTR
+  const auto addToMean = [&](FloatsVector y, Eigen::Index part, const float* mean) HWY_ATTR
   {
     y = hn::Add(isRoot ? hn::Mul(y, hn::Abs(y)) : y, poison[part]);
     return isFirst ? y : hn::Add(hn::LoadU(d, mean), y);
@@ -228,7 +226,7 @@ HWY_INLINE void prefetch(const float* values, Eigen::Index count)
 void runReducedBlock(
   const ReducedTransfer& mixture, const float* response, float* mean, Eigen::Index pixels)
 {
-  const FloatTag d;
+  const FloatsTag d;
   const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
   const auto fourfold = [](Eigen::Index count) { return (count + 3) / 4 * 4; };
   Eigen::Index directions = 0;

@@ -183,12 +183,18 @@ void writeCauses(const GapReport& report, vtkTable* table)
       { "shrink", NumberColumn }, { "equivalent", TextColumn }, { "parameter", TextColumn },
       { "value", NumberColumn }, { "unit", TextColumn }, { "standard_error", NumberColumn },
       { "title", TextColumn }, { "meaning", TextColumn }, { "formula", TextColumn },
-      { "parameter_meaning", TextColumn }, { "next_capture", TextColumn } });
+      { "parameter_meaning", TextColumn }, { "next_capture", TextColumn },
+      { "equivalent_title", TextColumn } });
   int rank = 0;
   for (const GapCause& cause : report.causes)
   {
     ++rank;
     const EffectTexts texts = textsOf(cause.effect, cause.form);
+    std::vector<std::string> equivalentTitles;
+    for (const std::string& name : cause.equivalent)
+    {
+      equivalentTitles.push_back(textsOf(name, "").title);
+    }
     auto parameters = cause.parameters;
     if (parameters.empty())
     {
@@ -199,7 +205,8 @@ void writeCauses(const GapReport& report, vtkTable* table)
       rows.add({ rank, cause.effect, cause.form, cause.medium, cause.share, cause.probability,
         cause.shrink, joined(cause.equivalent), parameter.name, parameter.value, parameter.unit,
         parameter.standardError, texts.title, texts.meaning, texts.formula,
-        meaningOf(parameter.name, cause), separatingCapture(cause.effect) });
+        meaningOf(parameter.name, cause), separatingCapture(cause.effect),
+        joined(equivalentTitles) });
     }
   }
 }

@@ -34,6 +34,7 @@ AXES = {
 
 # Probability from which the summary speaks of something that the library does not have.
 UNKNOWN_IS_SAID = 0.2
+LIKELY = 0.5
 
 
 class Diagnosis:
@@ -63,8 +64,10 @@ class Diagnosis:
         """Names of effects, axes and channels in a text as words: 'medium_gain' as 'Gain of one medium', 'C400' as '400 nm', 'C3' as
         'channel 3 (450 nm)' where the camera's curves tell."""
         if self._names is None:
-            self._names = {row["effect"]: row["title"][:1].lower() + row["title"][1:]
-                           for row in self.records("candidates") + self.records("causes")}
+            self._names = {name: title[:1].lower() + title[1:] for row in self.records("causes")
+                           for name, title in zip(row["equivalent"].split(", "), row["equivalent_title"].split(", "))}
+            self._names.update({row["effect"]: row["title"][:1].lower() + row["title"][1:]
+                                for row in self.records("candidates") + self.records("causes")})
             self._names.update({axis: axis.replace("_", " ") for axis in self.axes})
             curves = self.records("camera")
             for name in curves[0] if curves else ():
@@ -120,10 +123,8 @@ def print_summary(gap):
         return
     command.say(f"Verdict: {figures['verdict']}")
     command.say(f"  {far(figures, gap.held)}")
-    for cause in causes:
-        command.say(f"  {cause_line(cause, gap)}")
-    if figures["unknown_probability"] >= UNKNOWN_IS_SAID:
-        command.say(f"  an effect that is not in the library: probability {percent(figures['unknown_probability'])}")
+    for line in cause_lines(figures, causes, gap):
+        command.say(f"  {line}")
     if figures["next_capture"]:
         command.say(f"  Next capture: {next_capture(figures, gap)}")
 
@@ -170,6 +171,16 @@ def cause_line(cause, gap):
     return text
 
 
+def cause_lines(figures, causes, gap):
+    """The causes, and something unknown before those that are less likely."""
+    lines = [cause_line(cause, gap) for cause in causes]
+    unknown = figures["unknown_probability"]
+    if unknown >= UNKNOWN_IS_SAID:
+        lines.insert(sum(cause["probability"] >= unknown for cause in causes),
+                     f"An effect that is not in the library: probability {percent(unknown)}")
+    return lines
+
+
 def title_of(cause):
     return cause["title"] + (f" ({cause['medium']})" if cause["medium"] else "")
 
@@ -179,13 +190,22 @@ def lead(gap):
     figures, rows = gap.summary(), gap.records("causes")
     if not figures or figures["verdict"] == "no gap":
         return "The simulated and the real camera agree within noise." if figures else ""
-    found = []
+    known, possible = [], []
     for cause in first_rows(rows):
         size = size_of(cause, rows)
-        found.append(f"{title_of(cause)}{': ' if size else ''}{size} ({percent(cause['share'])} of the gap)")
-    causes = "; ".join(found) if found else "no known effect accounts for it"
-    return (f"The simulated and the real camera differ by rms {figures['rms_before']:.4f} (response, 1 = white); after "
-            f"correction, by {figures['rms_after']:.4f}. Cause{'s' if len(found) > 1 else ''}: {causes}.")
+        doubted = cause["probability"] < LIKELY
+        chance = f", probability {percent(cause['probability'])}" if doubted else ""
+        (possible if doubted else known).append(
+            f"{title_of(cause)}{': ' if size else ''}{size} ({percent(cause['share'])} of the gap{chance})")
+    words = [f"The simulated and the real camera differ by rms {figures['rms_before']:.4f} (response, 1 = white); after "
+             f"correction, by {figures['rms_after']:.4f}."]
+    unknown = figures["unknown_probability"]
+    if unknown >= LIKELY:
+        words.append(f"An effect that is not in the library is probably behind it (probability {percent(unknown)}).")
+    for kind, found in (("Cause", known), ("Possible cause", possible)):
+        if found:
+            words.append(f"{kind}{'s' if len(found) > 1 else ''}: {'; '.join(found)}.")
+    return " ".join(words if len(words) > 1 else [*words, "No known effect accounts for it."])
 
 
 def sections(gap, folder):
@@ -233,7 +253,7 @@ def uncredited_lines(figures, gap):
 
 def verdict_section(figures, causes, gap):
     lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures, gap.held)}."]
-    lines += [f"Cause {number}: {cause_line(cause, gap)}." for number, cause in enumerate(causes, 1)]
+    lines += [f"{line}." for line in cause_lines(figures, causes, gap)]
     if causes:
         lines += uncredited_lines(figures, gap)
     if figures["rms_with_rest"] > 0:
@@ -287,7 +307,8 @@ def which_sections(causes, figures, drawn, folder, gap):
         if cause["equivalent"]:
             words.append(f"These data cannot distinguish it from {gap.words(cause['equivalent'])}: each of them fits the {gap.held} "
                          f"held out equally well.")
-        parts.append(report.text(f"Cause {cause['rank']}: {title_of(cause)}", *words))
+        kind = "Cause" if cause["probability"] >= LIKELY else "Possible cause"
+        parts.append(report.text(f"{kind} {cause['rank']}: {title_of(cause)}", *words))
     if not parts:
         parts = [report.text("Which effects cause it",
                              "None." if figures["verdict"] == "no gap" else

@@ -9,6 +9,7 @@ from . import outputs, painter
 
 # Okabe and Ito's palette: told apart with any color vision.
 _BEFORE, _AFTER, _FLOOR, _PLAIN = "#D55E00", "#0072B2", "#009E73", "#B0B0B0"
+_DOUBTED = "#A6CDE3"  # the blue of what is known, pale
 _STYLE = {"font.size": 11, "axes.spines.top": False, "axes.spines.right": False,
           "axes.axisbelow": True, "figure.dpi": 110, "savefig.bbox": "tight"}
 NAMES = ("gap-map.png", "axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
@@ -216,9 +217,8 @@ def _trend(rows):
 def _which(causes, candidates, summary):
     """Above: the causes, each with what the data cannot tell from it. Below: each effect alone."""
     causes = list({row["rank"]: row for row in causes}.values())
-    titles = {row["effect"]: row["title"] for row in [*candidates, *causes]}
-    found = [entry for row in causes for entry in [(row, "")] + [
-        (None, titles.get(name, name.replace("_", " "))) for name in row["equivalent"].split(", ") if name]]
+    found = [entry for row in causes
+             for entry in [(row, "")] + [(None, title) for title in row["equivalent_title"].split(", ") if title]]
     candidates = candidates[:_MOST_LABELS]
     if not found and not candidates:
         return None
@@ -244,8 +244,11 @@ def _causes(plot, found, left):
     for place, (cause, _) in enumerate(found):
         if cause:
             share, first = cause["share"], place
-            plot.barh(place, share, color=_AFTER)
-            plot.text(share, place, f" {100 * share:.0f} %", va="center")
+            plot.barh(place, share, color=_AFTER if cause["probability"] >= 0.5 else _DOUBTED)
+            inside = share > 0.7
+            plot.text(share, place, f" {100 * share:.0f} %, probability {100 * cause['probability']:.0f} % ", va="center",
+                      ha="right" if inside else "left",
+                      color="white" if inside and cause["probability"] >= 0.5 else "black")
         else:
             plot.barh(place, share, facecolor="white", edgecolor=_PLAIN, hatch="//")
         if place + 1 == len(found) or found[place + 1][0]:
@@ -256,7 +259,7 @@ def _causes(plot, found, left):
     plot.set_yticks(range(len(found) + 1), [*(_label(cause) if cause else f"or {name}"
                                               for cause, name in found), "not explained"])
     plot.set_xlim(0, 1)
-    plot.set_xlabel("Share of the gap; hatched: does as well in the cause's place")
+    plot.set_xlabel("Share of the gap; pale: less likely than not; hatched: does as well in the cause's place")
 
 
 def _candidates(plot, rows):

@@ -9,12 +9,24 @@
 namespace msi
 {
 
-namespace
+int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std::size_t>& set)
 {
-double improbabilityOf(const GapOption& option)
-{
-  return option.improbability + Decision::StandIn * option.standIns;
-}
+  int signs = 0;
+  for (const std::size_t number : set)
+  {
+    const GapOption& option = options[number];
+    // Every medium that the effect could have been blamed on has it.
+    const bool everywhere = !option.medium.empty() &&
+      std::all_of(options.begin(), options.end(),
+        [&](const GapOption& other)
+        {
+          return other.effect != option.effect ||
+            std::any_of(set.begin(), set.end(),
+              [&](std::size_t mine) { return options[mine].sameCause(other); });
+        });
+    signs += (option.inDisguise ? 1 : 0) + (everywhere ? 1 : 0);
+  }
+  return signs;
 }
 
 Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double numbers)
@@ -48,7 +60,8 @@ double Criterion::fitOf(double energy) const
 
 double Criterion::operator()(const ObservedFit& fit) const
 {
-  return std::isfinite(fit.energy) ? fitOf(fit.energy) - occam(fit) - improbability(fit)
+  return std::isfinite(fit.energy) ? fitOf(fit.energy) - occam(fit) - improbability(fit.set) -
+      (fit.atBound ? Decision::StandIn : 0.0)
                                    : -std::numeric_limits<double>::infinity();
 }
 
@@ -57,10 +70,13 @@ double Criterion::preview(const ObservedFit& from, const GapPreview& with) const
   const double energy = std::fmax(from.energy - with.gain, std::fmin(Noise, from.energy)) +
     with.parameters * Dispersion;
   const GapOption& option = Data.options()[with.option];
+  std::vector<std::size_t> set = from.set;
+  set.push_back(with.option);
   // Numbers of single channels have a variance that suits them.
   const double known = option.perChannel ? with.gain / (with.parameters * Dispersion) : Numbers;
   return fitOf(energy) - 0.5 * with.parameters * std::log(1.0 + std::fmax(known, 0.0)) -
-    (option.perChannel ? 0.5 * with.parameters : 0.0) - improbabilityOf(option);
+    (option.perChannel ? 0.5 * with.parameters : 0.0) - improbability(set) +
+    improbability(from.set);
 }
 
 double Criterion::occam(const ObservedFit& fit) const
@@ -68,12 +84,12 @@ double Criterion::occam(const ObservedFit& fit) const
   return 0.5 * (1.0 + fit.information.array() / Dispersion).log().sum() + fit.surprise;
 }
 
-double Criterion::improbability(const ObservedFit& fit) const
+double Criterion::improbability(const std::vector<std::size_t>& set) const
 {
-  double sum = fit.atBound ? Decision::StandIn : 0.0;
-  for (const std::size_t number : fit.set)
+  double sum = Decision::StandIn * signsOfStandIns(Data.options(), set);
+  for (const std::size_t number : set)
   {
-    sum += improbabilityOf(Data.options()[number]);
+    sum += Data.options()[number].improbability;
   }
   return sum;
 }

@@ -6,6 +6,10 @@
 namespace msi
 {
 
+// How much about a set of options suggests that they stand for something else: gains in disguise, and effects of a medium that
+// are there in every medium.
+int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std::size_t>& set);
+
 // Logarithm of the posterior probability of a set, but for a constant.
 //
 //   -m/2 log (Q + f G)  -  1/2 sum_i log(1 + information_i / phi)  -  surprise  -  sum of the options' improbabilities
@@ -33,7 +37,7 @@ public:
   double fitOf(double energy) const;
 
 private:
-  double improbability(const ObservedFit& fit) const;
+  double improbability(const std::vector<std::size_t>& set) const;
   double occam(const ObservedFit& fit) const;
 
   const Observation& Data;

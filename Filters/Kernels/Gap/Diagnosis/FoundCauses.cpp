@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 
+#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
@@ -177,15 +178,14 @@ std::vector<GapCandidate> foundCandidates(
 
 namespace
 {
-// Causes of a medium beside another of it, a parameter at its bound, and what the options tell.
+// Causes of a medium beside another of it, a parameter at its bound, and what the set tells.
 int standInsOf(const Observation& data, const ObservedFit& fit)
 {
   std::set<std::string> media;
-  int count = fit.atBound ? 1 : 0;
+  int count = signsOfStandIns(data.options(), fit.set) + (fit.atBound ? 1 : 0);
   for (const std::size_t option : fit.set)
   {
     const std::string& medium = data.options()[option].medium;
-    count += data.options()[option].standIns;
     count += !medium.empty() && !media.insert(medium).second ? 1 : 0;
   }
   return count;

@@ -21,11 +21,10 @@ struct GapOption
   const EffectDefinition* effect = nullptr;
   std::string form;
   std::string medium;
-  bool perChannel = false; // a number for every channel
-  double improbability =
-    0.0; // minus the logarithm of its probability before the data speak, but for its signs of standing in
-  bool besideLine = false; // FormTrait::BesideLine
-  int standIns = 0;        // signs that it stands for another effect
+  bool perChannel = false;    // a number for every channel
+  double improbability = 0.0; // minus the logarithm of its probability before the data speak
+  bool besideLine = false;    // FormTrait::BesideLine
+  bool inDisguise = false;    // also a gain, which white would take away
 
   // The same effect on the same medium, whatever the form; but for FormTrait::BesideLine.
   bool sameCause(const GapOption& other) const noexcept

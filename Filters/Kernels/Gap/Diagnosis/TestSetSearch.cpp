@@ -1,4 +1,5 @@
 // The search and what is said of it, on data of which everything is known: columns of numbers and their sums.
+#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Diagnosis/SetSearch.h"
 
@@ -199,6 +200,23 @@ TEST(SetSearch, AnEffectThatOnlyStoodInForOthersIsDropped)
   std::vector<std::size_t> set = foundSets(data).best->set;
   std::sort(set.begin(), set.end());
   EXPECT_EQ(set, (std::vector<std::size_t>{ 2, 3 }));
+}
+
+TEST(SignsOfStandIns, AnEffectOfEveryMediumIsNotTheMediums)
+{
+  const msi::EffectDefinition* gain = msi::findEffect("medium_gain");
+  const msi::EffectDefinition* gloss = msi::findEffect("specular_component");
+  std::vector<msi::GapOption> options{ { gain, "", "paper" }, { gain, "", "cotton" },
+    { gain, "again", "cotton" }, { gloss, "", "paper" }, { gloss, "", "cotton" },
+    { msi::findEffect("dark_offset"), "", "" } };
+  options.back().inDisguise = true;
+  EXPECT_EQ(msi::signsOfStandIns(options, {}), 0);
+  EXPECT_EQ(msi::signsOfStandIns(options, { 0 }), 0);
+  EXPECT_EQ(msi::signsOfStandIns(options, { 0, 4 }), 0);
+  EXPECT_EQ(msi::signsOfStandIns(options, { 0, 2, 4 }), 2);
+  EXPECT_EQ(msi::signsOfStandIns(options, { 5 }), 1);
+  // The only medium there is.
+  EXPECT_EQ(msi::signsOfStandIns({ options.front() }, { 0 }), 1);
 }
 
 TEST(SharesUnderPrecedence, AreShapleyValuesWithoutPrecedence)

@@ -24,13 +24,12 @@ const SampleFit& sampleFit(const ObservedFit& fit)
   return static_cast<const SampleFit&>(fit);
 }
 
-std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, const GapData& data)
+std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices)
 {
   std::vector<GapOption> options;
   for (const EffectChoice& choice : choices)
   {
     const auto& parameters = choice.form->parameters;
-    const bool onlyMedium = !choice.medium.empty() && data.scene.media().size() == 1;
     options.push_back({ choice.effect, choice.form->name, choice.medium,
       std::any_of(parameters.begin(), parameters.end(),
         [](const EffectParameter& parameter) { return parameter.perChannel && !parameter.given; }),
@@ -41,8 +40,7 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices, cons
               : static_cast<double>(
                   choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0))),
       choice.form->has(FormTrait::BesideLine),
-      (choice.form->has(FormTrait::Brightens) && !choice.whiteAfter ? 1 : 0) +
-        (onlyMedium ? 1 : 0) });
+      choice.form->has(FormTrait::Brightens) && !choice.whiteAfter });
   }
   return options;
 }
@@ -162,7 +160,7 @@ SampleObservation::SampleObservation(const GapData& data, SampleList training,
   const std::vector<EffectChoice>& choices, std::uint64_t seed)
   : Fitter(data, std::move(training), seed)
   , Choices(choices)
-  , Options(gapOptions(choices, data))
+  , Options(gapOptions(choices))
 {
 }
 

@@ -17,8 +17,7 @@ namespace
 {
 constexpr std::size_t EquivalentNamed = 2;
 constexpr std::size_t CellsNamed = 5;
-constexpr double Alike = 1e-9;             // shares
-constexpr std::size_t ChannelAndLevel = 3; // their bits
+constexpr double Alike = 1e-9; // shares
 
 // The first axis and its worst cell.
 std::string whereIs(const std::vector<GapAxis>& axes)
@@ -53,22 +52,6 @@ std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxi
     sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   return sorted;
 }
-}
-
-std::vector<double> shapleyOfAxes(std::size_t axes,
-  const std::function<double(std::size_t)>& explained, const std::function<void()>& contrast)
-{
-  const std::size_t subsets = std::size_t(1) << axes;
-  if (explained(ChannelAndLevel) >= (1.0 - Decision::SmallPart) * explained(subsets - 1))
-  {
-    contrast();
-  }
-  std::vector<double> value(subsets, 0.0);
-  for (std::size_t subset = 1; subset < subsets; ++subset)
-  {
-    value[subset] = explained(subset);
-  }
-  return shapleyValues(value, axes);
 }
 
 std::vector<GapCell> GapCells::worst() const
@@ -123,6 +106,12 @@ GapCells fifths(std::vector<std::pair<double, double>> pairs, const std::string&
 
 std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes)
 {
+  const double sum = std::accumulate(axes.begin(), axes.end(), 0.0,
+    [](double all, const GapAxis& axis) { return all + std::fmax(axis.share, 0.0); });
+  for (GapAxis& axis : axes)
+  {
+    axis.share /= std::fmax(sum, 1.0);
+  }
   axes.erase(std::remove_if(axes.begin(), axes.end(),
                [](const GapAxis& axis) { return !(axis.share > Decision::FormPart); }),
     axes.end());

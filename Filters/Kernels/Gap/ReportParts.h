@@ -4,7 +4,6 @@
 #include "Kernels/Gap/GapReport.h"
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <sstream>
 #include <string>
@@ -23,13 +22,6 @@ std::string textOf(int digits, const Parts&... parts)
   (text << ... << parts);
   return text.str();
 }
-
-// Shapley values of what the axes explain together. The first axis is the channel, the second the level.
-// explained: by the axes whose bits are set. Where channel and level alone explain nearly all, contrast() is called and the axes
-// are asked again: from then on the others are to leave out what is the same in all of their cells.
-std::vector<double> shapleyOfAxes(std::size_t axes,
-  const std::function<double(std::size_t subset)>& explained,
-  const std::function<void()>& contrast);
 
 // Energies sorted into named cells.
 class GapCells
@@ -65,7 +57,7 @@ struct GapPart
 // Energies in five parts of equal size, from small to large values. pairs: value and energy.
 GapCells fifths(std::vector<std::pair<double, double>> pairs, const std::string& name);
 
-// The axes with a share, the largest first.
+// The axes with a share, the largest first; shares that sum to more than 1 are scaled to do so.
 std::vector<GapAxis> worthNaming(std::vector<GapAxis> axes);
 
 // What is left unexplained, by the axes along which it lies.

@@ -1,11 +1,8 @@
 #include "Kernels/Gap/Samples/AxisShares.h"
 
-#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/AxisRegression.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Numerics/OrderStatistic.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -15,71 +12,111 @@ namespace msi
 
 namespace
 {
-constexpr double Ridge = 1e-4; // of the mean square of a column
 constexpr std::size_t ManyGroups = 6;
+constexpr int Gain = 1; // the number of its column
 
 using Elements = Eigen::ArrayXXd;                          // K x S
 using OfSamples = Eigen::Array<double, 1, Eigen::Dynamic>; // S
 
-// The regressors of the axes on the elements k + K i: the columns of one axis after the other.
+// The columns of the axes, K x S each, and last the gap; 0 where nothing was measured.
 class AxisColumns
 {
 public:
   explicit AxisColumns(const GapData& data)
-    : Measured(data.measured())
+    : Data(data)
   {
   }
-  // One row for all channels, or one for each.
-  void add(const Elements& values)
+  void axis(const char* name) { Bases.push_back({ name, {}, {}, {} }); }
+  // With a coefficient for all channels. Values of one row are those of every channel.
+  void common(const Elements& values) { Bases.back().common.push_back(add(values)); }
+  void commonAgain(int column) { Bases.back().common.push_back(column); }
+  // With one for each channel.
+  void own(const Elements& values) { Bases.back().own.push_back(add(values)); }
+  // All of the axis up to here.
+  void areOfCells()
   {
-    const Elements all = values.replicate(Measured.rows() / values.rows(), 1);
-    List.emplace_back(Measured.select(all, 0.0).reshaped());
-    AxisOf.push_back(Names.size());
+    AxisBasis& axis = Bases.back();
+    axis.cells = axis.common;
+    axis.cells.insert(axis.cells.end(), axis.own.begin(), axis.own.end());
   }
-  // One column a channel: the values in that channel, less the mean over the channels if centered.
-  void addEachChannel(const Elements& values, bool centered)
+  int add(const Elements& values)
   {
-    const double mean = centered ? 1.0 / static_cast<double>(Measured.rows()) : 0.0;
-    for (Eigen::Index c = 0; c < Measured.rows(); ++c)
-    {
-      Eigen::ArrayXd factor = Eigen::ArrayXd::Constant(Measured.rows(), -mean);
-      factor[c] += 1.0;
-      add(values.colwise() * factor);
-    }
+    const Elements all = values.replicate(Data.channels() / values.rows(), 1);
+    List.emplace_back(Data.measured().select(all, 0.0));
+    return static_cast<int>(List.size()) - 1;
   }
-  void finish(const char* axis) { Names.emplace_back(axis); }
 
-  const std::vector<std::string>& axes() const noexcept { return Names; }
-  // The numbers of the columns of some axes.
-  std::vector<Eigen::Index> of(std::size_t subset) const
+  const std::vector<AxisBasis>& axes() const noexcept { return Bases; }
+  // A fold held out each.
+  std::vector<AxisSplit> splits() const
   {
-    std::vector<Eigen::Index> chosen;
-    for (std::size_t c = 0; c < List.size(); ++c)
+    const auto count = static_cast<Eigen::Index>(List.size());
+    std::vector<AxisSplit> splits;
+    const auto channels = static_cast<std::size_t>(Data.channels());
+    const ChannelNormals none(channels, Eigen::MatrixXd::Zero(count, count));
+    splits.resize(static_cast<std::size_t>(Data.folds), { none, none });
+    ChannelNormals all = none;
+    for (std::size_t k = 0; k < channels; ++k)
     {
-      if ((subset >> AxisOf[c] & 1U) != 0)
+      for (std::size_t f = 0; f < splits.size(); ++f)
       {
-        chosen.push_back(static_cast<Eigen::Index>(c));
+        const std::vector<Eigen::Index> samples = samplesOf(static_cast<int>(f));
+        Eigen::MatrixXd rows(static_cast<Eigen::Index>(samples.size()), count);
+        for (Eigen::Index c = 0; c < count; ++c)
+        {
+          rows.col(c) =
+            List[static_cast<std::size_t>(c)](static_cast<Eigen::Index>(k), samples).transpose();
+        }
+        splits[f].test[k] = rows.transpose() * rows;
+        all[k] += splits[f].test[k];
+      }
+      for (AxisSplit& split : splits)
+      {
+        split.training[k] = all[k] - split.test[k];
       }
     }
-    return chosen;
+    return splits;
   }
-  // All, and last the gap; 0 where nothing was measured.
-  Eigen::MatrixXd with(const Eigen::MatrixXd& gap) const
+  // What coefficients leave of the folds that were held out.
+  Eigen::MatrixXd left(const PredictedEnergies& energies) const
   {
-    Eigen::MatrixXd all(gap.size(), static_cast<Eigen::Index>(List.size()) + 1);
-    for (std::size_t c = 0; c < List.size(); ++c)
+    Eigen::MatrixXd left = Eigen::MatrixXd::Zero(Data.channels(), Data.samples());
+    for (int f = 0; f < Data.folds; ++f)
     {
-      all.col(static_cast<Eigen::Index>(c)) = List[c];
+      for (const Eigen::Index i : samplesOf(f))
+      {
+        left.col(i) = List.back().col(i);
+        for (Eigen::Index k = 0; k < Data.channels(); ++k)
+        {
+          const Eigen::VectorXd& coefficient =
+            energies.coefficients[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)];
+          for (std::size_t c = 0; c + 1 < List.size(); ++c)
+          {
+            left(k, i) -= coefficient[static_cast<Eigen::Index>(c)] * List[c](k, i);
+          }
+        }
+      }
     }
-    all.rightCols(1) = gap.reshaped();
-    return all;
+    return left;
   }
 
 private:
-  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> Measured;
-  std::vector<std::string> Names;
-  std::vector<std::size_t> AxisOf; // of each column
-  std::vector<Eigen::VectorXd> List;
+  std::vector<Eigen::Index> samplesOf(int fold) const
+  {
+    std::vector<Eigen::Index> samples;
+    for (Eigen::Index i = 0; i < Data.samples(); ++i)
+    {
+      if (Data.fold[static_cast<std::size_t>(i)] == fold)
+      {
+        samples.push_back(i);
+      }
+    }
+    return samples;
+  }
+
+  const GapData& Data;
+  std::vector<AxisBasis> Bases;
+  std::vector<Eigen::MatrixXd> List;
 };
 
 // First and second derivative under every passband, per 100 nm.
@@ -102,26 +139,25 @@ Elements derivativeUnder(const GapData& data, int order)
   return data.camera.responsivity() * derivative;
 }
 
-void addGroups(AxisColumns& columns, const std::vector<int>& group, std::size_t count,
-  const Elements& u, bool contrasts)
+void addGroups(
+  AxisColumns& columns, const std::vector<int>& group, std::size_t count, const Elements& u)
 {
-  const int groups = static_cast<int>(count);
   const Eigen::Map<const Eigen::Array<int, 1, Eigen::Dynamic>> number(group.data(), u.cols());
-  for (int g = 0; g + (contrasts ? 1 : 0) < groups; ++g)
+  for (int g = 0; g < static_cast<int>(count); ++g)
   {
-    const OfSamples member =
-      (number == g).cast<double>() - (contrasts ? 1.0 / static_cast<double>(groups) : 0.0);
+    const OfSamples member = (number == g).cast<double>();
     if (count <= ManyGroups)
     {
-      columns.addEachChannel(member.replicate(u.rows(), 1), false);
-      columns.add(u.square().rowwise() * member);
+      columns.own(member);
+      columns.common(u.square().rowwise() * member);
     }
     else
     {
-      columns.add(member);
+      columns.common(member);
     }
-    columns.add(u.rowwise() * member);
+    columns.common(u.rowwise() * member);
   }
+  columns.areOfCells();
 }
 
 double upperLevel(const GapData& data)
@@ -156,149 +192,85 @@ Elements surroundMinusSelf(const GapData& data)
   return difference;
 }
 
-void addPosition(AxisColumns& columns, const GapData& data, const Elements& u, bool contrasts)
+void addPosition(AxisColumns& columns, const GapData& data, const Elements& u)
 {
   const OfSamples x = data.scene.fieldX().transpose();
   const OfSamples y = data.scene.fieldY().transpose();
-  const OfSamples square = x.square() + y.square();
-  for (const OfSamples& factor : { x, y, OfSamples(square - (contrasts ? square.mean() : 0.0)),
+  for (const OfSamples& factor : { x, y, OfSamples(x.square() + y.square()),
          OfSamples(x.square() - y.square()), OfSamples(x * y) })
   {
-    columns.add(u.rowwise() * factor);
+    columns.common(u.rowwise() * factor);
   }
-  columns.add(x);
-  columns.add(y);
-  columns.add(surroundMinusSelf(data));
+  columns.common(x);
+  columns.common(y);
+  columns.areOfCells();
+  columns.common(surroundMinusSelf(data));
 }
 
-void addOrder(AxisColumns& columns, const GapData& data, const Elements& u, bool contrasts)
+void addOrder(AxisColumns& columns, const GapData& data, const Elements& u)
 {
-  const double common = contrasts ? 1.0 : 0.0;
-  const OfSamples time = data.scene.time().transpose();
-  const OfSamples t = time - 0.5 * common;
-  columns.add(u.rowwise() * t);
-  columns.add(u.rowwise() * OfSamples(t.square() - common * t.square().mean()));
-  columns.add(t);
+  const OfSamples t = data.scene.time().transpose();
+  columns.own(u.rowwise() * t);
+  columns.common(u.rowwise() * OfSamples(t.square()));
+  columns.common(t);
   for (const double place : { 0.2, 0.4, 0.6, 0.8 })
   {
-    const OfSamples behind = (time > place).cast<double>() - common * (1.0 - place);
-    columns.add(u.rowwise() * behind);
+    columns.common(u.rowwise() * (t > place).cast<double>());
   }
-  columns.addEachChannel(u.rowwise() * t, true);
+  columns.areOfCells();
 }
 
 void addShape(AxisColumns& columns, const GapData& data, const Elements& u)
 {
-  columns.addEachChannel(derivativeUnder(data, 1), false);
-  columns.add(derivativeUnder(data, 2));
+  columns.own(derivativeUnder(data, 1));
+  columns.common(derivativeUnder(data, 2));
   const OfSamples mean = data.scene.reflectance().colwise().mean();
-  columns.add(mean.replicate(u.rows(), 1) - u);
+  columns.common(mean.replicate(u.rows(), 1) - u);
   Elements neighbours = Elements::Zero(u.rows(), u.cols());
   const Elements step = u.bottomRows(u.rows() - 1) - u.topRows(u.rows() - 1);
   neighbours.topRows(step.rows()) += step;
   neighbours.bottomRows(step.rows()) -= step;
-  columns.add(neighbours);
+  columns.common(neighbours);
 }
 
-// With `contrasts` the columns of medium, scene, position and order leave out what all of their cells have in common.
-AxisColumns axisColumns(const GapData& data, bool contrasts)
+AxisColumns axisColumns(const GapData& data, const Eigen::MatrixXd& gap)
 {
   const Elements u = data.simulated;
-  AxisColumns columns(data);
-  columns.addEachChannel(Elements::Ones(u.rows(), u.cols()), false);
-  columns.addEachChannel(u, true);
-  columns.finish("channel");
-  columns.add(u);
-  columns.add(u.square());
-  columns.add(u.cube());
-  columns.add((u - upperLevel(data)).cwiseMax(0.0));
-  columns.finish("level");
   const SampleScene& scene = data.scene;
+  AxisColumns columns(data);
+  columns.axis("channel");
+  columns.own(OfSamples::Ones(u.cols()));
+  columns.own(u);
+  columns.axis("level");
+  columns.commonAgain(Gain);
+  columns.common(u.square());
+  columns.common(u.cube());
+  columns.common((u - upperLevel(data)).cwiseMax(0.0));
   if (scene.media().size() > 1)
   {
-    addGroups(columns, scene.medium(), scene.media().size(), u, contrasts);
-    columns.finish("medium");
+    columns.axis("medium");
+    addGroups(columns, scene.medium(), scene.media().size(), u);
   }
   if (scene.scenes().size() > 1)
   {
-    addGroups(columns, scene.scene(), scene.scenes().size(), u, contrasts);
-    columns.finish("scene");
+    columns.axis("scene");
+    addGroups(columns, scene.scene(), scene.scenes().size(), u);
   }
   if (scene.hasPositions())
   {
-    addPosition(columns, data, u, contrasts);
-    columns.finish("position");
+    columns.axis("position");
+    addPosition(columns, data, u);
   }
   if (scene.hasOrder())
   {
-    addOrder(columns, data, u, contrasts);
-    columns.finish("order");
+    columns.axis("order");
+    addOrder(columns, data, u);
   }
+  columns.axis("spectral_shape");
   addShape(columns, data, u);
-  columns.finish("spectral_shape");
+  columns.add(gap);
   return columns;
 }
-
-// Ridge regressions of the gap on any subset of the axes, trained without one fold and tried on it.
-class FoldedRegression
-{
-public:
-  FoldedRegression(const GapData& data, const Eigen::MatrixXd& gap, bool contrasts)
-    : Bases(axisColumns(data, contrasts))
-    , Columns(Bases.with(gap))
-    , Held(static_cast<std::size_t>(data.folds))
-  {
-    for (Eigen::Index i = 0; i < data.samples(); ++i)
-    {
-      const int fold = data.fold[static_cast<std::size_t>(i)];
-      for (Eigen::Index k = 0; fold >= 0 && k < data.channels(); ++k)
-      {
-        Held[static_cast<std::size_t>(fold)].push_back(k + data.channels() * i);
-      }
-    }
-    All = Eigen::MatrixXd::Zero(Columns.cols(), Columns.cols());
-    for (const std::vector<Eigen::Index>& elements : Held)
-    {
-      const Eigen::MatrixXd rows = Columns(elements, Eigen::all);
-      Normal.emplace_back(rows.transpose() * rows);
-      All += Normal.back();
-    }
-  }
-
-  const std::vector<std::string>& axes() const noexcept { return Bases.axes(); }
-  double energy() const { return All(All.rows() - 1, All.rows() - 1); }
-
-  // Held-out energy that these axes explain. residual: what they leave, where it is asked for.
-  double explained(std::size_t subset, Eigen::MatrixXd* residual) const
-  {
-    const std::vector<Eigen::Index> chosen = Bases.of(subset);
-    const Eigen::Index gap = Columns.cols() - 1;
-    double left = 0.0;
-    for (std::size_t f = 0; f < Normal.size(); ++f)
-    {
-      const Eigen::MatrixXd others = All - Normal[f];
-      Eigen::MatrixXd normal = others(chosen, chosen);
-      normal.diagonal().array() += Ridge * All.diagonal()(chosen).array() + 1e-12;
-      Eigen::VectorXd change = Eigen::VectorXd::Zero(gap);
-      const Eigen::VectorXd gradient = others.col(gap)(chosen);
-      change(chosen) = normal.llt().solve(gradient).eval();
-      left += energyLeft(Normal[f], change);
-      if (residual != nullptr)
-      {
-        const Eigen::MatrixXd rows = Columns(Held[f], Eigen::all);
-        residual->reshaped()(Held[f]) = rows.col(gap) - rows.leftCols(gap) * change;
-      }
-    }
-    return energy() - left;
-  }
-
-private:
-  AxisColumns Bases;
-  Eigen::MatrixXd Columns;                     // of the axes, and last the gap
-  std::vector<std::vector<Eigen::Index>> Held; // elements, of each fold
-  std::vector<Eigen::MatrixXd> Normal;         // of each fold
-  Eigen::MatrixXd All;
-};
 
 // The medium, scene, third of the field or fifth of the order of a sample, or itself.
 std::string sampleCell(const GapData& data, const std::string& axis, Eigen::Index i)
@@ -358,35 +330,18 @@ double sampleEnergy(const GapData& data, const Eigen::MatrixXd& residual)
 
 AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap)
 {
-  FoldedRegression regression(data, gap, false);
+  const AxisColumns columns = axisColumns(data, gap);
+  const PredictedEnergies energies = predictedEnergies(columns.axes(), columns.splits(), Gain);
   AxisShares shares;
-  shares.heldOutResidual = Eigen::MatrixXd::Zero(data.channels(), data.samples());
-  const std::size_t count = regression.axes().size();
-  const std::vector<double> shapley = shapleyOfAxes(
-    count,
-    [&](std::size_t subset)
-    {
-      const bool all = subset + 1 == std::size_t(1) << count;
-      const double explained =
-        regression.explained(subset, all ? &shares.heldOutResidual : nullptr);
-      shares.predictable = all ? std::fmax(explained, 0.0) : shares.predictable;
-      return explained;
-    },
-    [&] { regression = FoldedRegression(data, gap, true); });
+  shares.predictable = std::fmax(energies.all, 0.0);
+  shares.heldOutResidual = columns.left(energies);
   const double noise = (data.measured().cast<double>() * data.variance.array()).sum();
-  const double beyond = std::fmax(regression.energy() - noise, 1e-300);
-  double total = 0.0;
-  for (std::size_t a = 0; a < count; ++a)
+  const double beyond = std::fmax(energies.before - noise, 1e-300);
+  for (std::size_t a = 0; a < energies.axis.size(); ++a)
   {
-    shares.axes.push_back({ regression.axes()[a], std::fmax(shapley[a] / beyond, 0.0), {} });
-    total += shares.axes.back().share;
+    shares.axes.push_back({ columns.axes()[a].axis, energies.axis[a] / beyond, {} });
   }
   shares.axes.push_back({ "sample", sampleEnergy(data, shares.heldOutResidual) / beyond, {} });
-  total += shares.axes.back().share;
-  for (GapAxis& axis : shares.axes)
-  {
-    axis.share /= std::fmax(total, 1.0);
-  }
   shares.axes = worthNaming(std::move(shares.axes));
   for (GapAxis& axis : shares.axes)
   {

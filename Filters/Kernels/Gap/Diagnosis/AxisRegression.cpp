@@ -1,0 +1,207 @@
+#include "Kernels/Gap/Diagnosis/AxisRegression.h"
+
+#include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Shrink.h"
+#include "Kernels/Numerics/LeastSquares.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+
+namespace msi
+{
+
+namespace
+{
+constexpr double Ridge = 1e-4; // of the square of a column
+constexpr std::size_t Channel = 1;
+constexpr std::size_t ChannelAndLevel = 3; // their bits
+
+using Coefficients = std::vector<Eigen::VectorXd>; // of each channel
+
+Eigen::MatrixXd ridged(Eigen::MatrixXd matrix)
+{
+  matrix.diagonal() *= 1.0 + Ridge;
+  matrix.diagonal().array() += 1e-12;
+  return matrix;
+}
+
+std::vector<int> without(std::vector<int> some, const std::vector<int>& others)
+{
+  some.erase(
+    std::remove_if(some.begin(), some.end(),
+      [&others](int one) { return std::find(others.begin(), others.end(), one) != others.end(); }),
+    some.end());
+  return some;
+}
+
+// The coefficients of a channel meet only each other and the common ones: they are eliminated channel by channel.
+Coefficients regress(
+  const ChannelNormals& normal, const std::vector<int>& common, const std::vector<int>& own)
+{
+  const Eigen::Index gap = normal.front().cols() - 1;
+  const auto C = static_cast<Eigen::Index>(common.size());
+  std::vector<int> others = common;
+  others.push_back(static_cast<int>(gap));
+  Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(C + 1, C + 1);
+  for (const Eigen::MatrixXd& N : normal)
+  {
+    reduced += N(others, others);
+  }
+  reduced.topLeftCorner(C, C) = ridged(reduced.topLeftCorner(C, C));
+  // The channel's coefficients that go with the common ones, and those of the gap.
+  std::vector<Eigen::MatrixXd> byOthers;
+  for (const Eigen::MatrixXd& N : normal)
+  {
+    const Eigen::MatrixXd across = N(own, others);
+    byOthers.emplace_back(ridged(N(own, own)).ldlt().solve(across));
+    reduced -= across.transpose() * byOthers.back();
+  }
+  const Eigen::VectorXd shared = reduced.topLeftCorner(C, C).ldlt().solve(reduced.col(C).head(C));
+  Coefficients coefficients;
+  for (const Eigen::MatrixXd& mine : byOthers)
+  {
+    coefficients.emplace_back(Eigen::VectorXd::Zero(gap));
+    coefficients.back()(own) = mine.col(C) - mine.leftCols(C) * shared;
+    coefficients.back()(common) = shared;
+  }
+  return coefficients;
+}
+
+// The same with gains whose mean over the channels is taken off.
+Coefficients regressWithoutCommonGain(
+  ChannelNormals normal, const std::vector<int>& common, const std::vector<int>& own, int gain)
+{
+  const Coefficients free = regress(normal, common, own);
+  double mean = 0.0;
+  for (const Eigen::VectorXd& one : free)
+  {
+    mean += one[gain] / static_cast<double>(free.size());
+  }
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    const Eigen::VectorXd along = normal[k].col(gain);
+    normal[k].rightCols(1) -= (free[k][gain] - mean) * along;
+  }
+  Coefficients coefficients = regress(normal, common, without(own, { gain }));
+  for (std::size_t k = 0; k < normal.size(); ++k)
+  {
+    coefficients[k][gain] = free[k][gain] - mean;
+  }
+  return coefficients;
+}
+
+// Takes from the columns of cells what those of channel and level can do in the training data of a channel.
+void leaveContrasts(const std::vector<AxisBasis>& axes, AxisSplit& split)
+{
+  std::vector<int> base = axes[0].own;
+  for (const std::vector<int>& more : { without(axes[1].common, base), without(axes[1].own, base) })
+  {
+    base.insert(base.end(), more.begin(), more.end());
+  }
+  std::vector<int> cells;
+  for (const AxisBasis& axis : axes)
+  {
+    cells.insert(cells.end(), axis.cells.begin(), axis.cells.end());
+  }
+  for (std::size_t k = 0; k < split.training.size(); ++k)
+  {
+    const Eigen::MatrixXd& N = split.training[k];
+    Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(N.rows(), N.cols());
+    mix(base, cells) = -ridged(N(base, base)).ldlt().solve(N(base, cells).eval());
+    split.training[k] = mix.transpose() * split.training[k] * mix;
+    split.test[k] = mix.transpose() * split.test[k] * mix;
+  }
+}
+
+class AxisRegression
+{
+public:
+  AxisRegression(const std::vector<AxisBasis>& axes, std::vector<AxisSplit> splits, int gain)
+    : Axes(axes)
+    , Splits(std::move(splits))
+    , Gain(gain)
+  {
+    for (const AxisSplit& split : Splits)
+    {
+      for (const Eigen::MatrixXd& N : split.test)
+      {
+        Before += N(N.rows() - 1, N.cols() - 1);
+      }
+    }
+  }
+
+  double before() const noexcept { return Before; }
+  Coefficients coefficients(const AxisSplit& split, std::size_t subset) const
+  {
+    std::vector<int> common;
+    std::vector<int> own;
+    for (std::size_t a = 0; a < Axes.size(); ++a)
+    {
+      if ((subset >> a & 1U) != 0)
+      {
+        common.insert(common.end(), Axes[a].common.begin(), Axes[a].common.end());
+        own.insert(own.end(), Axes[a].own.begin(), Axes[a].own.end());
+      }
+    }
+    // What every channel has of its own needs no common one.
+    common = without(std::move(common), own);
+    return (subset & ChannelAndLevel) == Channel
+      ? regressWithoutCommonGain(split.training, common, own, Gain)
+      : regress(split.training, common, own);
+  }
+  double predicted(std::size_t subset) const
+  {
+    double left = 0.0;
+    for (const AxisSplit& split : Splits)
+    {
+      const Coefficients change = coefficients(split, subset);
+      for (std::size_t k = 0; k < change.size(); ++k)
+      {
+        left += energyLeft(split.test[k], change[k]);
+      }
+    }
+    return Before - left;
+  }
+  void leaveContrasts()
+  {
+    for (AxisSplit& split : Splits)
+    {
+      msi::leaveContrasts(Axes, split);
+    }
+  }
+
+private:
+  const std::vector<AxisBasis>& Axes;
+  std::vector<AxisSplit> Splits;
+  int Gain;
+  double Before = 0.0;
+};
+}
+
+PredictedEnergies predictedEnergies(
+  const std::vector<AxisBasis>& axes, const std::vector<AxisSplit>& splits, int gain)
+{
+  AxisRegression regression(axes, splits, gain);
+  const std::size_t subsets = std::size_t(1) << axes.size();
+  PredictedEnergies energies;
+  energies.before = regression.before();
+  energies.all = regression.predicted(subsets - 1);
+  for (const AxisSplit& split : splits)
+  {
+    energies.coefficients.push_back(regression.coefficients(split, subsets - 1));
+  }
+  if (regression.predicted(ChannelAndLevel) >= (1.0 - Decision::SmallPart) * energies.all)
+  {
+    regression.leaveContrasts();
+  }
+  std::vector<double> value(subsets, 0.0);
+  for (std::size_t subset = 1; subset < subsets; ++subset)
+  {
+    value[subset] = regression.predicted(subset);
+  }
+  energies.axis = shapleyValues(value, axes.size());
+  return energies;
+}
+
+} // namespace msi

@@ -1,0 +1,45 @@
+// How much of a gap's energy each axis predicts of data that took no part: what tables and image pairs have in common.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+// Numbers of columns of the normal matrices: with one coefficient for all channels, or one for each.
+struct AxisBasis
+{
+  std::string axis;
+  std::vector<int> common, own;
+  // Those of cells (media, places, times): a gap that is the same in all of them is not the axis's where channel and level alone
+  // predict nearly all that the axes predict.
+  std::vector<int> cells;
+};
+
+// Of K channels, products of P + 1 columns, the last of which is the gap.
+using ChannelNormals = std::vector<Eigen::MatrixXd>;
+
+struct AxisSplit
+{
+  ChannelNormals training, test;
+};
+
+struct PredictedEnergies
+{
+  double before = 0.0;      // of the test data
+  double all = 0.0;         // predicted by all axes together
+  std::vector<double> axis; // of each, Shapley values; a common gain is the level's
+  // Coefficients of the columns by which all axes together predict: of each split those of each channel, P.
+  std::vector<std::vector<Eigen::VectorXd>> coefficients;
+};
+
+// Ridge regressions on all subsets of the axes, on each split's training data, tried on its test data.
+//   axes: the first is the channel, with `gain` among its own columns, the second the level.
+// Source: Shapley values as in Shrink.h.
+PredictedEnergies predictedEnergies(
+  const std::vector<AxisBasis>& axes, const std::vector<AxisSplit>& splits, int gain);
+
+} // namespace msi

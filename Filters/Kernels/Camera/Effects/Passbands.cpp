@@ -76,7 +76,8 @@ private:
 class PassbandsOfNeighbours : public ResponsivityOperator
 {
 public:
-  PassbandsOfNeighbours(const Eigen::ArrayXd& centers, double shift, double variance)
+  PassbandsOfNeighbours(
+    const WavelengthGrid& grid, const Eigen::ArrayXd& centers, double shift, double variance)
     : Change(Eigen::MatrixXd::Identity(centers.size(), centers.size()))
   {
     std::vector<Eigen::Index> order(static_cast<std::size_t>(centers.size()));
@@ -87,6 +88,12 @@ public:
     {
       const std::size_t first = std::min(n > 0 ? n - 1 : 0, order.size() - 3);
       const double at = centers[order[n]] + shift;
+      // At an end where the grid has no room for a further neighbour, what would go beyond stays.
+      const std::size_t inner = n == 0 ? 1 : n - 1;
+      const double step = std::fabs(centers[order[inner]] - centers[order[n]]);
+      const bool atEnd = (n == 0 && centers[order[n]] - step < grid.front()) ||
+        (n + 1 == order.size() && centers[order[n]] + step > grid.back());
+      const double curved = atEnd ? 0.0 : variance;
       Eigen::RowVector3d weight;
       for (std::size_t i = 0; i < 3; ++i)
       {
@@ -94,7 +101,7 @@ public:
         const double one = centers[order[first + (i + 1) % 3]];
         const double other = centers[order[first + (i + 2) % 3]];
         const double area = (own - one) * (own - other);
-        weight[static_cast<Eigen::Index>(i)] = ((at - one) * (at - other) + variance) / area;
+        weight[static_cast<Eigen::Index>(i)] = ((at - one) * (at - other) + curved) / area;
       }
       if (weight.allFinite())
       {
@@ -102,6 +109,12 @@ public:
         for (std::size_t i = 0; i < 3; ++i)
         {
           Change(order[n], order[first + i]) = weight[static_cast<Eigen::Index>(i)];
+        }
+        if (atEnd)
+        {
+          const double exchanged = 0.5 * variance / (step * step);
+          Change(order[n], order[n]) -= exchanged;
+          Change(order[n], order[inner]) += exchanged;
         }
       }
     }
@@ -126,7 +139,7 @@ std::unique_ptr<ResponsivityOperator> makePassbandsOfNeighbours(
   const BoundEffect& effect, double shift, double variance)
 {
   return std::make_unique<PassbandsOfNeighbours>(
-    passbandCentroids(effect.camera()), shift, variance);
+    effect.camera().wavelengths(), passbandCentroids(effect.camera()), shift, variance);
 }
 
 bool goesByNeighbours(const BoundEffect& effect)

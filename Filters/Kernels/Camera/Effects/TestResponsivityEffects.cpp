@@ -154,6 +154,38 @@ TEST_F(PassbandsOfNeighbours, AWidthAddsItsVarianceToASquare)
   }
 }
 
+// Passbands at 400, 420, ... 700 nm leave the grid no room for another one: at the ends a half of v / h^2 of the step to the
+// neighbour is exchanged.
+TEST(FilterBandwidth, OfNeighboursKeepsWhatWouldGoBeyondTheGrid)
+{
+  const WavelengthGrid grid = fineGrid();
+  const Eigen::Index last = grid.size() - 1;
+  Eigen::MatrixXd responsivity = Eigen::MatrixXd::Zero(4, grid.size());
+  const std::array<Eigen::Index, 4> center{ 0, last / 3, 2 * last / 3, last };
+  for (std::size_t k = 0; k < 4; ++k)
+  {
+    responsivity(static_cast<Eigen::Index>(k), center[k]) = 1.0;
+  }
+  const msi::CameraModel camera(grid, responsivity, Eigen::VectorXd::Zero(4));
+  msi::SceneSamples samples;
+  samples.reflectance = ((grid.vector().array() - grid.front()) / 300.0).square().matrix();
+  const msi::SampleScene scene(grid, samples);
+  const double variance = 90.0;
+  const Eigen::VectorXd nominal = CameraSimulator(camera, {}).respond(scene);
+  const Eigen::VectorXd change =
+    CameraSimulator(camera, { { "filter_bandwidth", "of_neighbours", "", { variance } } })
+      .respond(scene) -
+    nominal;
+  const auto exchanged = [&](Eigen::Index own, Eigen::Index inner)
+  {
+    const double step =
+      grid[center[static_cast<std::size_t>(own)]] - grid[center[static_cast<std::size_t>(inner)]];
+    return 0.5 * variance / (step * step) * (nominal[inner] - nominal[own]);
+  };
+  EXPECT_NEAR(change[0], exchanged(0, 1), 1e-12);
+  EXPECT_NEAR(change[3], exchanged(3, 2), 1e-12);
+}
+
 TEST_F(PassbandsOfNeighbours, WhiteKeepsItsResponse)
 {
   const Eigen::ArrayXd white = Eigen::ArrayXd::Ones(fineGrid().size());

@@ -21,16 +21,19 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& symmetric)
 }
 }
 
-LinearFit::LinearFit(
-  std::vector<FreeNumber> numbers, std::vector<NormalEquations> folds, bool besideOthers)
+LinearFit::LinearFit(std::vector<FreeNumber> numbers, std::vector<NormalEquations> folds,
+  bool besideOthers, double dispersion)
   : Numbers(std::move(numbers))
   , Folds(std::move(folds))
   , All(static_cast<Eigen::Index>(Numbers.size()))
   , Precision(All.matrix)
+  , Dispersion(dispersion)
   , Off(All.gradient)
 {
-  for (const NormalEquations& fold : Folds)
+  for (NormalEquations& fold : Folds)
   {
+    fold.matrix /= Dispersion;
+    fold.gradient /= Dispersion;
     All.matrix += fold.matrix;
     All.gradient += fold.gradient;
   }
@@ -108,13 +111,13 @@ void LinearFit::settle()
 double LinearFit::penalty(const Eigen::VectorXd& step) const
 {
   const Eigen::VectorXd off = step - Off;
-  return off.dot(Precision * off);
+  return Dispersion * off.dot(Precision * off);
 }
 
 Eigen::MatrixXd LinearFit::covariance(const Eigen::MatrixXd& scores) const
 {
   const auto groups = static_cast<double>(scores.cols());
-  const Eigen::MatrixXd half = inverseOf(All.matrix + Precision) * scores;
+  const Eigen::MatrixXd half = inverseOf(All.matrix + Precision) * (scores / Dispersion);
   return groups / std::max(groups - 1.0, 1.0) * half * half.transpose();
 }
 
@@ -129,7 +132,7 @@ void LinearFit::describe(ObservedFit& fit, const Eigen::VectorXd& step) const
     fit.atBound = fit.atBound || room < Rounding * number.typical;
   }
   const LearnedPrior prior(moved);
-  fit.information = prior.informationOf(All.matrix);
+  fit.information = prior.informationOf(information());
   fit.surprise = prior.surprise;
   fit.chanceOfCurve = prior.chanceOfCurve;
 }

@@ -31,13 +31,16 @@ struct NormalEquations
 // Prior: normal about FreeNumber::wanted, with the precision fitPrecision(). Numbers of single channels learn their variance
 //   where another effect is in the set, so that these keep to what the channels do not have in common.
 // Bounds: a number that would pass one is held there, and the others are solved for again.
+// The data count less the more is left: their precision is that of noise over the dispersion.
 // The estimate without a fold comes from the normal equations without it: exact where the residuals are linear.
 class LinearFit
 {
 public:
   LinearFit() = default;
-  // folds: equations of each, about the numbers' deviations. besideOthers: whether the set has several effects.
-  LinearFit(std::vector<FreeNumber> numbers, std::vector<NormalEquations> folds, bool besideOthers);
+  // folds: equations of each, about the numbers' deviations. besideOthers: whether the set has several effects. dispersion: variance
+  // of a weighted residual, by which the data count less beside the prior.
+  LinearFit(std::vector<FreeNumber> numbers, std::vector<NormalEquations> folds, bool besideOthers,
+    double dispersion = 1.0);
 
   // damping: part by which the diagonal is larger (Levenberg and Marquardt).
   Eigen::VectorXd step(double damping = 0.0) const { return step(All, damping); }
@@ -55,8 +58,8 @@ public:
   void describe(ObservedFit& fit, const Eigen::VectorXd& step) const;
   void describe(ObservedFit& fit) const { describe(fit, Eigen::VectorXd::Zero(Off.size())); }
 
-  const Eigen::MatrixXd& information() const noexcept { return All.matrix; } // without prior
-  const Eigen::MatrixXd& precision() const noexcept { return Precision; }    // of the prior
+  Eigen::MatrixXd information() const { return Dispersion * All.matrix; } // without prior
+  const Eigen::MatrixXd& precision() const noexcept { return Precision; } // of the prior
 
 private:
   Eigen::VectorXd step(NormalEquations equations, double damping) const;
@@ -66,6 +69,7 @@ private:
   std::vector<NormalEquations> Folds;
   NormalEquations All;
   Eigen::MatrixXd Precision;
+  double Dispersion = 1.0;
   Eigen::VectorXd Off; // from the number to what its prior wants
 };
 

@@ -49,6 +49,21 @@ TEST(LinearFit, AMeanIsThatOfTheData)
   EXPECT_NEAR(fit.penalty(Eigen::VectorXd::Constant(1, 2.0)), 4.0 * Wide, 1e-15);
 }
 
+// Residuals with a variance of 4 hold a number four times less against its prior; information and error are those of the data.
+TEST(LinearFit, DataCountLessWithTheirDispersion)
+{
+  FreeNumber number;
+  const LinearFit fit({ number },
+    { equations(Eigen::MatrixXd::Constant(1, 1, 5.0), Eigen::VectorXd::Constant(1, 7.0)) }, false,
+    4.0);
+  EXPECT_NEAR(fit.step()[0], 7.0 / (5.0 + 4.0 * Wide), 1e-12);
+  EXPECT_NEAR(fit.information()(0, 0), 5.0, 1e-12);
+  EXPECT_NEAR(fit.penalty(Eigen::VectorXd::Constant(1, 2.0)), 16.0 * Wide, 1e-14);
+  const Eigen::RowVectorXd scores = Eigen::RowVector4d(2.0, -2.0, 2.0, -2.0);
+  EXPECT_NEAR(
+    fit.covariance(scores)(0, 0), 16.0 / std::pow(5.0 + 4.0 * Wide, 2) * 4.0 / 3.0, 1e-12);
+}
+
 // Without data a number goes where its prior wants it.
 TEST(LinearFit, WithoutDataThePriorDecides)
 {

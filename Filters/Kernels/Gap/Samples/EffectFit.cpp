@@ -112,8 +112,12 @@ void EffectFitter::linearise(EffectFit& fit, const StagedResponse& here,
   {
     folds.push_back(normalEquations(fit.jacobian, trust, left, fit.free, fit.set.reach(), members));
   }
-  fit.linear =
-    LinearFit({ fit.free.begin(), fit.free.end() }, std::move(folds), fit.set.size() > 1);
+  // What is left beyond noise counts as in the criterion.
+  const double numbers =
+    std::min(static_cast<double>(Training.size()), Decision::DiscrepancyNumbers);
+  const double dispersion = std::fmax((huberCost(residual, root) - NoiseEnergy) / numbers, 1.0);
+  fit.linear = LinearFit(
+    { fit.free.begin(), fit.free.end() }, std::move(folds), fit.set.size() > 1, dispersion);
 }
 
 EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const

@@ -57,20 +57,6 @@ private:
   double Steps;
 };
 
-// The samples of a fold, or all but those.
-SampleList samplesOf(const GapData& data, int fold, bool inside)
-{
-  SampleList some;
-  for (const Eigen::Index i : data.usable)
-  {
-    if ((data.fold[static_cast<std::size_t>(i)] == fold) == inside)
-    {
-      some.push_back(i);
-    }
-  }
-  return some;
-}
-
 // Adds the regular part of what is left of samples held out. predicted: of each fold, and last by all samples.
 void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::MatrixXd>& predicted,
   const GapOptions& options, Eigen::MatrixXd& after)

@@ -4,6 +4,7 @@ import os
 import re
 
 from . import command, effect_sizes, gap_pictures, pipeline, report
+from .gap_pictures import LIKELY
 
 # The outputs of Sim To Real Gap; those that are kept as tables.
 PORTS = {"summary": 0, "where": 1, "causes": 2, "candidates": 3, "heat-map": 4, "trend": 5, "samples": 6,
@@ -34,7 +35,6 @@ AXES = {
 
 # Probability from which the summary speaks of something that the library does not have.
 UNKNOWN_IS_SAID = 0.2
-LIKELY = 0.5
 
 
 class Diagnosis:

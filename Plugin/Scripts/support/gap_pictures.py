@@ -9,10 +9,11 @@ from . import outputs, painter
 
 # Okabe and Ito's palette: told apart with any color vision.
 _BEFORE, _AFTER, _FLOOR, _PLAIN = "#D55E00", "#0072B2", "#009E73", "#B0B0B0"
-_DOUBTED = "#A6CDE3"  # the blue of what is known, pale
+_DOUBTED = "#A6CDE3"  # the blue of what is likely, pale
 _STYLE = {"font.size": 11, "axes.spines.top": False, "axes.spines.right": False,
           "axes.axisbelow": True, "figure.dpi": 110, "savefig.bbox": "tight"}
 NAMES = ("gap-map.png", "axes.png", "where.png", "map.png", "trend.png", "which.png", "how-far.png")
+LIKELY = 0.5  # probability from which a cause is not only a possible one
 _MOST_LABELS = 40
 _MOST_SCENES = 4
 _MOST_CHANNELS = 18
@@ -244,11 +245,12 @@ def _causes(plot, found, left):
     for place, (cause, _) in enumerate(found):
         if cause:
             share, first = cause["share"], place
-            plot.barh(place, share, color=_AFTER if cause["probability"] >= 0.5 else _DOUBTED)
+            likely = cause["probability"] >= LIKELY
+            plot.barh(place, share, color=_AFTER if likely else _DOUBTED)
             inside = share > 0.7
             plot.text(share, place, f" {100 * share:.0f} %, probability {100 * cause['probability']:.0f} % ", va="center",
                       ha="right" if inside else "left",
-                      color="white" if inside and cause["probability"] >= 0.5 else "black")
+                      color="white" if inside and likely else "black")
         else:
             plot.barh(place, share, facecolor="white", edgecolor=_PLAIN, hatch="//")
         if place + 1 == len(found) or found[place + 1][0]:

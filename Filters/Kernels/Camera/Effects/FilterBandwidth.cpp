@@ -69,7 +69,8 @@ Effect filterBandwidth()
         FormTrait::KeepsWhite },
       { "of_neighbours",
         "M + added_variance / 2 times the second derivative over the neighbouring channels, "
-        "response to white kept: for a camera that was fitted to samples",
+        "response to white kept, at an end of the grid what would go beyond stays: for a camera "
+        "that was fitted to samples",
         { { "added_variance", "nm^2", 0.0, -200.0, 400.0, 15.0,
           "variance of the real passband beyond the nominal one" } },
         {}, FormTrait::KeepsWhite },

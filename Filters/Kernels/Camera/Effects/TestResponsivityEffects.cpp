@@ -154,8 +154,8 @@ TEST_F(PassbandsOfNeighbours, AWidthAddsItsVarianceToASquare)
   }
 }
 
-// Passbands at 400, 420, ... 700 nm leave the grid no room for another one: at the ends a half of v / h^2 of the step to the
-// neighbour is exchanged.
+// Passbands of one wavelength at both ends of the grid and two between leave it no room for another one: at the ends v / 2 h^2 of
+// the difference to the neighbour is exchanged.
 TEST(FilterBandwidth, OfNeighboursKeepsWhatWouldGoBeyondTheGrid)
 {
   const WavelengthGrid grid = fineGrid();

@@ -91,14 +91,34 @@ Coefficients regressWithoutCommonGain(
   return coefficients;
 }
 
+// Columns of the axes whose bits are set.
+struct Columns
+{
+  std::vector<int> common, own;
+};
+
+Columns columnsOf(const std::vector<AxisBasis>& axes, std::size_t subset)
+{
+  Columns columns;
+  for (std::size_t a = 0; a < axes.size(); ++a)
+  {
+    if ((subset >> a & 1U) != 0)
+    {
+      columns.common.insert(columns.common.end(), axes[a].common.begin(), axes[a].common.end());
+      columns.own.insert(columns.own.end(), axes[a].own.begin(), axes[a].own.end());
+    }
+  }
+  // What every channel has of its own needs no common one.
+  columns.common = without(std::move(columns.common), columns.own);
+  return columns;
+}
+
 // Takes from the columns of cells what those of channel and level can do in the training data of a channel.
 void leaveContrasts(const std::vector<AxisBasis>& axes, AxisSplit& split)
 {
-  std::vector<int> base = axes[0].own;
-  for (const std::vector<int>& more : { without(axes[1].common, base), without(axes[1].own, base) })
-  {
-    base.insert(base.end(), more.begin(), more.end());
-  }
+  const Columns base = columnsOf(axes, ChannelAndLevel);
+  std::vector<int> others = base.own;
+  others.insert(others.end(), base.common.begin(), base.common.end());
   std::vector<int> cells;
   for (const AxisBasis& axis : axes)
   {
@@ -108,97 +128,67 @@ void leaveContrasts(const std::vector<AxisBasis>& axes, AxisSplit& split)
   {
     const Eigen::MatrixXd& N = split.training[k];
     Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(N.rows(), N.cols());
-    mix(base, cells) = -ridged(N(base, base)).ldlt().solve(N(base, cells).eval());
+    mix(others, cells) = -ridged(N(others, others)).ldlt().solve(N(others, cells).eval());
     split.training[k] = mix.transpose() * split.training[k] * mix;
     split.test[k] = mix.transpose() * split.test[k] * mix;
   }
 }
 
-class AxisRegression
+// What coefficients leave of the test data.
+double leftOf(const ChannelNormals& test, const Coefficients& coefficients)
 {
-public:
-  AxisRegression(const std::vector<AxisBasis>& axes, std::vector<AxisSplit> splits, int gain)
-    : Axes(axes)
-    , Splits(std::move(splits))
-    , Gain(gain)
+  double left = 0.0;
+  for (std::size_t k = 0; k < test.size(); ++k)
   {
-    for (const AxisSplit& split : Splits)
-    {
-      for (const Eigen::MatrixXd& N : split.test)
-      {
-        Before += N(N.rows() - 1, N.cols() - 1);
-      }
-    }
+    left += energyLeft(test[k], coefficients[k]);
   }
-
-  double before() const noexcept { return Before; }
-  Coefficients coefficients(const AxisSplit& split, std::size_t subset) const
-  {
-    std::vector<int> common;
-    std::vector<int> own;
-    for (std::size_t a = 0; a < Axes.size(); ++a)
-    {
-      if ((subset >> a & 1U) != 0)
-      {
-        common.insert(common.end(), Axes[a].common.begin(), Axes[a].common.end());
-        own.insert(own.end(), Axes[a].own.begin(), Axes[a].own.end());
-      }
-    }
-    // What every channel has of its own needs no common one.
-    common = without(std::move(common), own);
-    return (subset & ChannelAndLevel) == Channel
-      ? regressWithoutCommonGain(split.training, common, own, Gain)
-      : regress(split.training, common, own);
-  }
-  double predicted(std::size_t subset) const
-  {
-    double left = 0.0;
-    for (const AxisSplit& split : Splits)
-    {
-      const Coefficients change = coefficients(split, subset);
-      for (std::size_t k = 0; k < change.size(); ++k)
-      {
-        left += energyLeft(split.test[k], change[k]);
-      }
-    }
-    return Before - left;
-  }
-  void leaveContrasts()
-  {
-    for (AxisSplit& split : Splits)
-    {
-      msi::leaveContrasts(Axes, split);
-    }
-  }
-
-private:
-  const std::vector<AxisBasis>& Axes;
-  std::vector<AxisSplit> Splits;
-  int Gain;
-  double Before = 0.0;
-};
+  return left;
+}
 }
 
 PredictedEnergies predictedEnergies(
-  const std::vector<AxisBasis>& axes, const std::vector<AxisSplit>& splits, int gain)
+  const std::vector<AxisBasis>& axes, std::vector<AxisSplit> splits, int gain)
 {
-  AxisRegression regression(axes, splits, gain);
-  const std::size_t subsets = std::size_t(1) << axes.size();
+  const auto coefficients = [&](const AxisSplit& split, std::size_t subset)
+  {
+    const Columns columns = columnsOf(axes, subset);
+    return (subset & ChannelAndLevel) == Channel
+      ? regressWithoutCommonGain(split.training, columns.common, columns.own, gain)
+      : regress(split.training, columns.common, columns.own);
+  };
   PredictedEnergies energies;
-  energies.before = regression.before();
-  energies.all = regression.predicted(subsets - 1);
+  const auto predicted = [&](std::size_t subset)
+  {
+    double left = 0.0;
+    for (const AxisSplit& split : splits)
+    {
+      left += leftOf(split.test, coefficients(split, subset));
+    }
+    return energies.before - left;
+  };
+  const std::size_t subsets = std::size_t(1) << axes.size();
+  double left = 0.0;
   for (const AxisSplit& split : splits)
   {
-    energies.coefficients.push_back(regression.coefficients(split, subsets - 1));
+    for (const Eigen::MatrixXd& N : split.test)
+    {
+      energies.before += N(N.rows() - 1, N.cols() - 1);
+    }
+    energies.coefficients.push_back(coefficients(split, subsets - 1));
+    left += leftOf(split.test, energies.coefficients.back());
   }
-  if (regression.predicted(ChannelAndLevel) >= (1.0 - Decision::SmallPart) * energies.all)
+  energies.all = energies.before - left;
+  if (predicted(ChannelAndLevel) >= (1.0 - Decision::SmallPart) * energies.all)
   {
-    regression.leaveContrasts();
+    for (AxisSplit& split : splits)
+    {
+      leaveContrasts(axes, split);
+    }
   }
   std::vector<double> value(subsets, 0.0);
   for (std::size_t subset = 1; subset < subsets; ++subset)
   {
-    value[subset] = regression.predicted(subset);
+    value[subset] = predicted(subset);
   }
   energies.axis = shapleyValues(value, axes.size());
   return energies;

@@ -40,6 +40,6 @@ struct PredictedEnergies
 //   axes: the first is the channel, with `gain` among its own columns, the second the level.
 // Source: Shapley values as in Shrink.h.
 PredictedEnergies predictedEnergies(
-  const std::vector<AxisBasis>& axes, const std::vector<AxisSplit>& splits, int gain);
+  const std::vector<AxisBasis>& axes, std::vector<AxisSplit> splits, int gain);
 
 } // namespace msi

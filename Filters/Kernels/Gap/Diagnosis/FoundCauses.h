@@ -34,8 +34,8 @@ std::vector<GapCandidate> foundCandidates(
 //   chanceOfCurve: numbers of single channels that follow a curve look like one effect with one number. Where chance has p
 //     for it, that multiplies the odds by at most 1 / (-e p ln p) (Sellke, Bayarri and Berger 2001,
 //     doi:10.1198/000313001300339950).
-//   standIns: signs that effects stand for another: two causes of one medium, an effect of a medium that all media have, a gain in disguise,
-//     a parameter at the end of its range.
+//   standIns: signs that effects stand for another: two causes of one medium, an effect of a medium that all media have, a gain
+//     in disguise, a parameter at the end of its range.
 //     Each is e times likelier than one unknown effect in the place of all.
 double unknownProbability(double shrink, double chanceOfCurve = 1.0, int standIns = 0);
 

@@ -81,16 +81,18 @@ private:
     {
       hopeful.refer(from.energy - preview.gain, from.coherence);
     }
-    std::stable_sort(all.begin(), all.end(),
-      [&](const GapPreview& a, const GapPreview& b)
-      {
-        const double one = hopeful.preview(from, a);
-        const double other = hopeful.preview(from, b);
-        return one != other ? one > other : a.gain > b.gain;
-      });
-    std::vector<GapPreview> chosen;
-    for (GapPreview& preview : all)
+    std::vector<std::pair<double, std::size_t>> ranked; // score and number
+    for (std::size_t n = 0; n < all.size(); ++n)
     {
+      ranked.emplace_back(hopeful.preview(from, all[n]), n);
+    }
+    std::stable_sort(ranked.begin(), ranked.end(),
+      [&all](const auto& a, const auto& b)
+      { return a.first != b.first ? a.first > b.first : all[a.second].gain > all[b.second].gain; });
+    std::vector<GapPreview> chosen;
+    for (const auto& [score, number] : ranked)
+    {
+      GapPreview& preview = all[number];
       const auto alike = std::count_if(chosen.begin(), chosen.end(),
         [&](const GapPreview& other)
         { return Data.options()[other.option].sameCause(Data.options()[preview.option]); });

@@ -51,28 +51,31 @@ public:
   std::vector<AxisSplit> splits() const
   {
     const auto count = static_cast<Eigen::Index>(List.size());
-    std::vector<AxisSplit> splits;
     const auto channels = static_cast<std::size_t>(Data.channels());
-    const ChannelNormals none(channels, Eigen::MatrixXd::Zero(count, count));
-    splits.resize(static_cast<std::size_t>(Data.folds), { none, none });
-    ChannelNormals all = none;
-    for (std::size_t k = 0; k < channels; ++k)
+    ChannelNormals all(channels, Eigen::MatrixXd::Zero(count, count));
+    std::vector<AxisSplit> splits;
+    for (int f = 0; f < Data.folds; ++f)
     {
-      for (std::size_t f = 0; f < splits.size(); ++f)
+      const SampleList samples = samplesOf(Data, f, true);
+      ChannelNormals test;
+      for (std::size_t k = 0; k < channels; ++k)
       {
-        const std::vector<Eigen::Index> samples = samplesOf(static_cast<int>(f));
         Eigen::MatrixXd rows(static_cast<Eigen::Index>(samples.size()), count);
         for (Eigen::Index c = 0; c < count; ++c)
         {
           rows.col(c) =
             List[static_cast<std::size_t>(c)](static_cast<Eigen::Index>(k), samples).transpose();
         }
-        splits[f].test[k] = rows.transpose() * rows;
-        all[k] += splits[f].test[k];
+        test.emplace_back(rows.transpose() * rows);
+        all[k] += test.back();
       }
-      for (AxisSplit& split : splits)
+      splits.push_back({ {}, std::move(test) });
+    }
+    for (AxisSplit& split : splits)
+    {
+      for (std::size_t k = 0; k < channels; ++k)
       {
-        split.training[k] = all[k] - split.test[k];
+        split.training.emplace_back(all[k] - split.test[k]);
       }
     }
     return splits;
@@ -83,16 +86,17 @@ public:
     Eigen::MatrixXd left = Eigen::MatrixXd::Zero(Data.channels(), Data.samples());
     for (int f = 0; f < Data.folds; ++f)
     {
-      for (const Eigen::Index i : samplesOf(f))
+      const std::vector<Eigen::VectorXd>& coefficients =
+        energies.coefficients[static_cast<std::size_t>(f)];
+      for (const Eigen::Index i : samplesOf(Data, f, true))
       {
         left.col(i) = List.back().col(i);
         for (Eigen::Index k = 0; k < Data.channels(); ++k)
         {
-          const Eigen::VectorXd& coefficient =
-            energies.coefficients[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)];
           for (std::size_t c = 0; c + 1 < List.size(); ++c)
           {
-            left(k, i) -= coefficient[static_cast<Eigen::Index>(c)] * List[c](k, i);
+            left(k, i) -= coefficients[static_cast<std::size_t>(k)][static_cast<Eigen::Index>(c)] *
+              List[c](k, i);
           }
         }
       }
@@ -101,19 +105,6 @@ public:
   }
 
 private:
-  std::vector<Eigen::Index> samplesOf(int fold) const
-  {
-    std::vector<Eigen::Index> samples;
-    for (Eigen::Index i = 0; i < Data.samples(); ++i)
-    {
-      if (Data.fold[static_cast<std::size_t>(i)] == fold)
-      {
-        samples.push_back(i);
-      }
-    }
-    return samples;
-  }
-
   const GapData& Data;
   std::vector<AxisBasis> Bases;
   std::vector<Eigen::MatrixXd> List;

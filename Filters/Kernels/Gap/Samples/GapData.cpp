@@ -138,6 +138,19 @@ void setWeights(GapData& data)
   data.weight = data.measured().cast<double>() / (data.variance.array() + tolerance);
 }
 
+SampleList samplesOf(const GapData& data, int fold, bool inside)
+{
+  SampleList some;
+  for (const Eigen::Index i : data.usable)
+  {
+    if ((data.fold[static_cast<std::size_t>(i)] == fold) == inside)
+    {
+      some.push_back(i);
+    }
+  }
+  return some;
+}
+
 std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed)
 {
   const CounterRandom random(seed, 71);

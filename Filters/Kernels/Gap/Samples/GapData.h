@@ -45,4 +45,7 @@ void setWeights(GapData& data);
 // Balanced folds over some of the samples, media kept in proportion; the same for the same seed. Of each sample, -1 for others.
 std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed);
 
+// The usable samples of a fold of the data, or all but those.
+SampleList samplesOf(const GapData& data, int fold, bool inside);
+
 } // namespace msi

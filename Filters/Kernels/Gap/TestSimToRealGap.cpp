@@ -1,5 +1,7 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
+#include "Kernels/Camera/CameraDesign.h"
+#include "Kernels/Colorimetry/Illuminant.h"
 #include "Kernels/Gap/Samples/GapTestData.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
@@ -10,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -84,6 +87,36 @@ TEST(SimToRealGap, OneEffectIsNamedMeasuredAndPutBack)
   EXPECT_EQ(report.gapBefore.rows(), 7);
   EXPECT_EQ(report.gapBefore.cols(), 96);
   EXPECT_LT(report.gapAfter.norm(), 0.2 * report.gapBefore.norm());
+}
+
+// Its spectrum is none of those that the effect knows: the mean of two of them, of different kinds.
+TEST(SimToRealGap, ALampOfAnotherKindIsOneCause)
+{
+  const msi::WavelengthGrid& grid = visibleGrid();
+  const auto power = [&grid](const char* name) -> Eigen::VectorXd
+  {
+    const Eigen::VectorXd all = msi::Illuminant::named(name).powerAt(grid);
+    return all / all.mean();
+  };
+  msi::CameraParts parts;
+  parts.detector = msi::siliconDetector(grid);
+  parts.filters = { { 460.0, 80.0 }, { 540.0, 90.0 }, { 610.0, 80.0 } };
+  parts.light = power("A");
+  msi::GapCapture capture{ msi::designCamera(grid, parts), grid, rasterSamples(96), {}, {},
+    msi::CameraNoise{ TestReadNoise, 0.0 } };
+  parts.light = power("LED-B2") + power("FL3");
+  capture.readings =
+    msi::CameraSimulator(msi::designCamera(grid, parts), {}).respond(rasterScene(96));
+  msi::NoiseGenerator({ TestReadNoise, 0.0 }, 5)(capture.readings, 0);
+  capture.sampleOf.resize(96);
+  std::iota(capture.sampleOf.begin(), capture.sampleOf.end(), 0);
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "illuminant_drift");
+  EXPECT_EQ(report.causes.front().form, "another_lamp");
+  EXPECT_GT(report.causes.front().share, 0.8);
+  EXPECT_GT(report.causes.front().probability, 0.8);
 }
 
 // A curve of its own in each channel is in no effect; it is in the corrected simulator where that is asked for.

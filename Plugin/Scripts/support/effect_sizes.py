@@ -75,6 +75,10 @@ def _drift(form, p):
 def _lamp(form, p):
     if form == "band":
         return f"{_more(p['change'][0])} at {p['center'][0]:.0f} nm"
+    if form == "another_lamp":
+        weights = [value[0] for name, value in p.items() if name.startswith("shape_")]
+        size = math.sqrt(sum(weight * weight for weight in weights) / len(weights))
+        return f"another lamp; it differs by {size:.2g} times what two standard lamps differ by"
     ends = math.exp(2.0 * (p["tilt"][0] + p.get("twist", [0.0])[0]))  # the even polynomial is the same at both
     return f"{ends:.3g} times as much light at the longest wavelength as at the shortest, relative to the model"
 

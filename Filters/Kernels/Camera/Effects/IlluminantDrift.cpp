@@ -1,14 +1,92 @@
 // A lamp whose spectrum is not the one of the model.
 #include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Camera/Effects/Passbands.h"
+#include "Kernels/Colorimetry/Illuminant.h"
 
+#include <Eigen/SVD>
+
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
 
 namespace msi
 {
 
 namespace
 {
+constexpr Eigen::Index LampShapes = 6;
+constexpr double DarkestPart = 0.01; // of a lamp's mean power; what is darker shapes no lamp
+constexpr double LampStep = 5.0;     // nm
+
+const WavelengthGrid& lampGrid()
+{
+  static const WavelengthGrid grid = WavelengthGrid::uniform(380.0, 780.0, LampStep);
+  return grid;
+}
+
+// The principal directions in which the logarithms of these lamps' spectra, in steps of 10 nm, differ from 400 to 700 nm: one a
+// row, over lampGrid(). Times the square root of 2, as two lamps differ.
+Eigen::MatrixXd makeLampShapes()
+{
+  static const char* const names[] = { "BB2500K", "BB3400K", "D50", "D65", "D100", "FL1", "FL2",
+    "FL3", "FL4", "FL5", "FL6", "FL7", "FL8", "FL9", "FL10", "FL11", "FL12", "LED-B1", "LED-B2",
+    "LED-B3", "LED-B4", "LED-B5", "LED-BH1", "LED-RGB1", "LED-V1", "LED-V2" };
+  const Eigen::Index size = lampGrid().size();
+  const auto first =
+    static_cast<Eigen::Index>(std::lround((400.0 - lampGrid().front()) / LampStep));
+  const auto seen = static_cast<Eigen::Index>(std::lround((700.0 - 400.0) / LampStep)) + 1;
+  Eigen::MatrixXd spectra(static_cast<Eigen::Index>(std::size(names)), size);
+  for (Eigen::Index lamp = 0; lamp < spectra.rows(); ++lamp)
+  {
+    const Eigen::ArrayXd power = Illuminant::named(names[lamp]).powerAt(lampGrid());
+    Eigen::ArrayXd smooth = power;
+    smooth.segment(1, size - 2) =
+      0.25 * power.head(size - 2) + 0.5 * power.segment(1, size - 2) + 0.25 * power.tail(size - 2);
+    const Eigen::ArrayXd logarithm =
+      (smooth / smooth.segment(first, seen).mean()).max(DarkestPart).log();
+    spectra.row(lamp) = logarithm - logarithm.segment(first, seen).mean();
+  }
+  spectra.rowwise() -= spectra.colwise().mean().eval();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
+    spectra.middleCols(first, seen), Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Eigen::MatrixXd shapes = std::sqrt(2.0 / static_cast<double>(spectra.rows() - 1)) *
+    svd.matrixU().leftCols(LampShapes).transpose() * spectra;
+  for (Eigen::Index shape = 0; shape < LampShapes; ++shape)
+  {
+    Eigen::Index largest = 0;
+    shapes.row(shape).cwiseAbs().maxCoeff(&largest);
+    shapes.row(shape) *= shapes(shape, largest) > 0.0 ? 1.0 : -1.0;
+  }
+  return shapes;
+}
+
+std::string nameOfShape(Eigen::Index shape)
+{
+  return "shape_" + std::to_string(shape + 1);
+}
+
+// The other lamp over the model's; beyond the tables as at their ends.
+Eigen::ArrayXd anotherLamp(const BoundEffect& effect)
+{
+  static const Eigen::MatrixXd shapes = makeLampShapes();
+  Eigen::RowVectorXd logarithm = Eigen::RowVectorXd::Zero(shapes.cols());
+  for (Eigen::Index shape = 0; shape < LampShapes; ++shape)
+  {
+    logarithm += effect.value(nameOfShape(shape)) * shapes.row(shape);
+  }
+  return effect.camera().wavelengths().vector().array().unaryExpr(
+    [&](double wavelength)
+    {
+      const double last = static_cast<double>(logarithm.size() - 1);
+      const double place = std::clamp((wavelength - lampGrid().front()) / LampStep, 0.0, last);
+      const auto low = std::min(static_cast<Eigen::Index>(place), logarithm.size() - 2);
+      const double part = place - static_cast<double>(low);
+      return std::exp((1.0 - part) * logarithm[low] + part * logarithm[low + 1]);
+    });
+}
+
 class IlluminantDrift : public ResponsivityOperator
 {
 public:
@@ -21,6 +99,11 @@ public:
         (effect.camera().wavelengths().vector().array() - effect.value("center")) /
         effect.value("width");
       Factor = 1.0 + effect.value("change") * (-0.5 * z.square()).exp();
+      return;
+    }
+    if (effect.form().name == "another_lamp")
+    {
+      Factor = anotherLamp(effect);
       return;
     }
     const bool smooth = effect.form().name == "smooth";
@@ -42,6 +125,12 @@ Effect illuminantDrift()
 {
   const EffectParameter tilt{ "tilt", "1", 0.0, -2.0, 2.0, 0.1,
     "natural logarithm of the change at the long end; minus that at the short end" };
+  std::vector<EffectParameter> shapes;
+  for (Eigen::Index shape = 0; shape < LampShapes; ++shape)
+  {
+    shapes.push_back({ nameOfShape(shape), "1", 0.0, -5.0, 5.0, 1.0,
+      "weight of a direction in which lamps differ; 1 is as two of them differ on average" });
+  }
   Effect effect;
   effect.definition = { "illuminant_drift", "Illuminant drift",
     "The lamp's spectrum is not the one of the model: aged, another voltage, another lamp.",
@@ -56,7 +145,13 @@ Effect illuminantDrift()
           { "width", "nm", 50.0, 25.0, 150.0, 15.0, "standard deviation of the band", false,
             true } },
         { { 0.05, 440.0, 30.0 }, { 0.05, 500.0, 40.0 }, { 0.05, 560.0, 50.0 },
-          { 0.05, 620.0, 40.0 }, { 0.05, 680.0, 40.0 } } } },
+          { 0.05, 620.0, 40.0 }, { 0.05, 680.0, 40.0 } } },
+      { "another_lamp",
+        "M exp(sum of shape_i B_i(wavelength)), B_i the principal directions in which the "
+        "logarithms "
+        "of standard lamps differ: blackbodies, daylight, FL1..FL12 and the LED lamps of CIE "
+        "15:2018",
+        shapes } },
     "lamp spectrum, white tile", EffectTrait::SpectralGain };
   effect.makeResponsivity = makeResponsivityOperator<IlluminantDrift>;
   return effect;

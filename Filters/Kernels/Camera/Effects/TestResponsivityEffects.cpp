@@ -366,6 +366,30 @@ TEST(IlluminantDrift, IsABandMoreOfTheLamp)
     1.0 - 0.15 * (-0.5 * z.square()).exp());
 }
 
+// Expected: the singular value decomposition of numpy 1.24, of the same lamps.
+TEST(IlluminantDrift, AnotherLampHasTheDirectionsInWhichStandardLampsDiffer)
+{
+  const WavelengthGrid grid({ 400.0, 450.0, 545.0, 600.0, 700.0 });
+  const double expected[6][5] = { { 2.27956, -0.15468, 0.33552, -0.24503, -0.45426 },
+    { 0.7383, -0.60102, -0.64108, -0.24639, 0.87921 },
+    { 0.19946, -0.49606, 0.50229, 0.22857, 0.2857 },
+    { -0.23408, 0.43133, 0.17715, -0.30276, 0.46153 },
+    { 0.06238, 0.06558, -0.03553, 0.14464, 0.16989 },
+    { 0.33028, -0.08197, 0.04887, -0.0614, -0.02397 } };
+  const msi::CameraModel camera(
+    grid, Eigen::MatrixXd::Ones(1, 5), Eigen::VectorXd::Zero(1), { "C1" });
+  for (std::size_t shape = 0; shape < 6; ++shape)
+  {
+    CameraEffect effect{ "illuminant_drift", "another_lamp", "", std::vector<double>(6, 0.0) };
+    effect.parameters[shape] = 0.5;
+    const Eigen::MatrixXd seen = CameraSimulator(camera, { effect }).effectiveResponsivity();
+    for (Eigen::Index i = 0; i < 5; ++i)
+    {
+      EXPECT_NEAR(std::log(seen(0, i)), 0.5 * expected[shape][i], 1e-4) << shape << ' ' << grid[i];
+    }
+  }
+}
+
 TEST(MovedSpectrum, IsExactForCubicsAndComesToRestOutside)
 {
   const WavelengthGrid grid({ 400.0, 410.0, 425.0, 440.0, 460.0, 470.0 });

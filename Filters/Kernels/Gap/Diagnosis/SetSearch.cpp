@@ -12,6 +12,7 @@ namespace msi
 namespace
 {
 constexpr int MostRounds = 4;
+constexpr std::ptrdiff_t MostForms = 3; // of a cause, fitted in full in the place of one effect
 
 class SetSearch
 {
@@ -71,7 +72,7 @@ private:
     return fit;
   }
 
-  // The likeliest options beside those of `from`, at most two forms of a cause.
+  // The likeliest options beside those of `from`, at most so many forms of a cause.
   std::vector<GapPreview> promising(const ObservedFit& from, std::size_t most) const
   {
     std::vector<GapPreview> all = Data.previews(from);
@@ -96,7 +97,7 @@ private:
       const auto alike = std::count_if(chosen.begin(), chosen.end(),
         [&](const GapPreview& other)
         { return Data.options()[other.option].sameCause(Data.options()[preview.option]); });
-      if (chosen.size() < most && alike < 2)
+      if (chosen.size() < most && alike < MostForms)
       {
         chosen.push_back(std::move(preview));
       }

@@ -1,7 +1,8 @@
 #!/bin/sh
 # Judges the diagnosis on cases whose effects it is not told: run-withheld.sh [small|full] [SEED] [SETS] [ENGINE]
-#   SETS    of "bench second images raw linearised chart", default all: a virtual bench; a second generator that shares nothing
-#           with the first; image pairs; effects planted in real measurements (with MULTISPECTRAL_DATA): as they are, after every
+#   SETS    of "bench second cameras images raw linearised chart", default all: a virtual bench; a second generator that shares
+#           nothing with the first; a third one, in Python, with cameras of 3 to 30 channels, other lamps and measured
+#           reflectances (with MULTISPECTRAL_DATA); image pairs; effects planted in real measurements (with MULTISPECTRAL_DATA): as they are, after every
 #           channel was made linear, and of a filter-wheel camera
 #   ENGINE  a diagnosis known to Diagnose/Engines.cpp, default "present"
 # Builds what it needs, writes the cases and, apart, their keys, diagnoses without the keys, prints all sets side by side.
@@ -10,7 +11,7 @@ set -eu
 
 size=${1:-small}
 seed=${2:-2026}
-sets=${3:-bench second images raw linearised chart}
+sets=${3:-bench second cameras images raw linearised chart}
 engine=${4:-present}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build="$root/build/withheld"
@@ -25,8 +26,12 @@ scored=
 for set in $sets; do
   key="$output/sealed/$set.csv"
   result="$output/$set-$engine.csv"
-  [ "${RESUME:-0}" = 1 ] && [ -s "$key" ] ||
-    "$programs/GenerateWithheld" "$set" "$output/$set" "$key" "$size" "$seed"
+  if ! { [ "${RESUME:-0}" = 1 ] && [ -s "$key" ]; }; then
+    case $set in
+      cameras) /usr/bin/python3 "$root/Testing/Withheld/Cameras/cameras.py" "$output/$set" "$key" "$size" "$seed" ;;
+      *) "$programs/GenerateWithheld" "$set" "$output/$set" "$key" "$size" "$seed" ;;
+    esac
+  fi
   [ "${RESUME:-0}" = 1 ] || rm -f "$result"
   "$programs/DiagnoseWithheld" "$output/$set" "$result" "${THREADS:-1}" "$engine"
   scored="$scored $set $key $result"

@@ -176,13 +176,16 @@ void requireKnown(const std::vector<std::string>& without)
   }
 }
 
-GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept
+GapVerdict verdictOf(double explained) noexcept
 {
-  return noiseAlone || shrink >= Decision::ExplainedShrink ? GapVerdict::Explained
-    : shrink >= Decision::PartlyShrink                     ? GapVerdict::PartlyExplained
-                                                           : GapVerdict::Unexplained;
+  return explained >= Decision::ExplainedShrink ? GapVerdict::Explained
+    : explained >= Decision::PartlyShrink       ? GapVerdict::PartlyExplained
+                                                : GapVerdict::Unexplained;
 }
 
+namespace
+{
+// What a camera that was fitted as linear leaves of a detector's curve.
 bool isOfLinearFit(const std::string& effect, const std::string& form)
 {
   const EffectDefinition* known = findEffect(effect);
@@ -190,8 +193,6 @@ bool isOfLinearFit(const std::string& effect, const std::string& form)
   return found != nullptr && found->has(FormTrait::BesideLine);
 }
 
-namespace
-{
 bool isSmallErrorOfChannels(const GapCause& cause, double share)
 {
   const EffectDefinition* effect = findEffect(cause.effect);
@@ -228,19 +229,31 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes)
   report.unexplained.share = std::clamp(1.0 - sumOf(report.causes), 0.0, 1.0);
 }
 
-void noteUncredited(std::vector<std::string>& notes, const std::vector<std::string>& effects)
+void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
 {
-  if (effects.empty())
+  if (report.unconfirmed)
   {
-    return;
+    notes.emplace_back(
+      "What the causes do shows in a few samples only, and the others cannot confirm it: "
+      "more samples like these would.");
+  }
+  if (std::any_of(report.correction.begin(), report.correction.end(),
+        [](const CameraEffect& used) { return isOfLinearFit(used.name, used.form); }))
+  {
+    notes.emplace_back(
+      "The nominal camera seems to be a linear fit to responses that are curved: fit it "
+      "with the detector's curve (Camera Model Fit, Detector Curve).");
   }
   std::string names;
-  for (const std::string& name : effects)
+  for (const std::string& name : report.uncredited)
   {
     names += (names.empty() ? "" : ", ") + name;
   }
-  notes.push_back("The corrected simulator also has " + names +
-    ": with it the readings are predicted better, but it is not believed to be a cause.");
+  if (!names.empty())
+  {
+    notes.push_back("The corrected simulator also has " + names +
+      ": with it the readings are predicted better, but it is not believed to be a cause.");
+  }
 }
 
 std::vector<std::string> cheapestOf(std::vector<Rival> rivals)
@@ -257,13 +270,6 @@ std::vector<std::string> cheapestOf(std::vector<Rival> rivals)
     }
   }
   return names;
-}
-
-void leaveAsItWas(GapFigures& figures)
-{
-  figures.rmsAfter = figures.rmsBefore;
-  figures.shrink = 0.0;
-  figures.shrinkInterval = { 0.0, 0.0 };
 }
 
 } // namespace msi

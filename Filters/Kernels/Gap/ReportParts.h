@@ -66,11 +66,8 @@ GapRemainder remainderOf(double share, const std::vector<GapAxis>& axes);
 // Errors: std::invalid_argument for the name of an effect that may not be blamed and that the library does not have.
 void requireKnown(const std::vector<std::string>& without);
 
-// Of a gap with causes. noiseAlone: nothing but noise is left.
-GapVerdict verdictOf(double shrink, bool noiseAlone) noexcept;
-
-// What a camera that was fitted as linear leaves of a detector's curve.
-bool isOfLinearFit(const std::string& effect, const std::string& form);
+// Of a gap of which its causes explain this part of the size.
+GapVerdict verdictOf(double explained) noexcept;
 
 // Takes the causes into the report, and what none of them explains. Those that get less than Decision::LeastPart of what all get are no
 // causes, nor are numbers of single channels with less than Decision::LeastPartPerChannel, but for effects that need an image: their effects go to GapReport::uncredited. What a
@@ -80,8 +77,9 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes);
 // Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.
 void believe(GapReport& report, std::vector<std::pair<std::string, double>> probabilities);
 
-// Says which effects the corrected simulator has although they are not believed to be causes.
-void noteUncredited(std::vector<std::string>& notes, const std::vector<std::string>& effects);
+// What the causes found leave in doubt: causes that show in few samples, a camera that was fitted as linear, effects of the
+// corrected simulator that are not believed to be causes.
+void noteDoubts(std::vector<std::string>& notes, const GapReport& report);
 
 // An effect in the place of another, and what that costs.
 struct Rival
@@ -91,8 +89,5 @@ struct Rival
 };
 // The cheapest two, by name.
 std::vector<std::string> cheapestOf(std::vector<Rival> rivals);
-
-// Figures of a gap that nothing corrects.
-void leaveAsItWas(GapFigures& figures);
 
 } // namespace msi

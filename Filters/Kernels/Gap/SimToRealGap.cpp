@@ -83,17 +83,6 @@ void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::Ma
     report.correction.push_back(regularPart(data, predicted.back(), data.usable, options.seed));
   }
 }
-
-// Takes over what was found.
-void credit(
-  GapReport& report, const SampleObservation& observation, const FoundSets& found, double shrink)
-{
-  const EffectSet& effects = static_cast<const SampleFit&>(*found.best).effects;
-  report.correction = effects.simulated();
-  report.whiteAfterEffects = effects.whiteAfterEffects();
-  creditCauses(report, foundCauses(observation, found, shrink));
-}
-
 }
 
 void GapOptions::forAll(int count, const std::function<void(int)>& body) const
@@ -202,46 +191,45 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   progress("axes shared", 1.0);
 
   const bool causes = !found.best->set.empty();
-  const double shrink = report.gap.shrink;
   const EffectFit best = observation.whole(*found.best);
   const double alone = shrinkOf(observation.energies(best)); // all samples took part in the choice
-  if (causes && shrink > 0.0 && noticeable(data, before, after, integration))
+  Evidence evidence;
+  evidence.explained = report.gap.shrink;
+  if (causes && report.gap.shrink > 0.0 && noticeable(data, before, after, integration))
   {
-    credit(report, observation, found, shrink);
-    report.unexplained = remainderOf(report.unexplained.share, rest.axes);
-    report.verdict = verdictOf(shrink, false);
+    evidence.credited = report.gap.shrink;
+    evidence.rest = rest.axes;
   }
   else if (causes && alone >= Decision::ExplainedShrink &&
     inFewSamples(data, best.predicted - data.simulated))
   {
     report.unconfirmed = true;
-    credit(report, observation, found, Decision::Unconfirmed * alone);
-    report.unexplained = remainderOf(report.unexplained.share, where.axes);
-    report.verdict = report.causes.empty() ? GapVerdict::Unexplained : GapVerdict::PartlyExplained;
+    evidence.credited = Decision::Unconfirmed * alone;
+    evidence.rest = where.axes;
   }
-  else if ((predictable(data, before, where) &&
-             where.predictable > negligibleEnergy(data, after, integration)) ||
-    // A gap that nothing predicts, but that neither noise nor sums over wavelength make.
-    report.gap.rmsBefore >
-      Decision::BeyondNoise * std::hypot(report.gap.noiseFloor, std::sqrt(doubted)))
+  else
   {
-    report.verdict = GapVerdict::Unexplained;
-    report.unexplained = remainderOf(1.0, where.axes);
+    // What the axes predict; or what nothing predicts, but that neither noise nor sums over wavelength make.
+    evidence.gap = (predictable(data, before, where) &&
+                     where.predictable > negligibleEnergy(data, after, integration)) ||
+      report.gap.rmsBefore >
+        Decision::BeyondNoise * std::hypot(report.gap.noiseFloor, std::sqrt(doubted));
   }
   predicted.back() = best.predicted;
-  if (report.correction.empty())
+  if (evidence.credited > 0.0)
   {
-    leaveAsItWas(report.gap);
+    const EffectSet& effects = static_cast<const SampleFit&>(*found.best).effects;
+    report.correction = effects.simulated();
+    report.whiteAfterEffects = effects.whiteAfterEffects();
+  }
+  else
+  {
     after = before;
     std::fill(predicted.begin(), predicted.end(), data.simulated);
   }
-  report.candidates = foundCandidates(observation, found, options.seed);
-  const bool gap = report.verdict != GapVerdict::NoGap;
-  const std::vector<Explanation> explanations = explanationsOf(observation, found);
-  believe(report,
-    effectProbabilities(
-      explanations, gap, unknownProbability(observation, found, report.gap.shrink)));
-  if (gap)
+  const std::vector<Explanation> explanations =
+    conclude(report, observation, found, evidence, options.seed);
+  if (report.verdict != GapVerdict::NoGap)
   {
     addRest(report, data, predicted, options, after);
     report.nextCaptures =

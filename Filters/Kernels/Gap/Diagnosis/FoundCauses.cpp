@@ -143,6 +143,9 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
   return causes;
 }
 
+namespace
+{
+// Single effects by what each alone would do.
 std::vector<GapCandidate> foundCandidates(
   const Observation& data, const FoundSets& found, std::uint64_t seed)
 {
@@ -176,8 +179,6 @@ std::vector<GapCandidate> foundCandidates(
   return candidates;
 }
 
-namespace
-{
 // Causes of a medium beside another of it, a parameter at its bound, and what the set tells.
 int standInsOf(const Observation& data, const ObservedFit& fit)
 {
@@ -203,11 +204,6 @@ double unknownProbability(double shrink, double chanceOfCurve, int standIns)
     odds += std::exp(-Decision::EffectImprobability - 1.0) / (-chance * std::log(chance));
   }
   return odds / (1.0 + odds);
-}
-
-double unknownProbability(const Observation& data, const FoundSets& found, double shrink)
-{
-  return unknownProbability(shrink, found.best->chanceOfCurve, standInsOf(data, *found.best));
 }
 
 std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets& found)
@@ -362,6 +358,34 @@ std::vector<std::pair<std::string, double>> effectProbabilities(
   std::stable_sort(probabilities.begin(), probabilities.end(),
     [](const auto& a, const auto& b) { return a.second > b.second; });
   return probabilities;
+}
+
+std::vector<Explanation> conclude(GapReport& report, const Observation& data,
+  const FoundSets& found, const Evidence& evidence, std::uint64_t seed)
+{
+  const bool credible = evidence.credited > 0.0;
+  if (credible)
+  {
+    creditCauses(report, foundCauses(data, found, evidence.credited));
+    report.verdict = !report.unconfirmed ? verdictOf(evidence.explained)
+      : report.causes.empty()            ? GapVerdict::Unexplained
+                                         : GapVerdict::PartlyExplained;
+    report.unexplained = remainderOf(report.unexplained.share, evidence.rest);
+  }
+  else
+  {
+    report.verdict = evidence.gap ? GapVerdict::Unexplained : GapVerdict::NoGap;
+    report.unexplained = remainderOf(evidence.gap ? 1.0 : 0.0, report.where);
+    report.gap.rmsAfter = report.gap.rmsBefore;
+    report.gap.shrink = 0.0;
+    report.gap.shrinkInterval = { 0.0, 0.0 };
+  }
+  report.candidates = foundCandidates(data, found, seed);
+  std::vector<Explanation> explanations = explanationsOf(data, found);
+  const double unknown = unknownProbability(
+    credible ? evidence.explained : 0.0, found.best->chanceOfCurve, standInsOf(data, *found.best));
+  believe(report, effectProbabilities(explanations, report.verdict != GapVerdict::NoGap, unknown));
+  return explanations;
 }
 
 } // namespace msi

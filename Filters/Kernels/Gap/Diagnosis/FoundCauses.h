@@ -25,10 +25,6 @@ std::vector<double> sharesUnderPrecedence(
 // The causes, the largest share first; their shares sum to `shrink`, the held-out shrink of the whole diagnosis.
 std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink);
 
-// Single effects by what each alone would do. seed: of the intervals.
-std::vector<GapCandidate> foundCandidates(
-  const Observation& data, const FoundSets& found, std::uint64_t seed);
-
 // Probability that something that the library does not have is behind the gap.
 //   shrink: held out, of all that was found; after the right causes little is left.
 //   chanceOfCurve: numbers of single channels that follow a curve look like one effect with one number. Where chance has p
@@ -72,6 +68,19 @@ std::vector<GapNextCapture> separatingCaptures(
 // gap: whether there is one beyond noise. unknown: unknownProbability.
 std::vector<std::pair<std::string, double>> effectProbabilities(
   const std::vector<Explanation>& explanations, bool gap, double unknown);
-double unknownProbability(const Observation& data, const FoundSets& found, double shrink);
+
+// What the data say of a gap beside the sets that were found.
+struct Evidence
+{
+  double credited = 0.0;  // what the shares of the causes sum to; 0: they are not believed at all
+  double explained = 0.0; // part of the gap's size, if they are
+  bool gap = false;       // if they are not: whether there is one beyond noise
+  std::vector<GapAxis> rest = {}; // along which lies what the causes leave
+};
+
+// Completes a report that has its figures and axes: causes, what they leave, verdict, candidates and probabilities. seed: of
+// intervals. GapReport::unconfirmed is looked at.
+std::vector<Explanation> conclude(GapReport& report, const Observation& data,
+  const FoundSets& found, const Evidence& evidence, std::uint64_t seed);
 
 } // namespace msi

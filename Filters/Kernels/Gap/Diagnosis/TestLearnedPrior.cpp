@@ -97,10 +97,9 @@ TEST(UnknownProbability, GrowsWithWhatIsLeft)
 
 TEST(Verdict, FollowsTheShrink)
 {
-  EXPECT_EQ(msi::verdictOf(0.9, false), msi::GapVerdict::Explained);
-  EXPECT_EQ(msi::verdictOf(0.5, false), msi::GapVerdict::PartlyExplained);
-  EXPECT_EQ(msi::verdictOf(0.1, false), msi::GapVerdict::Unexplained);
-  EXPECT_EQ(msi::verdictOf(0.1, true), msi::GapVerdict::Explained);
+  EXPECT_EQ(msi::verdictOf(0.9), msi::GapVerdict::Explained);
+  EXPECT_EQ(msi::verdictOf(0.5), msi::GapVerdict::PartlyExplained);
+  EXPECT_EQ(msi::verdictOf(0.1), msi::GapVerdict::Unexplained);
 }
 
 // Closed forms: Beta(1, b) has the tail (1 - x)^b, Beta(1/2, 1/2) is the arcsine law.

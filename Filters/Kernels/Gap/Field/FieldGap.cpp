@@ -282,43 +282,34 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   nominal.rows = gap->model.rows;
   nominal.columns = gap->model.columns;
   report.where = fieldAxes(data, fieldStatistics(data, nominal, &finding.weights, loop), loop);
-  const std::vector<GapAxis> rest = fieldAxes(data, finding.after(), loop);
-  const double shrink = report.gap.shrink;
-  const bool noiseAlone = report.gap.rmsAfter < Decision::BeyondNoise * report.gap.noiseFloor &&
-    blockMeanExcess(data, finding.after()) < Decision::EstimateFactor;
-  double explained = 0.0;
-  if (!finding.set().empty() && shrink > 0.0)
+  const auto beyondNoise = [&](double rms, const FieldStatistics& statistics)
   {
-    creditCauses(report, foundCauses(*finding.observation, finding.found, shrink));
+    return rms > Decision::BeyondNoise * report.gap.noiseFloor ||
+      blockMeanExcess(data, statistics) > Decision::EstimateFactor;
+  };
+  Evidence evidence;
+  if (!finding.set().empty() && report.gap.shrink > 0.0)
+  {
+    evidence.credited = report.gap.shrink;
+    evidence.explained =
+      beyondNoise(report.gap.rmsAfter, finding.after()) ? report.gap.shrink : 1.0;
+    evidence.rest = fieldAxes(data, finding.after(), loop);
     report.correction = fieldCorrection(finding.set(), gap->model, pair.channels);
-    report.verdict = verdictOf(shrink, noiseAlone);
-    explained = noiseAlone ? 1.0 : shrink;
-    report.unexplained = remainderOf(report.unexplained.share, rest);
   }
   else
   {
+    evidence.gap = beyondNoise(report.gap.rmsBefore, finding.before());
     gap->model = finding.before().model;
-    const bool gapThere = report.gap.rmsBefore > Decision::BeyondNoise * report.gap.noiseFloor ||
-      blockMeanExcess(data, finding.before()) > Decision::EstimateFactor;
-    report.verdict = gapThere ? GapVerdict::Unexplained : GapVerdict::NoGap;
-    if (gapThere)
-    {
-      report.unexplained = remainderOf(1.0, report.where);
-    }
-    leaveAsItWas(report.gap);
   }
+  const std::vector<Explanation> explanations =
+    conclude(report, *finding.observation, finding.found, evidence, options.seed);
   if (report.verdict != GapVerdict::NoGap)
   {
     addRest(*gap, data, finding.weights, options, loop);
   }
-  report.candidates = foundCandidates(*finding.observation, finding.found, options.seed);
-  const std::vector<Explanation> explanations = explanationsOf(*finding.observation, finding.found);
-  believe(report,
-    effectProbabilities(explanations, report.verdict != GapVerdict::NoGap,
-      unknownProbability(*finding.observation, finding.found, explained)));
   report.nextCaptures = separatingCaptures(explanations, inQuestion(report.causes));
   report.notes = notesOn(data, finding, choices);
-  noteUncredited(report.notes, report.uncredited);
+  noteDoubts(report.notes, report);
   say(1.0, "done");
   return gap;
 }

@@ -119,24 +119,6 @@ void noteSamples(std::vector<std::string>& notes, const GapData& data, const Gap
   }
 }
 
-void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
-{
-  if (report.unconfirmed)
-  {
-    notes.push_back(
-      "What the causes do shows in a few samples only, and the others cannot confirm it: "
-      "more samples like these would.");
-  }
-  if (std::any_of(report.correction.begin(), report.correction.end(),
-        [](const CameraEffect& used) { return isOfLinearFit(used.name, used.form); }))
-  {
-    notes.push_back(
-      "The nominal camera seems to be a linear fit to responses that are curved: fit it "
-      "with the detector's curve (Camera Model Fit, Detector Curve).");
-  }
-  noteUncredited(notes, report.uncredited);
-}
-
 void noteSaturation(std::vector<std::string>& notes, const GapData& data)
 {
   const double top = data.observed.maxCoeff();

@@ -83,6 +83,31 @@ void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::Ma
     report.correction.push_back(regularPart(data, predicted.back(), data.usable, options.seed));
   }
 }
+
+// Errors of the sums over wavelength depend on spectra, and so does what lamp, filters, reflectance and neighbouring channels do
+// to the response. What a linear fit leaves of a curve is in every fitted camera.
+bool actsOnSpectra(const EffectChoice& choice)
+{
+  return choice.effect->stage == EffectStage::Reflectance ||
+    choice.effect->stage == EffectStage::Responsivity ||
+    choice.effect->has(EffectTrait::CouplesChannels) || choice.form->has(FormTrait::BesideLine);
+}
+
+// Whether the others alone take most of the gap's energy.
+bool mostlyBesideSpectra(
+  const SampleObservation& observation, const ObservedFit& best, const Eigen::MatrixXd& before)
+{
+  const std::vector<EffectChoice>& choices = static_cast<const SampleFit&>(best).effects.choices;
+  std::size_t others = 0;
+  for (std::size_t p = 0; p < choices.size(); ++p)
+  {
+    others |= actsOnSpectra(choices[p]) ? 0 : std::size_t(1) << p;
+  }
+  const GapData& data = observation.fitter().data();
+  const EffectFit fit = observation.whole(*observation.reduced(best, others));
+  const Eigen::MatrixXd after = measuredOnly(data, data.observed - fit.predicted);
+  return after.squaredNorm() < 0.5 * before.squaredNorm();
+}
 }
 
 void GapOptions::forAll(int count, const std::function<void(int)>& body) const
@@ -195,7 +220,9 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const double alone = shrinkOf(observation.energies(best)); // all samples took part in the choice
   Evidence evidence;
   evidence.explained = report.gap.shrink;
-  if (causes && report.gap.shrink > 0.0 && noticeable(data, before, after, integration))
+  if (causes && report.gap.shrink > 0.0 &&
+    (noticeable(data, before, after, integration) ||
+      mostlyBesideSpectra(observation, *found.best, before)))
   {
     evidence.credited = report.gap.shrink;
     evidence.rest = rest.axes;

@@ -119,6 +119,38 @@ TEST(SimToRealGap, ALampOfAnotherKindIsOneCause)
   EXPECT_GT(report.causes.front().probability, 0.8);
 }
 
+// Reflectances as rough as the grid's step, seen through single wavelengths: sums over wavelength may err by more than the offset,
+// but not by the same in all samples.
+TEST(SimToRealGap, AnOffsetIsNoErrorOfTheSumsOverWavelength)
+{
+  const msi::WavelengthGrid grid = visibleGrid();
+  const msi::CounterRandom random(3);
+  Eigen::MatrixXd responsivity = Eigen::MatrixXd::Zero(7, grid.size());
+  msi::SceneSamples samples = rasterSamples(96);
+  for (Eigen::Index j = 0; j < samples.reflectance.size(); ++j)
+  {
+    samples.reflectance.data()[j] = 0.3 + 0.2 * random.uniform(static_cast<std::uint64_t>(j));
+  }
+  std::vector<std::string> channels;
+  for (Eigen::Index k = 0; k < 7; ++k)
+  {
+    responsivity(k, 3 + 4 * k) = 1.0;
+    channels.push_back("C" + std::to_string(k + 1));
+  }
+  const msi::CameraModel camera(grid, responsivity, Eigen::VectorXd::Zero(7), channels);
+  msi::GapCapture capture{ camera, grid, samples,
+    msi::CameraSimulator(camera, { { "dark_offset", "common", "", { 0.006 } } })
+      .respond(msi::SampleScene(grid, samples)),
+    {}, msi::CameraNoise{ TestReadNoise, 0.0 } };
+  msi::NoiseGenerator({ TestReadNoise, 0.0 }, 5)(capture.readings, 0);
+  capture.sampleOf.resize(96);
+  std::iota(capture.sampleOf.begin(), capture.sampleOf.end(), 0);
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "dark_offset");
+}
+
 // A curve of its own in each channel is in no effect; it is in the corrected simulator where that is asked for.
 TEST(SimToRealGap, WhatNoCauseExplainsCanBeAdded)
 {

@@ -1,6 +1,6 @@
 """Withheld cases of cameras of many kinds, in numpy: cameras.py FOLDER KEYFILE [small|full] [SEED]
 
-Cameras of 3, 6, 8, 16 and 30 channels, known but for small errors or fitted to half of the samples, look at measured
+Cameras of 3, 6, 8, 16 and 30 channels, known but for small errors (where an effect is there) or fitted to half of the samples, look at measured
 reflectances (with MULTISPECTRAL_DATA) under lamps of the CIE; one effect, two or none are added. Shares no code with the
 other generators and none with the simulator.
 """
@@ -99,10 +99,11 @@ class Case:
             self.fit(random, half)
             order = order[len(order) // 2:]
         else:
-            moved = numpy.array([numpy.interp(FINE - random.normal(0, 0.3), FINE, curve) for curve in self.matrix])
-            moved *= random.normal(1.0, 0.004, len(moved))[:, None]
+            error = 1.0 if effects else 0.0
+            moved = numpy.array([numpy.interp(FINE - error * random.normal(0, 0.3), FINE, curve) for curve in self.matrix])
+            moved *= 1.0 + error * random.normal(0, 0.004, len(moved))[:, None]
             self.camera = moved @ numpy.array([numpy.interp(FINE, COARSE, one) for one in numpy.eye(len(COARSE))]).T
-            self.dark = random.normal(0, 0.0004, len(moved))
+            self.dark = error * random.normal(0, 0.0004, len(moved))
             if len(order) > 60 and random.random() < 0.5:
                 order = order[:random.integers(24, 60)]
         self.reflectance = self.reflectance[order]

@@ -28,7 +28,7 @@ def fabric():
 
 
 # Of the diagnosis, what a user looks for first.
-_SUMMARY = ("verdict", "rms_before", "rms_after", "noise_floor", "shrink")
+_SUMMARY = ("verdict", "rms_before", "rms_after", "noise_floor", "shrink", "unknown_probability")
 _CAUSES = ("title", "medium", "share", "probability", "parameter", "value", "unit", "standard_error")
 
 

@@ -9,7 +9,7 @@ from .memory import first, key
 
 # Columns that tell what a row is, and the result, in the order in which they are read.
 _LEADING = ("verdict", "rms_before", "rms_after", "noise_floor",
-            "method", "rank", "sample", "label", "title", "medium", "effect", "form", "axis", "cell", "share", "probability", "shrink", "name", "parameter",
+            "method", "rank", "sample", "label", "title", "medium", "effect", "form", "axis", "cell", "share", "probability", "shrink", "unknown_probability", "name", "parameter",
             "value", "unit", "standard_error", "metric", "illuminant", "count", "mean", "median", "p95", "max", "channel", "wavelength",
             "dx", "dy", "agreement")
 

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 namespace msi
@@ -33,34 +34,70 @@ std::vector<double> subsetShrinksOf(const Observation& data, const ObservedFit& 
   return shrink;
 }
 
-// Effects that, in the place of the one at this position, explain the data nearly as well.
+// The effects of a set beyond those of the best, without the one at a position; nothing where another one is missing.
+std::optional<std::vector<std::size_t>> others(const std::vector<GapOption>& options,
+  const std::vector<std::size_t>& best, std::size_t position, std::vector<std::size_t> set)
+{
+  for (std::size_t p = 0; p < best.size(); ++p)
+  {
+    const auto same = std::find_if(set.begin(), set.end(),
+      [&](std::size_t option) { return options[option].sameCause(options[best[p]]); });
+    if (same != set.end())
+    {
+      set.erase(same);
+    }
+    else if (p != position)
+    {
+      return std::nullopt;
+    }
+  }
+  return set;
+}
+
+// Effects that, in the place of the one at this position, explain the data nearly as well; in that of numbers of single channels
+// also those with common numbers that do most of it alone, if the channels' numbers do the rest.
 std::vector<std::string> equivalentsAt(
   const Observation& data, const FoundSets& found, std::size_t position)
 {
   const std::vector<GapOption>& options = data.options();
   const std::vector<std::size_t>& best = found.best->set;
+  const GapOption& own = options[best[position]];
   const double top = *std::max_element(found.score.begin(), found.score.end());
+  const double half = 0.5 * (found.nominal->energy + found.best->energy);
   std::vector<Rival> rivals;
+  std::set<std::size_t> doMost;
+  std::vector<std::pair<std::size_t, double>> beside; // option and score
   for (std::size_t v = 0; v < found.visited.size(); ++v)
   {
-    const std::vector<std::size_t>& set = found.visited[v]->set;
-    if (set.size() != best.size() || found.score[v] < top - Decision::DecisiveOdds)
+    const ObservedFit& fit = *found.visited[v];
+    const auto left = others(options, best, position, fit.set);
+    if (!left || left->size() != 1 || options[left->front()].effect == own.effect)
     {
       continue;
     }
-    std::vector<std::size_t> other = set;
-    for (std::size_t p = 0; p < best.size(); ++p)
+    const std::size_t other = left->front();
+    const bool likely = found.score[v] >= top - Decision::DecisiveOdds;
+    if (fit.set.size() == best.size())
     {
-      const auto same = std::find_if(other.begin(), other.end(),
-        [&](std::size_t option) { return options[option].sameCause(options[best[p]]); });
-      if (p != position && same != other.end())
+      if (likely)
       {
-        other.erase(same);
+        rivals.push_back({ options[other].effect->name, -found.score[v] });
+      }
+      if (fit.energy < half)
+      {
+        doMost.insert(other);
       }
     }
-    if (other.size() == 1 && options[other.front()].effect != options[best[position]].effect)
+    else if (likely && own.perChannel && !options[other].perChannel)
     {
-      rivals.push_back({ options[other.front()].effect->name, -found.score[v] });
+      beside.emplace_back(other, found.score[v]);
+    }
+  }
+  for (const auto& [option, score] : beside)
+  {
+    if (doMost.count(option) > 0)
+    {
+      rivals.push_back({ options[option].effect->name, -score });
     }
   }
   return cheapestOf(std::move(rivals));

@@ -28,6 +28,7 @@ public:
       Options.push_back({ &msi::effectLibrary()[static_cast<std::size_t>(c)], "", "", false, 3.0 });
     }
   }
+  void makePerChannel(std::size_t option) { Options[option].perChannel = true; }
   const std::vector<msi::GapOption>& options() const override { return Options; }
   double elements() const override { return static_cast<double>(Y.size()); }
   double noiseEnergy() const override { return static_cast<double>(Y.size()); }
@@ -192,6 +193,29 @@ TEST(SetSearch, TwoThatDoTheSameAreEquivalent)
 }
 
 // The first column takes much of what the sum of two others does, and goes when they are both there.
+// Column 0 is all, column 1 most of it.
+TEST(SetSearch, WhatDoesMostBesideNumbersOfChannelsIsEquivalentToThem)
+{
+  Eigen::MatrixXd X = drawnNumbers(SumRows, 2, 8);
+  const Eigen::VectorXd y = 5.0 * X.col(0);
+  X.col(1) = 0.9 * X.col(0) + 0.4 * X.col(1);
+  ColumnSums data(X, y);
+  const auto equivalents = [&data](double score)
+  {
+    const msi::FitPointer nominal = data.nominal();
+    const msi::FitPointer best = data.extended(*nominal, { 0, {}, 0.0, 1.0 });
+    const msi::FitPointer most = data.extended(*nominal, { 1, {}, 0.0, 1.0 });
+    const msi::FitPointer both = data.extended(*best, { 1, {}, 0.0, 1.0 });
+    const msi::FoundSets sets{ nominal, best, { best, most, both }, { 0.0, -50.0, score },
+      { 0.0, -50.0, score } };
+    return msi::foundCauses(data, sets, 1.0).front().equivalent;
+  };
+  EXPECT_TRUE(equivalents(-5.0).empty()); // one number beside one number
+  data.makePerChannel(0);
+  EXPECT_EQ(equivalents(-5.0), std::vector<std::string>{ data.options()[1].effect->name });
+  EXPECT_TRUE(equivalents(-7.0).empty());
+}
+
 TEST(SetSearch, AnEffectThatOnlyStoodInForOthersIsDropped)
 {
   Eigen::MatrixXd X = drawnNumbers(SumRows, 6, 7);

@@ -12,7 +12,6 @@
 #include <functional>
 #include <limits>
 #include <mutex>
-#include <numeric>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -102,15 +101,11 @@ TEST(SimToRealGap, ALampOfAnotherKindIsOneCause)
   parts.detector = msi::siliconDetector(grid);
   parts.filters = { { 460.0, 80.0 }, { 540.0, 90.0 }, { 610.0, 80.0 } };
   parts.light = power("A");
-  msi::GapCapture capture{ msi::designCamera(grid, parts), grid, rasterSamples(96), {}, {},
-    msi::CameraNoise{ TestReadNoise, 0.0 } };
+  const msi::CameraModel nominal = msi::designCamera(grid, parts);
   parts.light = power("LED-B2") + power("FL3");
-  capture.readings =
-    msi::CameraSimulator(msi::designCamera(grid, parts), {}).respond(rasterScene(96));
-  msi::NoiseGenerator({ TestReadNoise, 0.0 }, 5)(capture.readings, 0);
-  capture.sampleOf.resize(96);
-  std::iota(capture.sampleOf.begin(), capture.sampleOf.end(), 0);
-  const msi::GapReport report = diagnosisOf(capture);
+  const msi::CameraSimulator real(msi::designCamera(grid, parts), {});
+  const msi::GapReport report =
+    diagnosisOf(captureFrom(nominal, rasterSamples(96), real.respond(rasterScene(96)), 1));
   EXPECT_EQ(report.verdict, GapVerdict::Explained);
   ASSERT_FALSE(report.causes.empty());
   EXPECT_EQ(report.causes.front().effect, "illuminant_drift");
@@ -138,14 +133,9 @@ TEST(SimToRealGap, AnOffsetIsNoErrorOfTheSumsOverWavelength)
     channels.push_back("C" + std::to_string(k + 1));
   }
   const msi::CameraModel camera(grid, responsivity, Eigen::VectorXd::Zero(7), channels);
-  msi::GapCapture capture{ camera, grid, samples,
-    msi::CameraSimulator(camera, { { "dark_offset", "common", "", { 0.006 } } })
-      .respond(msi::SampleScene(grid, samples)),
-    {}, msi::CameraNoise{ TestReadNoise, 0.0 } };
-  msi::NoiseGenerator({ TestReadNoise, 0.0 }, 5)(capture.readings, 0);
-  capture.sampleOf.resize(96);
-  std::iota(capture.sampleOf.begin(), capture.sampleOf.end(), 0);
-  const msi::GapReport report = diagnosisOf(capture);
+  const msi::CameraSimulator real(camera, { { "dark_offset", "common", "", { 0.006 } } });
+  const msi::GapReport report =
+    diagnosisOf(captureFrom(camera, samples, real.respond(msi::SampleScene(grid, samples)), 1));
   EXPECT_EQ(report.verdict, GapVerdict::Explained);
   ASSERT_FALSE(report.causes.empty());
   EXPECT_EQ(report.causes.front().effect, "dark_offset");

@@ -78,7 +78,7 @@ def _lamp(form, p):
     if form == "another_lamp":
         weights = [value[0] for name, value in p.items() if name.startswith("shape_")]
         size = math.sqrt(sum(weight * weight for weight in weights) / len(weights))
-        return f"another lamp; it differs by {size:.2g} times what two standard lamps differ by"
+        return f"another kind of lamp, {size:.2g} times as far from the model's as two standard lamps are from each other"
     ends = math.exp(2.0 * (p["tilt"][0] + p.get("twist", [0.0])[0]))  # the even polynomial is the same at both
     return f"{ends:.3g} times as much light at the longest wavelength as at the shortest, relative to the model"
 

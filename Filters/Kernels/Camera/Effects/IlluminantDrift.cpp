@@ -2,10 +2,10 @@
 #include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Camera/Effects/Passbands.h"
 #include "Kernels/Colorimetry/Illuminant.h"
+#include "Kernels/Spectra/Interpolation.h"
 
 #include <Eigen/SVD>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -49,8 +49,7 @@ Eigen::MatrixXd makeLampShapes()
     spectra.row(lamp) = logarithm - logarithm.segment(first, seen).mean();
   }
   spectra.rowwise() -= spectra.colwise().mean().eval();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
-    spectra.middleCols(first, seen), Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(spectra.middleCols(first, seen), Eigen::ComputeThinU);
   Eigen::MatrixXd shapes = std::sqrt(2.0 / static_cast<double>(spectra.rows() - 1)) *
     svd.matrixU().leftCols(LampShapes).transpose() * spectra;
   for (Eigen::Index shape = 0; shape < LampShapes; ++shape)
@@ -71,20 +70,14 @@ std::string nameOfShape(Eigen::Index shape)
 Eigen::ArrayXd anotherLamp(const BoundEffect& effect)
 {
   static const Eigen::MatrixXd shapes = makeLampShapes();
-  Eigen::RowVectorXd logarithm = Eigen::RowVectorXd::Zero(shapes.cols());
+  Eigen::VectorXd logarithm = Eigen::VectorXd::Zero(shapes.cols());
   for (Eigen::Index shape = 0; shape < LampShapes; ++shape)
   {
-    logarithm += effect.value(nameOfShape(shape)) * shapes.row(shape);
+    logarithm += effect.value(nameOfShape(shape)) * shapes.row(shape).transpose();
   }
-  return effect.camera().wavelengths().vector().array().unaryExpr(
-    [&](double wavelength)
-    {
-      const double last = static_cast<double>(logarithm.size() - 1);
-      const double place = std::clamp((wavelength - lampGrid().front()) / LampStep, 0.0, last);
-      const auto low = std::min(static_cast<Eigen::Index>(place), logarithm.size() - 2);
-      const double part = place - static_cast<double>(low);
-      return std::exp((1.0 - part) * logarithm[low] + part * logarithm[low + 1]);
-    });
+  const Eigen::MatrixXd onGrid =
+    resamplingMatrix(lampGrid(), effect.camera().wavelengths(), InterpolationMethod::Linear);
+  return (onGrid * logarithm).array().exp();
 }
 
 class IlluminantDrift : public ResponsivityOperator
@@ -128,8 +121,8 @@ Effect illuminantDrift()
   std::vector<EffectParameter> shapes;
   for (Eigen::Index shape = 0; shape < LampShapes; ++shape)
   {
-    shapes.push_back({ nameOfShape(shape), "1", 0.0, -5.0, 5.0, 1.0,
-      "weight of a direction in which lamps differ; 1 is as two of them differ on average" });
+    shapes.push_back(
+      { nameOfShape(shape), "1", 0.0, -5.0, 5.0, 1.0, "weight of B_" + std::to_string(shape + 1) });
   }
   Effect effect;
   effect.definition = { "illuminant_drift", "Illuminant drift",
@@ -148,9 +141,8 @@ Effect illuminantDrift()
           { 0.05, 620.0, 40.0 }, { 0.05, 680.0, 40.0 } } },
       { "another_lamp",
         "M exp(sum of shape_i B_i(wavelength)), B_i the principal directions in which the "
-        "logarithms "
-        "of standard lamps differ: blackbodies, daylight, FL1..FL12 and the LED lamps of CIE "
-        "15:2018",
+        "logarithms of standard lamps differ (blackbodies, daylight, FL1..FL12 and the LED lamps "
+        "of CIE 15:2018), as large as two of them differ on average",
         shapes } },
     "lamp spectrum, white tile", EffectTrait::SpectralGain };
   effect.makeResponsivity = makeResponsivityOperator<IlluminantDrift>;

@@ -17,13 +17,11 @@ namespace msi::test
 
 constexpr double TestReadNoise = 0.0005;
 
-// What sevenChannels() with `effects` answers to the samples: `repeats` readings of each, Gaussian noise.
-inline GapCapture captureOf(const SceneSamples& samples, std::vector<CameraEffect> effects,
-  int repeats = 2, double readNoise = TestReadNoise)
+// A capture of `nominal` whose real camera answers `mean`, K x S: `repeats` readings of each sample, Gaussian noise.
+inline GapCapture captureFrom(const CameraModel& nominal, const SceneSamples& samples,
+  const Eigen::MatrixXd& mean, int repeats = 2, double readNoise = TestReadNoise)
 {
-  const Eigen::MatrixXd mean = CameraSimulator(sevenChannels(), std::move(effects))
-                                 .respond(SampleScene(visibleGrid(), samples));
-  GapCapture capture{ sevenChannels(), visibleGrid(), samples,
+  GapCapture capture{ nominal, visibleGrid(), samples,
     Eigen::MatrixXd(mean.rows(), mean.cols() * repeats), {}, CameraNoise{ readNoise, 0.0 } };
   for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
   {
@@ -32,6 +30,15 @@ inline GapCapture captureOf(const SceneSamples& samples, std::vector<CameraEffec
   }
   NoiseGenerator({ readNoise, 0.0 }, 5)(capture.readings, 0);
   return capture;
+}
+
+// What sevenChannels() with `effects` answers to the samples.
+inline GapCapture captureOf(const SceneSamples& samples, std::vector<CameraEffect> effects,
+  int repeats = 2, double readNoise = TestReadNoise)
+{
+  const CameraSimulator real(sevenChannels(), std::move(effects));
+  return captureFrom(sevenChannels(), samples, real.respond(SampleScene(visibleGrid(), samples)),
+    repeats, readNoise);
 }
 
 inline GapCapture captureWith(std::vector<CameraEffect> effects, Eigen::Index samples = 96)

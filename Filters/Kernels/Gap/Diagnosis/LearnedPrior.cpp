@@ -169,7 +169,10 @@ LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
     {
       block = group.covariance(square);
       surprise += 0.5 * group.deviation.square().sum() / group.learned + cauchy(group.mean);
-      chanceOfCurve = std::fmin(chanceOfCurve, chanceOfCubic(group.deviation.matrix()));
+      if (!group.kind.byPattern)
+      {
+        chanceOfCurve = std::fmin(chanceOfCurve, chanceOfCubic(group.deviation.matrix()));
+      }
     }
     else
     {

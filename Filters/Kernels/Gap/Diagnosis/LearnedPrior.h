@@ -36,6 +36,8 @@ struct FreeNumber
   double wanted = 0.0;
   bool normal =
     false; // of a common number: known to be near neutral, its prior is normal and not Cauchy
+  bool byPattern =
+    false; // of numbers of channels: the image's pattern tells the effect, also where they follow a curve
 };
 
 // Of a number that a fit leaves neutral only where the data do not determine it: standard deviation Decision::FreeSpread.
@@ -61,7 +63,7 @@ struct LearnedPrior
   // Minus the logarithm of the prior's density over that at neutral.
   double surprise = 0.0;
   // Probability that independent numbers of channels follow a smooth curve over the channels as closely; the smallest of
-  // all groups.
+  // all groups, but for those byPattern.
   double chanceOfCurve = 1.0;
 };
 

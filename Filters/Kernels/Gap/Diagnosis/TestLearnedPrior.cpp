@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace
 {
@@ -50,6 +51,15 @@ TEST(LearnedPrior, ACommonPartIsNoScatter)
   EXPECT_NEAR(prior.covariance(0, 1), 1.0, 1e-12);
   EXPECT_NEAR(prior.covariance(0, 0) - prior.covariance(0, 1), 0.01, 1e-6);
   EXPECT_NEAR(prior.surprise, 1.0 + std::log(2.0), 1e-6);
+}
+
+// Six equal numbers follow a cubic; a lens whose image is as large in every channel has no other effect behind it.
+TEST(LearnedPrior, NumbersThatAPatternTellsMayFollowACurve)
+{
+  msi::FreeNumber number{ 0, true, false, 0.3, 1.0 };
+  EXPECT_LT(msi::LearnedPrior(std::vector<msi::FreeNumber>(6, number)).chanceOfCurve, 1e-6);
+  number.byPattern = true;
+  EXPECT_EQ(msi::LearnedPrior(std::vector<msi::FreeNumber>(6, number)).chanceOfCurve, 1.0);
 }
 
 TEST(LearnedPrior, ANumberNearNeutralIsNormal)

@@ -187,7 +187,8 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
         numbers.push_back(
           { { term.parameter, term.perChannel, hasCommonForm, deviation, term.typical, 0.0,
               term.lower - kind.neutral, term.upper - kind.neutral,
-              kind.pull == ImagePull::Neutral ? 0.0 : deviation, kind.pull == ImagePull::Itself },
+              kind.pull == ImagePull::Neutral ? 0.0 : deviation, kind.pull == ImagePull::Itself,
+              choice->effect->stage == EffectStage::Image },
             &term, term.perChannel ? k : -1 });
       }
     }

@@ -14,14 +14,17 @@ namespace msi
 
 namespace
 {
-// A number of each line and channel, and its weight; lines x K.
+// A number of each line and channel, and its weight; lines x K. Of each channel: the energy in all lines, and how many pixels they have.
 struct LineValues
 {
   Eigen::ArrayXXd value, weight;
+  Eigen::ArrayXd energy, pixels;
 
   LineValues(Eigen::Index lines, Eigen::Index channels)
     : value(Eigen::ArrayXXd::Zero(lines, channels))
     , weight(value)
+    , energy(Eigen::ArrayXd::Zero(channels))
+    , pixels(energy)
   {
   }
 };
@@ -51,6 +54,8 @@ std::vector<LineValues> lineSums(const FieldData& data, const std::vector<FieldR
       const double weight = limit.size() > 0 && size > limit[k] ? limit[k] / size : 1.0;
       fold.value(line, k) += weight * u * part.residual[n];
       fold.weight(line, k) += weight * u * u;
+      fold.energy[k] += weight * size * size;
+      fold.pixels[k] += 1.0;
     }
   }
   return folds;
@@ -86,6 +91,20 @@ void cutDefects(Eigen::ArrayXXd& values)
   }
 }
 
+// What a line in the dark says is mostly noise: each mean times the part of its variance that is not.
+void shrinkToZero(LineValues& lines, const Eigen::ArrayXd& noise)
+{
+  for (Eigen::Index k = 0; k < lines.value.cols(); ++k)
+  {
+    const Eigen::ArrayXd weight = lines.weight.col(k);
+    const double between = (weight * lines.value.col(k).square()).sum();
+    const auto measured = static_cast<double>((weight > 0.0).count());
+    const double spread =
+      std::fmax(between - measured * noise[k], 0.0) / std::fmax(weight.sum(), 1e-300);
+    lines.value.col(k) *= spread * weight / (spread * weight + noise[k]).max(1e-300);
+  }
+}
+
 // The mean of each line over all folds but one.
 LineValues meansWithout(const std::vector<LineValues>& folds, std::size_t without)
 {
@@ -96,6 +115,8 @@ LineValues meansWithout(const std::vector<LineValues>& folds, std::size_t withou
     {
       lines.value += folds[fold].value;
       lines.weight += folds[fold].weight;
+      lines.energy += folds[fold].energy;
+      lines.pixels += folds[fold].pixels;
     }
   }
   lines.value /= lines.weight.max(1e-12);
@@ -113,8 +134,12 @@ FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>
     for (std::size_t without = 0; without <= folds.size(); ++without)
     {
       LineValues lines = meansWithout(folds, without);
+      const Eigen::ArrayXXd between = lines.weight * lines.value.square();
+      const Eigen::ArrayXd noise = (lines.energy - between.colwise().sum().transpose()) /
+        (lines.pixels - static_cast<double>(between.rows())).max(1.0);
       detrend(lines, keepTrend ? 1 : 3);
-      found.emplace_back((lines.weight > 0.0).select(lines.value, 0.0));
+      shrinkToZero(lines, noise.max(0.0));
+      found.push_back(lines.value);
       cutDefects(found.back());
     }
     return found;

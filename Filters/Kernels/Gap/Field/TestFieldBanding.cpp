@@ -1,9 +1,12 @@
+#include "Kernels/Gap/Field/FieldData.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/Field/TestFieldReport.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <string>
 
 namespace
@@ -98,6 +101,59 @@ TEST(FieldGap, OffsetsOfRows)
   EXPECT_EQ(report.causes.front().form, "row_offsets");
   ASSERT_FALSE(report.notes.empty());
   EXPECT_NE(report.notes.front().find("the three sines that come nearest"), std::string::npos);
+}
+
+// The columns of a detector behind a filter wheel: the same in every channel, which is no sign of another effect.
+TEST(FieldGap, GainsOfColumnsAreTheSameInEveryChannel)
+{
+  const TestScene scene(48, 8);
+  const msi::CounterRandom random(8, 3);
+  const GapReport report = diagnose(changed(scene, 58,
+    [&](double u, int, int x, int, double)
+    { return u * (1.0 + 0.05 * random.normal(static_cast<std::uint64_t>(x))); }));
+  expectFirst(report, "banding", "columns");
+  EXPECT_GT(report.probabilityOf("banding"), 0.7);
+  EXPECT_LT(report.probabilityOf("unknown"), 0.3);
+}
+
+// Where the training blocks of some columns are dark, these say nothing of the columns' gains.
+TEST(FieldGap, ColumnsInTheDarkSayNothing)
+{
+  const TestScene scene(49);
+  const msi::CounterRandom random(9, 3);
+  TestPair pair = changed(scene, 59,
+    [&](double u, int, int x, int, double)
+    { return u * (1.0 + 0.05 * random.normal(static_cast<std::uint64_t>(x))); });
+  const msi::FieldData data = msi::prepareFieldData(pair.pair(), msi::GapOptions{}.seed,
+    [](int count, const std::function<void(int)>& body)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        body(i);
+      }
+    });
+  int dark = 0;
+  for (const msi::FieldBlock& block : data.blocks)
+  {
+    const bool inDark = block.window.x >= 32 && block.window.x < 80 && block.fold >= 0;
+    dark += inDark ? 1 : 0;
+    for (int y = 0; inDark && y < block.window.height; ++y)
+    {
+      for (int i = 0; i < 3 * block.window.width; ++i)
+      {
+        const std::size_t at =
+          3 * pair.pair().index(block.window.x, block.window.y + y) + static_cast<std::size_t>(i);
+        pair.real[at] -= 0.999F * pair.simulated[at];
+        pair.simulated[at] *= 0.001F;
+      }
+    }
+  }
+  ASSERT_GT(dark, 10);
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "banding");
+  EXPECT_GT(report.gap.shrink, 0.3);
 }
 
 TEST(FieldGap, OneDeadColumnIsNoBanding)

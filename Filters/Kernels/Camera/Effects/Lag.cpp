@@ -1,4 +1,4 @@
-// A part of the exposure before.
+// A part of the exposure before, added to the next or taken from one to the next.
 #include "Kernels/Camera/Effects/Effect.h"
 
 namespace msi
@@ -11,6 +11,7 @@ class Lag : public PixelOperator
 public:
   explicit Lag(const BoundEffect& effect)
     : Retained(static_cast<float>(effect.value("retained")))
+    , Conserving(effect.form().name == "conserving")
   {
   }
   void apply(Eigen::Map<Eigen::MatrixXf> run, int, int) const noexcept override
@@ -19,35 +20,38 @@ public:
     {
       for (Eigen::Index k = run.rows() - 1; k > 0; --k)
       {
-        run(k, j) += Retained * run(k - 1, j);
+        run(k, j) += Retained * (run(k - 1, j) - (Conserving ? run(k, j) : 0.0F));
       }
     }
   }
 
 private:
   float Retained;
+  bool Conserving;
 };
-}
 
-namespace
-{
-// Its step on image pairs.
+// Its step on image pairs: a number for each form.
 struct LagOfImage
 {
   static double keep(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
   {
-    const double previous = pixel.previous != nullptr ? *pixel.previous : 0.0;
+    if (pixel.previous == nullptr)
+    {
+      return 1.0;
+    }
+    const double more = *pixel.previous - pixel.self;
     if (by != nullptr)
     {
-      by[0] = previous;
+      by[0] = *pixel.previous;
+      by[1] = more;
     }
-    signal += numbers[0] * previous;
+    signal += numbers[0] * *pixel.previous + numbers[1] * more;
     return 1.0;
   }
 
   static const ImageStep& step()
   {
-    static const ImageStep made{ ImageStage::Exposure, { {} }, keep };
+    static const ImageStep made{ ImageStage::Exposure, { {}, {} }, keep };
     return made;
   }
 };
@@ -60,9 +64,11 @@ Effect lag()
   Effect effect;
   effect.definition = { "lag", "Lag",
     "A detector keeps a part of the exposure before: that of the channel before.",
-    EffectStage::Image, EffectNeed::Nothing, { { "common", "u_k + retained u_k-1", { retained } } },
+    EffectStage::Image, EffectNeed::Nothing,
+    { { "common", "u_k + retained u_k-1", { retained } },
+      { "conserving", "u_k + retained (u_k-1 - u_k), the first channel as it is", { retained } } },
     "channels captured in another order", EffectTrait::None,
-    { { "common", { imageTerm(0, retained) } } } };
+    { { "common", { imageTerm(0, retained) } }, { "conserving", { imageTerm(1, retained) } } } };
   effect.onImage.makePixels = makePixelOperator<Lag>;
   effect.onImage.step = &LagOfImage::step();
   return effect;

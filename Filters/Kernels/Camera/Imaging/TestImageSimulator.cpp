@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace
 {
@@ -281,15 +282,20 @@ TEST(ImageSimulator, LagKeepsAPartOfTheChannelBefore)
 {
   const msi::CameraModel camera = sevenChannels();
   const std::vector<float> ideal = simulateAll({});
-  const std::vector<float> lagging = simulateAll({ { "lag", "", "", { 0.1 } } });
-  for (int k = 1; k < Channels; ++k)
+  for (const char* form : { "common", "conserving" })
   {
-    const double before = static_cast<double>(at(ideal, 20, 20, k - 1)) - camera.dark()[k - 1];
+    const std::vector<float> lagging = simulateAll({ { "lag", form, "", { 0.1 } } });
+    const auto light = [&](int k)
+    { return static_cast<double>(at(ideal, 20, 20, k)) - camera.dark()[k]; };
+    for (int k = 1; k < Channels; ++k)
+    {
+      const double lost = std::string(form) == "conserving" ? light(k) : 0.0;
+      EXPECT_NEAR(static_cast<double>(at(lagging, 20, 20, k) - at(ideal, 20, 20, k)),
+        0.1 * (light(k - 1) - lost), 1e-6);
+    }
     EXPECT_NEAR(
-      static_cast<double>(at(lagging, 20, 20, k) - at(ideal, 20, 20, k)), 0.1 * before, 1e-6);
+      static_cast<double>(at(lagging, 20, 20, 0)), static_cast<double>(at(ideal, 20, 20, 0)), 1e-6);
   }
-  EXPECT_NEAR(
-    static_cast<double>(at(lagging, 20, 20, 0)), static_cast<double>(at(ideal, 20, 20, 0)), 1e-6);
 }
 
 TEST(ImageSimulator, BandingIsASineOverTheRows)

@@ -116,6 +116,7 @@ TEST(FieldGap, ExposureIsOneNumber)
   expectParameter(report, "exposure_gain", "gain", 0.95, 0.001);
 }
 
+// Added to the channel, or taken from one and given to the next: then it is crosstalk of one side, too.
 TEST(FieldGap, LagOfTheChannelBefore)
 {
   const TestScene scene(31, 4);
@@ -124,15 +125,24 @@ TEST(FieldGap, LagOfTheChannelBefore)
   {
     planes.push_back(scene.pixels(scene.fine(k)));
   }
-  const TestPair pair = changed(scene, 41,
-    [&](double u, int k, int x, int y, double)
-    { return u + (k > 0 ? 0.05 * planes[static_cast<std::size_t>(k) - 1].read(x, y) : 0.0); });
-  const GapReport report = diagnose(pair);
-  SCOPED_TRACE(describe(report));
-  ASSERT_EQ(report.causes.size(), 1U);
-  EXPECT_EQ(report.causes.front().effect, "lag");
-  EXPECT_EQ(report.verdict, GapVerdict::Explained);
-  expectParameter(report, "lag", "retained", 0.05, 0.001);
+  for (const bool conserving : { false, true })
+  {
+    const TestPair pair = changed(scene, 41,
+      [&](double u, int k, int x, int y, double)
+      {
+        const double before = k > 0 ? planes[static_cast<std::size_t>(k) - 1].read(x, y) : 0.0;
+        return u + 0.05 * (before - (conserving && k > 0 ? u : 0.0));
+      });
+    const GapReport report = diagnose(pair);
+    SCOPED_TRACE(describe(report));
+    ASSERT_EQ(report.causes.size(), 1U);
+    EXPECT_EQ(report.causes.front().effect, "lag");
+    EXPECT_EQ(report.causes.front().form, conserving ? "conserving" : "common");
+    EXPECT_EQ(report.causes.front().equivalent,
+      conserving ? std::vector<std::string>{ "channel_crosstalk" } : std::vector<std::string>{});
+    EXPECT_EQ(report.verdict, GapVerdict::Explained);
+    expectParameter(report, "lag", "retained", 0.05, 0.001);
+  }
 }
 
 // Few pixels are that bright; all others are as they were.

@@ -128,14 +128,9 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   requireKnown(options.without);
   GapData data = prepareGapData(capture, options);
   NoiseFinding noise = findNoise(data, capture.noise);
-  if (noise.unknown)
-  {
-    setUnknownNoise(data);
-  }
-  else
-  {
-    data.variance = readingVariance(data, noise.reading);
-  }
+  const Eigen::MatrixXd before = measuredOnly(data, data.observed - data.simulated);
+  data.variance =
+    noise.unknown ? unknownVariance(data, before) : readingVariance(data, noise.reading);
   const Eigen::MatrixXd integration = integrationVariance(data, capture.wavelengths);
   data.variance += integration;
   if (options.reflectanceNoise)
@@ -146,7 +141,6 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   setWeights(data);
 
   GapReport report;
-  const Eigen::MatrixXd before = measuredOnly(data, data.observed - data.simulated);
   Progress progress(options, data.folds + 4.0);
   const std::vector<EffectChoice> choices = choicesFor(data.scene, options.without);
   const SampleObservation observation(data, data.usable, choices, options.seed);
@@ -188,6 +182,10 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     return std::nullopt;
   }
 
+  if (noise.unknown)
+  {
+    data.variance = data.variance.cwiseMin(unknownVariance(data, after) + integration);
+  }
   const AxisShares rest = shareOverAxes(data, after);
   const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
   const double doubted = limitIntegration(data, integration, unpredicted);

@@ -104,14 +104,21 @@ TEST(SimToRealGap, ALampOfAnotherKindIsOneCause)
   const msi::CameraModel nominal = msi::designCamera(grid, parts);
   parts.light = power("LED-B2") + power("FL3");
   const msi::CameraSimulator real(msi::designCamera(grid, parts), {});
-  const msi::GapReport report =
-    diagnosisOf(captureFrom(nominal, rasterSamples(96), real.respond(rasterScene(96)), 1));
-  EXPECT_EQ(report.verdict, GapVerdict::Explained);
-  ASSERT_FALSE(report.causes.empty());
-  EXPECT_EQ(report.causes.front().effect, "illuminant_drift");
-  EXPECT_EQ(report.causes.front().form, "another_lamp");
-  EXPECT_GT(report.causes.front().share, 0.8);
-  EXPECT_GT(report.causes.front().probability, 0.8);
+  msi::GapCapture capture =
+    captureFrom(nominal, rasterSamples(96), real.respond(rasterScene(96)), 1);
+  for (const bool noiseKnown : { true, false })
+  {
+    capture.noise = noiseKnown ? capture.noise : std::nullopt;
+    const msi::GapReport report = diagnosisOf(capture);
+    EXPECT_EQ(report.verdict, GapVerdict::Explained);
+    ASSERT_FALSE(report.causes.empty());
+    EXPECT_EQ(report.causes.front().effect, "illuminant_drift");
+    EXPECT_EQ(report.causes.front().form, "another_lamp");
+    EXPECT_GT(report.causes.front().share, 0.8);
+    EXPECT_GT(report.causes.front().probability, 0.8);
+    // Also where nobody tells the noise.
+    EXPECT_LT(report.gap.noiseFloor, 1.1 * report.gap.rmsAfter);
+  }
 }
 
 // Reflectances as rough as the grid's step, seen through single wavelengths: sums over wavelength may err by more than the offset,

@@ -73,7 +73,8 @@ class Diagnosis:
             for name in curves[0] if curves else ():
                 if name.startswith("C") and "wavelength" in curves[0]:
                     self._names[name] = report.channel(name, max(curves, key=lambda row: row[name])["wavelength"])
-        return re.sub(r"\b[A-Za-z]\w*\b", lambda found: self._names.get(found[0], found[0]), text)
+        told = re.sub(r"\b[A-Za-z]\w*\b", lambda found: self._names.get(found[0], found[0]), text)
+        return told.replace("channel channel", "channel")
 
     def summary(self):
         found = self.records("summary")

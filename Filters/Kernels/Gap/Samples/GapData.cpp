@@ -81,6 +81,7 @@ void averageReadings(const GapCapture& capture, GapData& data)
   data.observed = Eigen::MatrixXd::Zero(channels, samples);
   data.count = Eigen::MatrixXd::Zero(channels, samples);
   data.scatter = Eigen::MatrixXd::Zero(channels, samples);
+  data.variance = Eigen::MatrixXd::Zero(channels, samples);
   for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
   {
     const Eigen::Index sample = capture.sampleOf[static_cast<std::size_t>(j)];

@@ -34,7 +34,7 @@ struct GapData
   Eigen::Index samples() const noexcept { return observed.cols(); }
 };
 
-// Averages and aligns; variance and weight are left empty.
+// Averages and aligns; variance is 0, weight is left empty.
 // Errors: as diagnoseGap.
 GapData prepareGapData(const GapCapture& capture, const GapOptions& options);
 

@@ -183,12 +183,10 @@ struct SecondDifferences
 };
 }
 
-void setUnknownNoise(GapData& data)
+Eigen::MatrixXd unknownVariance(const GapData& data, const Eigen::MatrixXd& left)
 {
-  data.variance = Eigen::MatrixXd::Zero(data.channels(), data.samples());
   const auto measured = data.measured();
-  const Eigen::MatrixXd residual =
-    shareOverAxes(data, measured.select(data.observed - data.simulated, 0.0)).heldOutResidual;
+  const Eigen::MatrixXd residual = shareOverAxes(data, left).heldOutResidual;
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(data.channels());
   for (Eigen::Index k = 0; k < data.channels(); ++k)
   {
@@ -214,7 +212,7 @@ void setUnknownNoise(GapData& data)
         variance[k], std::pow(robustDeviation(differences), 2) / 6.0 + std::pow(SampleScatter, 2));
     }
   }
-  data.variance.colwise() = (variance.array() + 1e-12).matrix();
+  return (variance.array() + 1e-12).matrix().replicate(1, data.samples());
 }
 
 namespace

@@ -50,9 +50,9 @@ Eigen::VectorXd reflectanceErrorGain(const CameraModel& camera);
 // the difference between holding the end value and going on along its slope.
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured);
 
-// Without noise model and repeats: per channel what no basis predicts is noise; but what the channels of a sample share only up to
-// SampleScatter.
-void setUnknownNoise(GapData& data);
+// Without noise model and repeats, K x S: per channel what no basis predicts of `left` (K x S, 0 where nothing was measured) is
+// noise; but what the channels of a sample share only up to SampleScatter.
+Eigen::MatrixXd unknownVariance(const GapData& data, const Eigen::MatrixXd& left);
 
 // How many times the noise model's standard deviation the residual needs; 1 where it is not noise.
 //

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Judges the diagnosis on cases whose effects it is not told: run-withheld.sh [small|full] [SEED] [SETS] [ENGINE]
-#   SETS    of "bench second cameras images raw linearised chart", default all: a virtual bench; a second generator that shares
-#           nothing with the first; a third one, in Python, with cameras of 3 to 30 channels and other lamps; image pairs;
-#           effects planted in real measurements: as they are, after every channel was made linear, and of a filter-wheel
+#   SETS    of "bench second cameras images scenes raw linearised chart", default all: a virtual bench; a second generator that
+#           shares nothing with the first; a third one, in Python, with cameras of 3 to 30 channels and other lamps; image pairs,
+#           and others, in Python, of 3 to 12 channels; effects planted in real measurements: as they are, after every channel was made linear, and of a filter-wheel
 #           camera. cameras, raw, linearised and chart need MULTISPECTRAL_DATA
 #   ENGINE  a diagnosis known to Diagnose/Engines.cpp, default "present"
 # Builds what it needs, writes the cases and, apart, their keys, diagnoses without the keys, prints all sets side by side.
@@ -11,7 +11,7 @@ set -eu
 
 size=${1:-small}
 seed=${2:-2026}
-sets=${3:-bench second cameras images raw linearised chart}
+sets=${3:-bench second cameras images scenes raw linearised chart}
 engine=${4:-present}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build="$root/build/withheld"
@@ -29,6 +29,7 @@ for set in $sets; do
   if ! { [ "${RESUME:-0}" = 1 ] && [ -s "$key" ]; }; then
     case $set in
       cameras) /usr/bin/python3 "$root/Testing/Withheld/Cameras/cameras.py" "$output/$set" "$key" "$size" "$seed" ;;
+      scenes) /usr/bin/python3 "$root/Testing/Withheld/Scenes/scenes.py" "$output/$set" "$key" "$size" "$seed" ;;
       *) "$programs/GenerateWithheld" "$set" "$output/$set" "$key" "$size" "$seed" ;;
     esac
   fi

@@ -15,8 +15,6 @@ namespace msi
 
 namespace
 {
-// What a profile counts for beside its strength. Its lines are no parameters: blocks that took no part in it judge it.
-constexpr Eigen::Index ProfileParameters = 3;
 constexpr int RadiusSteps = 48;
 
 std::string withChannel(const std::string& name, const std::string& channel)
@@ -200,13 +198,6 @@ bool isPerChannel(const std::vector<ImageTerm>& terms)
 {
   return std::any_of(
     terms.begin(), terms.end(), [](const ImageTerm& term) { return term.perChannel; });
-}
-
-Eigen::Index parameterCount(const FieldChoice& choice, Eigen::Index channels)
-{
-  return static_cast<Eigen::Index>(numbersOf({ &choice }, FieldModel(channels)).size()) +
-    (isBanding(choice) ? 1 : 0) + // the period
-    (isProfile(choice) ? ProfileParameters * channels : 0);
 }
 
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,

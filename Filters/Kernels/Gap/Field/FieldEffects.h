@@ -59,7 +59,6 @@ bool isPerChannel(const std::vector<ImageTerm>& terms);
 // Neither the same effect nor parameters in common.
 bool compatible(const FieldSet& set, const FieldChoice& choice);
 AskedSteps stepsOf(const FieldSet& set);
-Eigen::Index parameterCount(const FieldChoice& choice, Eigen::Index channels);
 
 // error: standard errors of the choice's numbers, from `next` on (FieldFitter::standardErrors), which moves on.
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,

@@ -156,7 +156,8 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
       continue;
     }
     const FieldSet set = joined(base.set, choice);
-    const auto parameters = static_cast<double>(parameterCount(choice, Data.channels()));
+    // The lines of a profile are no parameters: blocks that took no part in it judge it.
+    const auto parameters = static_cast<double>(numbersOf({ &choice }, model).size());
     GapPreview preview{ option, {}, 0.0, parameters };
     double energy = fitter.fitFromBestStart(set).energy;
     if (choice.step().step->displacement != nullptr && !Start.shift.isZero())

@@ -124,7 +124,7 @@ Effect sessionDrift()
     false, true };
   const EffectParameter width{ "width", "session", 0.02, 0.001, 0.3, 0.01, "duration of the step",
     false, true };
-  const EffectParameter constant{ "constant", "session", 0.3, 0.05, 3.0, 0.1, "time constant" };
+  const EffectParameter constant{ "constant", "session", 0.3, 0.05, 1.0, 0.1, "time constant" };
   const std::vector<std::vector<double>> constants = { { 0.03, 0.1 }, { 0.03, 0.8 } };
   Effect effect;
   effect.definition = { "session_drift", "Session drift",

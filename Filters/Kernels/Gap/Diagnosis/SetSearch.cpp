@@ -93,14 +93,22 @@ private:
     std::vector<GapPreview> chosen;
     for (const auto& [score, number] : ranked)
     {
-      GapPreview& preview = all[number];
+      const GapPreview& preview = all[number];
       const auto alike = std::count_if(chosen.begin(), chosen.end(),
         [&](const GapPreview& other)
         { return Data.options()[other.option].sameCause(Data.options()[preview.option]); });
       if (chosen.size() < most && alike < MostForms)
       {
-        chosen.push_back(std::move(preview));
+        chosen.push_back(preview);
       }
+    }
+    // Numbers of many channels may cost more here than once their scatter is learned.
+    const auto lessGain = [](const GapPreview& a, const GapPreview& b) { return a.gain < b.gain; };
+    const auto largest = std::max_element(all.begin(), all.end(), lessGain);
+    if (Limits.largestGain && largest != all.end() &&
+      std::max_element(chosen.begin(), chosen.end(), lessGain)->gain < 0.5 * largest->gain)
+    {
+      chosen.push_back(*largest);
     }
     return chosen;
   }

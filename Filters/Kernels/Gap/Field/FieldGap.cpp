@@ -54,12 +54,12 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
       std::make_unique<FieldObservation>(data, choices, finding.weights, start, loop);
   };
   observe();
-  finding.found = searchSets(*finding.observation, { maximumEffects, 1, 1, false }, stop);
+  finding.found = searchSets(*finding.observation, { maximumEffects, 1, 1, false, true }, stop);
   // A limit from what is left would take the gap itself for outliers.
   finding.weights.noise = fieldNoise(finding.after());
   observe();
   finding.found = searchSets(
-    *finding.observation, { maximumEffects, PairBeamWidth, PairOptionsFitted, true }, stop);
+    *finding.observation, { maximumEffects, PairBeamWidth, PairOptionsFitted, true, true }, stop);
 }
 
 // On the test blocks.

@@ -1,9 +1,10 @@
 #!/bin/sh
 # Judges the diagnosis on cases whose effects it is not told: run-withheld.sh [small|full] [SEED] [SETS] [ENGINE]
 #   SETS    of "bench second cameras images scenes raw linearised chart", default all: a virtual bench; a second generator that
-#           shares nothing with the first; a third one, in Python, with cameras of 3 to 30 channels and other lamps; image pairs,
-#           and others, in Python, of 3 to 12 channels; effects planted in real measurements: as they are, after every channel was made linear, and of a filter-wheel
-#           camera. cameras, raw, linearised and chart need MULTISPECTRAL_DATA
+#           shares nothing with the first; a third one, in Python, with cameras of 3 to 30 channels and other lamps; image
+#           pairs; others, in Python, of 3 to 12 channels; effects planted in real measurements: as they are, after every
+#           channel was made linear, and of a filter-wheel camera. cameras, raw, linearised and chart need
+#           MULTISPECTRAL_DATA, scenes has photographs where it is set
 #   ENGINE  a diagnosis known to Diagnose/Engines.cpp, default "present"
 # Builds what it needs, writes the cases and, apart, their keys, diagnoses without the keys, prints all sets side by side.
 # THREADS=2: cases at a time. RESUME=1 goes on with the results of a run that was stopped, made by the same version.

@@ -13,6 +13,9 @@ import sys
 import numpy
 from scipy.interpolate import CubicSpline
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Cases"))
+from cases import lists, rms, strength_of, table  # noqa: E402
+
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 FINE = numpy.arange(400, 701, 2.0)
 COARSE = numpy.arange(400, 701, 10.0)
@@ -201,27 +204,11 @@ def noisy(random, seen):
     return seen + random.normal(size=seen.shape) * numpy.sqrt(READ ** 2 + SHOT ** 2 * numpy.maximum(seen, 0.0))
 
 
-def rms(values):
-    return float(numpy.sqrt((values ** 2).mean()))
-
-
 def strength_for(random, case, truth):
     """That makes a gap of a size drawn; half of the single lamps are whole."""
     if [name for name, _ in case.faults] == ["illuminant_drift"] and random.random() < 0.5:
         return 1.0 / case.faults[0][1]["size"]
-    target = random.uniform(0.006, 0.03)
-    low, high = 1e-4, 1.0
-    for _ in range(30):
-        middle = numpy.sqrt(low * high)
-        low, high = (middle, high) if rms(case.answer(middle) - truth) < target else (low, middle)
-    return numpy.sqrt(low * high)
-
-
-def table(path, header, rows):
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(rows)
+    return strength_of(random.uniform(0.006, 0.03), lambda strength: case.answer(strength) - truth, high=1.0, rounds=30)
 
 
 def write(folder, random, effects, kind, fitted):
@@ -268,10 +255,8 @@ def main():
             for effects in singles + pairs + [[]]:
                 name = f"case-{1001 + len(cases)}"
                 told = write(os.path.join(folder, name), random, effects, kind, fitted)
-                cases.append([name, ("clean", "single", "several")[len(effects)], *told, "", ""])
-    table(os.path.join(folder, "cases.csv"), ["case", "without"], [[case[0], ""] for case in cases])
-    table(key, ["case", "set", "effects", "kinds", "axes", "gap_rms", "best_shrink", "without", "twin"], cases)
-    print(f"{len(cases)} cases in {folder}")
+                cases.append([name, ("clean", "single", "several")[len(effects)], *told])
+    lists(folder, key, cases)
 
 
 if __name__ == "__main__":

@@ -5,12 +5,14 @@ model of the scene and with files of 8, 12 or 16 bits; one effect, two, one that
 the other generators and none with the simulator.
 """
 
-import csv
 import os
 import sys
 
 import numpy
 from scipy import ndimage, signal
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Cases"))
+from cases import lists, rms, strength_of  # noqa: E402
 
 PARTS = 3  # of a pixel, along each axis
 MARGIN = 12  # pixels around the image
@@ -26,13 +28,12 @@ class Scene:
     """What lies before the camera, PARTS times as fine as its pixels: light(k), and the number of the object at each place."""
 
     def __init__(self, random, kind):
-        self.kind = kind
         self.width, self.height = int(random.integers(150, 330)), int(random.integers(120, 260))
         self.channels = int(random.choice([3, 4, 6, 8, 12]))
         shape = ((self.height + 2 * MARGIN) * PARTS, (self.width + 2 * MARGIN) * PARTS)
         centers = numpy.linspace(420, 680, self.channels)
         if kind == "photograph":
-            self.photograph(random, shape)
+            self.photograph()
             return
         self.objects = numpy.zeros(shape, int)
         down, right = numpy.mgrid[:shape[0], :shape[1]] / PARTS
@@ -59,7 +60,7 @@ class Scene:
         self.texture = 1.0 + (0.0 if kind == "chart" else 0.05) * smooth(random, shape, random.uniform(1, 4) * PARTS)
         self.texture += (0.0 if kind == "chart" else 0.08) * smooth(random, shape, 30 * PARTS)
 
-    def photograph(self, random, shape):
+    def photograph(self):
         from PIL import Image
         folder = os.path.join(os.environ["MULTISPECTRAL_DATA"], "filterwheel-cc24")
         names = sorted(name for name in os.listdir(folder) if name.startswith("channel_"))
@@ -101,12 +102,11 @@ class Camera:
         self.small = {"gain": random.normal(0, 0.003, channels), "dark": random.normal(0, 0.0003, channels), "move": random.normal(0, 0.02, (channels, 2))}
 
     def draw(self, random):
-        channels, color = self.scene.channels, numpy.linspace(-1, 1, self.scene.channels)
-        one = numpy.ones(channels)
+        channels = self.scene.channels
         each = random.random() < 0.5
         return {"sign": random.choice([-1.0, 1.0]), "gains": random.normal(size=channels), "each": each,
-                "offsets": random.uniform(0.4, 1.0, channels) if each else one, "kind": int(random.integers(3)),
-                "move": random.normal(size=(channels, 2)), "turn": random.normal(), "color": color, "center": random.normal(0, 0.08, 2),
+                "offsets": random.uniform(0.4, 1.0, channels) if each else numpy.ones(channels), "kind": int(random.integers(3)),
+                "move": random.normal(size=(channels, 2)), "turn": random.normal(), "color": numpy.linspace(-1, 1, channels), "center": random.normal(0, 0.08, 2),
                 "angle": random.uniform(0, 2 * numpy.pi), "rows": random.random() < 0.5, "lines": random.normal(size=(channels, 4000)),
                 "period": random.uniform(8, 40), "phase": random.uniform(0, 1), "radius": random.uniform(5, 25), "at": random.uniform(-0.7, 0.7, 2),
                 "spots": random.uniform(-1, 1, (14, 2)), "leak": random.uniform(0, 1, (channels, channels))}
@@ -231,10 +231,6 @@ AXES = {"banding": "rows columns", "channel_crosstalk": "channel sample region",
         "misregistration": "edges region", "saturation": "level", "veiling_glare": "channel level", "vignetting": "position"}
 
 
-def rms(values):
-    return float(numpy.sqrt((values ** 2).mean()))
-
-
 def write(folder, random, effects, kind, exact):
     scene = Scene(random, kind)
     camera = Camera(random, scene, effects)
@@ -242,10 +238,7 @@ def write(folder, random, effects, kind, exact):
     model = camera.answer(0.0)
     strength = 0.0
     if effects:
-        target, low, high = random.uniform(0.006, 0.03), 1e-4, 0.6
-        for _ in range(9):
-            strength = numpy.sqrt(low * high)
-            low, high = (strength, high) if rms(camera.answer(strength) - model) < target else (low, strength)
+        strength = strength_of(random.uniform(0.006, 0.03), lambda tried: camera.answer(tried) - model, high=0.6, rounds=8)
     if not exact:
         camera.imperfect(random)
     real = camera.answer(strength)
@@ -278,13 +271,6 @@ def write(folder, random, effects, kind, exact):
             ";".join(axis for name in known for axis in AXES[name].split()), rms(real - model), 1.0]
 
 
-def table(path, header, rows):
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(rows)
-
-
 def main():
     folder, key = sys.argv[1:3]
     full = sys.argv[3:4] == ["full"]
@@ -293,17 +279,16 @@ def main():
     cases = []
     os.makedirs(folder, exist_ok=True)
     for exact in (True, False):
-        wanted = [("single", [name], "") for name in EFFECTS for _ in kinds if full or random.random() < 0.2]
-        wanted += [("several", [str(name) for name in random.choice(EFFECTS, 2, replace=False)], "") for _ in range(12 if full else 2)]
-        wanted += [("stranger", [name], "") for name in STRANGERS for _ in range(2 if full else 1)] + [("clean", [], "")] * (6 if full and exact else 1 * exact)
-        for n, (group, effects, without) in enumerate(wanted):
+        wanted = [("single", [name]) for name in EFFECTS for _ in kinds if full or random.random() < 0.2]
+        wanted += [("several", [str(name) for name in random.choice(EFFECTS, 2, replace=False)]) for _ in range(12 if full else 2)]
+        wanted += [("stranger", [name]) for name in STRANGERS for _ in range(2 if full else 1)]
+        wanted += [("clean", [])] * ((6 if full else 1) if exact else 0)
+        for n, (group, effects) in enumerate(wanted):
             name = f"case-{1001 + len(cases)}"
             told = write(os.path.join(folder, name), random, effects, kinds[n % len(kinds)], exact)
             nominal = {"single": "nominal", "several": "nominal several"}.get(group, group)
-            cases.append([name, group if exact else nominal, *told, without, ""])
-    table(os.path.join(folder, "cases.csv"), ["case", "without"], [[case[0], case[-2]] for case in cases])
-    table(key, ["case", "set", "effects", "kinds", "axes", "gap_rms", "best_shrink", "without", "twin"], cases)
-    print(f"{len(cases)} cases in {folder}")
+            cases.append([name, group if exact else nominal, *told])
+    lists(folder, key, cases)
 
 
 if __name__ == "__main__":

@@ -36,8 +36,8 @@ struct FreeNumber
   double wanted = 0.0;
   bool normal =
     false; // of a common number: known to be near neutral, its prior is normal and not Cauchy
-  bool byPattern =
-    false; // of numbers of channels: the image's pattern tells the effect, also where they follow a curve
+  // Of numbers of channels: a pattern in the image tells the effect, so that they may follow a curve.
+  bool byPattern = false;
 };
 
 // Of a number that a fit leaves neutral only where the data do not determine it: standard deviation Decision::FreeSpread.

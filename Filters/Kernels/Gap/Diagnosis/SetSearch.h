@@ -15,8 +15,8 @@ struct SetSearchLimits
   int beamWidth = 3;      // sets of each size that are kept on the way
   int optionsFitted = 10; // in full, for each of them
   bool exchange = true;
-  bool largestGain =
-    false; // also tries the option with the largest gain, whatever its numbers cost in a preview
+  // Also the option with the largest gain, whatever its numbers cost in a preview.
+  bool largestGain = false;
 };
 
 struct FoundSets

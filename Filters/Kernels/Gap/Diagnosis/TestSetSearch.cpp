@@ -10,6 +10,8 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -29,6 +31,8 @@ public:
     }
   }
   void makePerChannel(std::size_t option) { Options[option].perChannel = true; }
+  // So many numbers in a preview; one in a fit.
+  void makeDear(std::size_t option, double numbers) { Dear = { option, numbers }; }
   const std::vector<msi::GapOption>& options() const override { return Options; }
   double elements() const override { return static_cast<double>(Y.size()); }
   double noiseEnergy() const override { return static_cast<double>(Y.size()); }
@@ -42,7 +46,8 @@ public:
       {
         std::vector<std::size_t> set = from.set;
         set.push_back(c);
-        all.push_back({ c, {}, from.energy - fitted(set)->energy, 1.0 });
+        all.push_back(
+          { c, {}, from.energy - fitted(set)->energy, c == Dear.first ? Dear.second : 1.0 });
       }
     }
     return all;
@@ -125,6 +130,7 @@ private:
   Eigen::MatrixXd X;
   Eigen::VectorXd Y;
   std::vector<msi::GapOption> Options;
+  std::pair<std::size_t, double> Dear{ 0, 1.0 };
 };
 
 Eigen::MatrixXd drawnNumbers(Eigen::Index rows, Eigen::Index columns, unsigned seed)
@@ -170,6 +176,19 @@ TEST(SetSearch, FindsWhatIsThereAndNothingElse)
   EXPECT_NEAR(causes[0].share + causes[1].share, 0.9, 1e-12);
 }
 
+// One option is fitted of all previews: a small effect, which explains too little; and the one with the largest gain.
+TEST(SetSearch, TheLargestGainIsTriedWhateverItCostsInAPreview)
+{
+  const Eigen::MatrixXd X = drawnNumbers(SumRows, 8, 9);
+  ColumnSums data(X, 4.0 * X.col(2) + X.col(5) + drawnNumbers(SumRows, 1, 10));
+  data.makeDear(2, 1000.0);
+  msi::SetSearchLimits limits{ 1, 1, 1, false };
+  const auto best = [&] { return msi::searchSets(data, limits, [] { return false; }).best->set; };
+  EXPECT_TRUE(best().empty());
+  limits.largestGain = true;
+  EXPECT_EQ(best(), std::vector<std::size_t>{ 2 });
+}
+
 TEST(SetSearch, NoiseIsNothing)
 {
   const ColumnSums data(drawnNumbers(SumRows, 8, 3), drawnNumbers(SumRows, 1, 4));
@@ -192,7 +211,6 @@ TEST(SetSearch, TwoThatDoTheSameAreEquivalent)
   EXPECT_NEAR(probabilityOf(data, sets, 1), probabilityOf(data, sets, 4), 1e-9);
 }
 
-// The first column takes much of what the sum of two others does, and goes when they are both there.
 // Column 0 is all, column 1 most of it.
 TEST(SetSearch, WhatDoesMostBesideNumbersOfChannelsIsEquivalentToThem)
 {
@@ -216,6 +234,7 @@ TEST(SetSearch, WhatDoesMostBesideNumbersOfChannelsIsEquivalentToThem)
   EXPECT_TRUE(equivalents(-7.0).empty());
 }
 
+// The first column takes much of what the sum of two others does, and goes when they are both there.
 TEST(SetSearch, AnEffectThatOnlyStoodInForOthersIsDropped)
 {
   Eigen::MatrixXd X = drawnNumbers(SumRows, 6, 7);

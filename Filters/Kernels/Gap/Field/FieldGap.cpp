@@ -54,12 +54,16 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
       std::make_unique<FieldObservation>(data, choices, finding.weights, start, loop);
   };
   observe();
-  finding.found = searchSets(*finding.observation, { maximumEffects, 1, 1, false, true }, stop);
+  SetSearchLimits limits{ maximumEffects, 1, 1, false };
+  limits.largestGain = true;
+  finding.found = searchSets(*finding.observation, limits, stop);
   // A limit from what is left would take the gap itself for outliers.
   finding.weights.noise = fieldNoise(finding.after());
   observe();
-  finding.found = searchSets(
-    *finding.observation, { maximumEffects, PairBeamWidth, PairOptionsFitted, true, true }, stop);
+  limits.beamWidth = PairBeamWidth;
+  limits.optionsFitted = PairOptionsFitted;
+  limits.exchange = true;
+  finding.found = searchSets(*finding.observation, limits, stop);
 }
 
 // On the test blocks.

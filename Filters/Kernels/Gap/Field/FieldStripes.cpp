@@ -14,7 +14,8 @@ namespace msi
 
 namespace
 {
-// A number of each line and channel, and its weight; lines x K. Of each channel: the energy in all lines, and how many pixels they have.
+// A number of each line and channel, and its weight; lines x K. Of each channel: the energy in all lines, and how many pixels they
+// have.
 struct LineValues
 {
   Eigen::ArrayXXd value, weight;
@@ -91,20 +92,6 @@ void cutDefects(Eigen::ArrayXXd& values)
   }
 }
 
-// What a line in the dark says is mostly noise: each mean times the part of its variance that is not.
-void shrinkToZero(LineValues& lines, const Eigen::ArrayXd& noise)
-{
-  for (Eigen::Index k = 0; k < lines.value.cols(); ++k)
-  {
-    const Eigen::ArrayXd weight = lines.weight.col(k);
-    const double between = (weight * lines.value.col(k).square()).sum();
-    const auto measured = static_cast<double>((weight > 0.0).count());
-    const double spread =
-      std::fmax(between - measured * noise[k], 0.0) / std::fmax(weight.sum(), 1e-300);
-    lines.value.col(k) *= spread * weight / (spread * weight + noise[k]).max(1e-300);
-  }
-}
-
 // The mean of each line over all folds but one.
 LineValues meansWithout(const std::vector<LineValues>& folds, std::size_t without)
 {
@@ -122,6 +109,28 @@ LineValues meansWithout(const std::vector<LineValues>& folds, std::size_t withou
   lines.value /= lines.weight.max(1e-12);
   return lines;
 }
+
+// Of a pixel, from what differs within the lines; K.
+Eigen::ArrayXd noiseWithin(const LineValues& means)
+{
+  const Eigen::ArrayXd between = (means.weight * means.value.square()).colwise().sum().transpose();
+  const auto lines = static_cast<double>(means.value.rows());
+  return ((means.energy - between) / (means.pixels - lines).max(1.0)).max(0.0);
+}
+
+// What a line in the dark says is mostly noise: each mean times the part of its variance that is not.
+void shrinkToZero(LineValues& means, const Eigen::ArrayXd& noise)
+{
+  for (Eigen::Index k = 0; k < means.value.cols(); ++k)
+  {
+    const Eigen::ArrayXd weight = means.weight.col(k);
+    const double between = (weight * means.value.col(k).square()).sum();
+    const auto measured = static_cast<double>((weight > 0.0).count());
+    const double spread =
+      std::fmax(between - measured * noise[k], 0.0) / std::fmax(weight.sum(), 1e-300);
+    means.value.col(k) *= spread * weight / (spread * weight + noise[k]).max(1e-300);
+  }
+}
 }
 
 FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>& residuals,
@@ -134,11 +143,9 @@ FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>
     for (std::size_t without = 0; without <= folds.size(); ++without)
     {
       LineValues lines = meansWithout(folds, without);
-      const Eigen::ArrayXXd between = lines.weight * lines.value.square();
-      const Eigen::ArrayXd noise = (lines.energy - between.colwise().sum().transpose()) /
-        (lines.pixels - static_cast<double>(between.rows())).max(1.0);
+      const Eigen::ArrayXd noise = noiseWithin(lines);
       detrend(lines, keepTrend ? 1 : 3);
-      shrinkToZero(lines, noise.max(0.0));
+      shrinkToZero(lines, noise);
       found.push_back(lines.value);
       cutDefects(found.back());
     }

@@ -65,20 +65,6 @@ double Criterion::operator()(const ObservedFit& fit) const
                                    : -std::numeric_limits<double>::infinity();
 }
 
-double Criterion::preview(const ObservedFit& from, const GapPreview& with) const
-{
-  const double energy = std::fmax(from.energy - with.gain, std::fmin(Noise, from.energy)) +
-    with.parameters * Dispersion;
-  const GapOption& option = Data.options()[with.option];
-  std::vector<std::size_t> set = from.set;
-  set.push_back(with.option);
-  // Numbers of single channels have a variance that suits them.
-  const double known = option.perChannel ? with.gain / (with.parameters * Dispersion) : Numbers;
-  return fitOf(energy) - 0.5 * with.parameters * std::log(1.0 + std::fmax(known, 0.0)) -
-    (option.perChannel ? 0.5 * with.parameters : 0.0) - improbability(set) +
-    improbability(from.set);
-}
-
 double Criterion::occam(const ObservedFit& fit) const
 {
   return 0.5 * (1.0 + fit.information.array() / Dispersion).log().sum() + fit.surprise;

@@ -28,8 +28,6 @@ public:
   // The least energy known sets the dispersion. coherence: of its fit.
   void refer(double energy, double coherence);
   double operator()(const ObservedFit& fit) const;
-  // Of a fit that would have this energy and so many parameters more than `from`.
-  double preview(const ObservedFit& from, const GapPreview& with) const;
 
   double gapEnergy() const noexcept { return Gap; }
   double dispersion() const noexcept { return Dispersion; }

@@ -18,29 +18,15 @@ constexpr int Directions = 4;           // of a cubic
 constexpr double LeastDeviation = 1e-6; // of the typical size
 }
 
-double chanceOfFraction(double fraction, int directions, int channels)
+double chanceOfFraction(double fraction, int channels)
 {
-  if (channels <= directions || !(fraction > 0.0))
+  if (channels <= Directions || !(fraction > 0.0))
   {
     return 1.0;
   }
-  // With fraction = sin^2 the density is sin^(directions - 1) cos^(channels - directions - 1); midpoint rule.
-  constexpr int Steps = 2000;
-  const double quarter = std::asin(1.0);
-  const double from = std::asin(std::sqrt(std::min(fraction, 1.0)));
-  const auto integral = [&](double low)
-  {
-    double sum = 0.0;
-    const double step = (quarter - low) / Steps;
-    for (int i = 0; i < Steps; ++i)
-    {
-      const double angle = low + (i + 0.5) * step;
-      sum += std::pow(std::sin(angle), directions - 1) *
-        std::pow(std::cos(angle), channels - directions - 1);
-    }
-    return sum * step;
-  };
-  return integral(from) / integral(0.0);
+  const double x = std::min(fraction, 1.0);
+  const double b = 0.5 * (channels - Directions);
+  return std::pow(1.0 - x, b) * (1.0 + b * x);
 }
 
 double commonFraction(const Eigen::VectorXd& deviations)
@@ -61,8 +47,7 @@ double commonFraction(const Eigen::VectorXd& deviations)
 
 double chanceOfCubic(const Eigen::VectorXd& deviations)
 {
-  return chanceOfFraction(
-    commonFraction(deviations), Directions, static_cast<int>(deviations.size()));
+  return chanceOfFraction(commonFraction(deviations), static_cast<int>(deviations.size()));
 }
 
 namespace

@@ -10,10 +10,10 @@
 namespace msi
 {
 
-// Probability that `directions` fixed directions hold the part `fraction` or more of the energy of independent normal
-// deviations of `channels` channels: the upper tail of the Beta distribution (directions / 2, (channels - directions) / 2).
+// Probability that four fixed directions hold the part `fraction` or more of the energy of independent normal deviations of
+// `channels` channels: the upper tail of the Beta distribution (2, channels / 2 - 2), (1 - x)^b (1 + b x).
 // 1 where there are not more channels than directions.
-double chanceOfFraction(double fraction, int directions, int channels);
+double chanceOfFraction(double fraction, int channels);
 
 // The part of the deviations' energy in a cubic over the channels: what a smooth change of the light does to them.
 double commonFraction(const Eigen::VectorXd& deviations);

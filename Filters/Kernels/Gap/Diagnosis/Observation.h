@@ -52,13 +52,12 @@ public:
 };
 using FitPointer = std::shared_ptr<const ObservedFit>;
 
-// What one linear step with one more option would bring.
+// With one more option, after one linear step.
 struct GapPreview
 {
   std::size_t option = 0;
   std::vector<double> start; // one number a parameter of the form; empty: neutral
-  double gain = 0.0;         // of energy, not cross-validated
-  double parameters = 0.0;
+  ObservedFit fit;
 };
 
 class Observation

@@ -80,16 +80,15 @@ private:
     Criterion hopeful = Score;
     for (const GapPreview& preview : all)
     {
-      hopeful.refer(from.energy - preview.gain, from.coherence);
+      hopeful.refer(preview.fit.energy, preview.fit.coherence);
     }
     std::vector<std::pair<double, std::size_t>> ranked; // score and number
     for (std::size_t n = 0; n < all.size(); ++n)
     {
-      ranked.emplace_back(hopeful.preview(from, all[n]), n);
+      ranked.emplace_back(hopeful(all[n].fit), n);
     }
-    std::stable_sort(ranked.begin(), ranked.end(),
-      [&all](const auto& a, const auto& b)
-      { return a.first != b.first ? a.first > b.first : all[a.second].gain > all[b.second].gain; });
+    std::stable_sort(
+      ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<GapPreview> chosen;
     for (const auto& [score, number] : ranked)
     {
@@ -101,14 +100,6 @@ private:
       {
         chosen.push_back(preview);
       }
-    }
-    // Numbers of many channels may cost more here than once their scatter is learned.
-    const auto lessGain = [](const GapPreview& a, const GapPreview& b) { return a.gain < b.gain; };
-    const auto largest = std::max_element(all.begin(), all.end(), lessGain);
-    if (Limits.largestGain && largest != all.end() &&
-      std::max_element(chosen.begin(), chosen.end(), lessGain)->gain < 0.5 * largest->gain)
-    {
-      chosen.push_back(*largest);
     }
     return chosen;
   }

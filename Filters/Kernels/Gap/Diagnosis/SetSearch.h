@@ -15,8 +15,6 @@ struct SetSearchLimits
   int beamWidth = 3;      // sets of each size that are kept on the way
   int optionsFitted = 10; // in full, for each of them
   bool exchange = true;
-  // Also the option with the largest gain, whatever its numbers cost in a preview.
-  bool largestGain = false;
 };
 
 struct FoundSets

@@ -112,15 +112,13 @@ TEST(Verdict, FollowsTheShrink)
   EXPECT_EQ(msi::verdictOf(0.1), msi::GapVerdict::Unexplained);
 }
 
-// Closed forms: Beta(1, b) has the tail (1 - x)^b, Beta(1/2, 1/2) is the arcsine law.
-TEST(ChannelStructure, ChanceHasItsClosedForms)
+// Densities: of Beta(2, 1) 2 x, of Beta(2, 2) 6 x (1 - x).
+TEST(ChannelStructure, ChanceIsTheTailOfItsDensity)
 {
-  EXPECT_NEAR(msi::chanceOfFraction(0.7, 2, 8), std::pow(0.3, 3.0), 1e-6);
-  EXPECT_NEAR(msi::chanceOfFraction(0.9, 2, 6), std::pow(0.1, 2.0), 1e-6);
-  EXPECT_NEAR(msi::chanceOfFraction(0.5, 1, 2),
-    1.0 - 2.0 / 3.14159265358979 * std::asin(std::sqrt(0.5)), 1e-6);
-  EXPECT_EQ(msi::chanceOfFraction(0.0, 2, 8), 1.0);
-  EXPECT_EQ(msi::chanceOfFraction(0.9, 3, 3), 1.0);
+  EXPECT_NEAR(msi::chanceOfFraction(0.9, 6), 1.0 - 0.81, 1e-12);
+  EXPECT_NEAR(msi::chanceOfFraction(0.7, 8), 1.0 - 3.0 * 0.49 + 2.0 * 0.343, 1e-12);
+  EXPECT_EQ(msi::chanceOfFraction(0.0, 8), 1.0);
+  EXPECT_EQ(msi::chanceOfFraction(0.9, 4), 1.0);
 }
 
 TEST(ChannelStructure, CurvesOverTheChannelsAreCommonAlternationIsNot)

@@ -55,7 +55,6 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   };
   observe();
   SetSearchLimits limits{ maximumEffects, 1, 1, false };
-  limits.largestGain = true;
   finding.found = searchSets(*finding.observation, limits, stop);
   // A limit from what is left would take the gap itself for outliers.
   finding.weights.noise = fieldNoise(finding.after());

@@ -156,23 +156,20 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
       continue;
     }
     const FieldSet set = joined(base.set, choice);
-    // The lines of a profile are no parameters: blocks that took no part in it judge it.
-    const auto parameters = static_cast<double>(numbersOf({ &choice }, model).size());
-    GapPreview preview{ option, {}, 0.0, parameters };
-    double energy = fitter.fitFromBestStart(set).energy;
+    GapPreview preview{ option, {}, {} };
+    FieldFit fit = fitter.fitFromBestStart(set);
     if (choice.step().step->displacement != nullptr && !Start.shift.isZero())
     {
       const FieldModel moved = registered(model, choice);
       const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop, stepsOf(set));
-      const double other = FieldFitter(Data, there).fit(set).energy;
-      if (other < energy)
+      FieldFit other = FieldFitter(Data, there).fit(set);
+      if (other.energy < fit.energy)
       {
-        energy = other;
+        fit = std::move(other);
         preview.start = { 1.0 };
       }
     }
-    // The energy is cross-validated already.
-    preview.gain = from.energy - energy + parameters;
+    describe(preview.fit, set, fit);
     previews.push_back(std::move(preview));
   }
   return previews;
@@ -232,15 +229,21 @@ FitPointer FieldObservation::reduced(const ObservedFit& from, std::size_t positi
   return described(refit(set, FieldFitter(Data, *all.statistics).fit(set).next));
 }
 
+void FieldObservation::describe(
+  ObservedFit& described, const FieldSet& set, const FieldFit& fit) const
+{
+  for (const FieldChoice* choice : set)
+  {
+    described.set.push_back(static_cast<std::size_t>(choice - Choices.data()));
+  }
+  described.energy = fit.energy;
+  fit.linear.describe(described, fit.increase);
+}
+
 FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
 {
   auto described = std::make_shared<FieldObservedFit>();
-  for (const FieldChoice* choice : hypothesis.set)
-  {
-    described->set.push_back(static_cast<std::size_t>(choice - Choices.data()));
-  }
-  described->energy = hypothesis.fit.energy;
-  hypothesis.fit.linear.describe(*described, hypothesis.fit.increase);
+  describe(*described, hypothesis.set, hypothesis.fit);
   described->hypothesis = std::move(hypothesis);
   return described;
 }

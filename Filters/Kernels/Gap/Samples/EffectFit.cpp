@@ -104,6 +104,12 @@ void EffectFitter::linearise(EffectFit& fit, const StagedResponse& here,
 {
   fit.free = fit.set.freeParameters(Data.camera);
   fit.jacobian = jacobian(here, fit.set, fit.free);
+  solve(fit, residual, root);
+}
+
+void EffectFitter::solve(
+  EffectFit& fit, const Eigen::ArrayXd& residual, const Eigen::ArrayXd& root) const
+{
   const Eigen::ArrayXXd trust =
     Weight.array().sqrt() * root.reshaped(Data.channels(), Data.samples());
   const Eigen::ArrayXXd left = (residual * root).reshaped(Data.channels(), Data.samples());
@@ -175,6 +181,30 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   }
   fit.predicted = here->response();
   fit.linear.settle();
+  crossValidate(fit);
+  return fit;
+}
+
+std::optional<EffectFit> EffectFitter::oneStep(
+  const EffectFit& present, const StagedResponse& response, EffectSet start) const
+{
+  const std::optional<StagedResponse> here = stagedResponse(response, start);
+  if (!here)
+  {
+    return std::nullopt;
+  }
+  EffectFit fit;
+  fit.set = std::move(start);
+  fit.predicted = here->response();
+  fit.free = fit.set.freeParameters(Data.camera);
+  const auto added = std::find_if(fit.free.begin(), fit.free.end(),
+    [&](const FreeParameter& parameter) { return parameter.effect >= present.set.size(); });
+  const Eigen::Index known = added - fit.free.begin();
+  fit.jacobian.resize(fit.predicted.size(), static_cast<Eigen::Index>(fit.free.size()));
+  fit.jacobian << present.jacobian.leftCols(known),
+    jacobian(*here, fit.set, { added, fit.free.end() });
+  const Eigen::ArrayXd residual = whitened(fit.predicted);
+  solve(fit, residual, huber(residual, flat(Weight)));
   crossValidate(fit);
   return fit;
 }

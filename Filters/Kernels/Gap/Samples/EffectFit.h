@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace msi
@@ -55,6 +56,10 @@ public:
 
   EffectFit nominal() const { return fit({}, SearchFit); }
   EffectFit fit(EffectSet start, const FitEffort& effort) const;
+  // What one linear step with one more effect than `present` would leave, with the numbers before it; the other effects act as
+  // they did. response: with the present set. None where nothing answers.
+  std::optional<EffectFit> oneStep(
+    const EffectFit& present, const StagedResponse& response, EffectSet start) const;
 
   // Covariance of the free parameters: sandwich over samples, whose channels may err together.
   Eigen::MatrixXd covariance(const EffectFit& fit) const;
@@ -65,6 +70,8 @@ private:
   // root: of the Huber weights.
   void linearise(EffectFit& fit, const StagedResponse& here, const Eigen::ArrayXd& residual,
     const Eigen::ArrayXd& root) const;
+  // By the normal equations of its jacobian.
+  void solve(EffectFit& fit, const Eigen::ArrayXd& residual, const Eigen::ArrayXd& root) const;
   void crossValidate(EffectFit& fit) const;
 
   const GapData& Data;

@@ -5,11 +5,9 @@
 #include "Kernels/Gap/Samples/GapEvidence.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace msi
@@ -59,50 +57,6 @@ EffectFit withSecondary(const EffectFitter& fitter, EffectFit fit, std::size_t p
   EffectFit other = fitter.fit(std::move(freed), SearchFit.unwantedAbove(fit.energy));
   return other.energy + Decision::SureDeviations * other.dispersion < fit.energy ? other : fit;
 }
-
-// The residual and everything the present effects can do, taken out of the way.
-class Remainder
-{
-public:
-  Remainder(const EffectFitter& fitter, const EffectFit& current)
-    : RootWeight(
-        Eigen::Map<const Eigen::ArrayXd>(fitter.weight().data(), fitter.weight().size()).sqrt())
-    , Basis(RootWeight.size(), 0)
-  {
-    if (current.jacobian.cols() > 0)
-    {
-      const Eigen::MatrixXd columns = RootWeight.matrix().asDiagonal() * current.jacobian;
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-      Basis = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
-    }
-  }
-  // Of one column, with nothing where there is no weight.
-  Eigen::VectorXd cleared(const Eigen::VectorXd& column) const
-  {
-    const Eigen::VectorXd all = (RootWeight > 0.0).select(RootWeight * column.array(), 0.0);
-    return all - Basis * (Basis.transpose() * all);
-  }
-  // Squared error left of a cleared residual after one linear step with these columns of a jacobian.
-  double leftAfter(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
-    const std::vector<FreeParameter>& free) const
-  {
-    const Eigen::MatrixXd weighted = RootWeight.matrix().asDiagonal() * columns;
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-    normal.selfadjointView<Eigen::Lower>()
-      .rankUpdate(weighted.transpose())
-      .rankUpdate((Basis.transpose() * weighted).transpose(), -1.0);
-    for (Eigen::Index p = 0; p < columns.cols(); ++p)
-    {
-      normal(p, p) += widePrecision(free[static_cast<std::size_t>(p)].typical);
-    }
-    const Eigen::VectorXd gradient = weighted.transpose() * residual;
-    return residual.squaredNorm() - gradient.dot(normal.ldlt().solve(gradient));
-  }
-
-private:
-  Eigen::ArrayXd RootWeight;
-  Eigen::MatrixXd Basis;
-};
 
 // No square yet, and slope and constant of the line through the squared signals of each channel.
 std::vector<double> besideLine(const GapData& data)
@@ -181,19 +135,17 @@ EffectFit SampleObservation::whole(const ObservedFit& fit) const
 
 std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) const
 {
-  const EffectFit current = linearised(from);
+  const EffectFit present = linearised(from);
   const GapData& data = Fitter.data();
-  const Remainder remainder(Fitter, current);
-  const auto flatten = [](const Eigen::MatrixXd& m) -> Eigen::VectorXd
-  { return Eigen::Map<const Eigen::VectorXd>(m.data(), m.size()); };
-  const Eigen::VectorXd residual = remainder.cleared(flatten(data.observed - current.predicted));
-  const double before = residual.squaredNorm();
-  const OrderBreaks breaks(Fitter, current.predicted);
-  const std::size_t position = current.set.size();
-  const std::optional<StagedResponse> present =
-    stagedResponse(data.camera, data.scene, current.set);
+  const std::optional<StagedResponse> response =
+    stagedResponse(data.camera, data.scene, present.set);
   std::vector<GapPreview> previews;
-  for (std::size_t option = 0; present && option < Choices.size(); ++option)
+  if (!response)
+  {
+    return previews;
+  }
+  const OrderBreaks breaks(Fitter, response->response());
+  for (std::size_t option = 0; option < Choices.size(); ++option)
   {
     const EffectChoice& choice = Choices[option];
     if (std::any_of(from.set.begin(), from.set.end(),
@@ -206,32 +158,22 @@ std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) con
     {
       starts.emplace_back();
     }
-    GapPreview best{ option, {}, 0.0, 0.0 };
+    std::vector<std::size_t> numbers = from.set;
+    numbers.push_back(option);
+    GapPreview best;
+    best.option = option;
+    best.fit.energy = std::numeric_limits<double>::infinity();
     for (const std::vector<double>& start : starts)
     {
-      EffectSet set = current.set;
+      EffectSet set = present.set;
       set.add(choice, data.camera, start);
-      std::vector<FreeParameter> free = set.freeParameters(data.camera);
-      free.erase(std::remove_if(free.begin(), free.end(),
-                   [position](const FreeParameter& p) { return p.effect < position; }),
-        free.end());
-      const std::optional<StagedResponse> base = stagedResponse(*present, set);
-      if (!base)
+      if (auto fit = Fitter.oneStep(present, *response, std::move(set));
+          fit && fit->energy < best.fit.energy)
       {
-        continue;
-      }
-      const bool there =
-        start.empty() && set.whiteAfterEffects() == current.set.whiteAfterEffects();
-      const Eigen::VectorXd here =
-        there ? residual : remainder.cleared(flatten(data.observed - base->response()));
-      const Eigen::MatrixXd columns = jacobian(*base, set, free);
-      const double gain = before - remainder.leftAfter(here, columns, free);
-      best.parameters = static_cast<double>(columns.cols()) +
-        static_cast<double>(set.steps() - current.set.steps());
-      if (gain > best.gain)
-      {
-        best.gain = gain;
         best.start = start;
+        best.fit = ObservedFit();
+        describe(best.fit, *fit, fit->linear.step());
+        best.fit.set = numbers;
       }
     }
     previews.push_back(std::move(best));
@@ -265,18 +207,24 @@ FitPointer SampleObservation::reduced(const ObservedFit& from, std::size_t posit
   return described(Fitter.fit(std::move(effects), SearchFit), std::move(set));
 }
 
+void SampleObservation::describe(
+  ObservedFit& described, const EffectFit& fit, const Eigen::VectorXd& step) const
+{
+  described.energy = fit.energy;
+  described.coherence = fit.energy > 0.0
+    ? fit.dispersion * std::fmax(Fitter.trainingElements(), 1.0) / fit.energy
+    : 1.0;
+  fit.linear.describe(described, step);
+  // The place of a step is a number, too, found among those of the samples.
+  described.surprise +=
+    static_cast<double>(fit.set.steps()) * std::log(static_cast<double>(Fitter.training().size()));
+}
+
 FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> set) const
 {
   auto described = std::make_shared<SampleFit>();
+  describe(*described, fit, Eigen::VectorXd::Zero(fit.jacobian.cols()));
   described->set = std::move(set);
-  described->energy = fit.energy;
-  described->coherence = fit.energy > 0.0
-    ? fit.dispersion * std::fmax(Fitter.trainingElements(), 1.0) / fit.energy
-    : 1.0;
-  fit.linear.describe(*described);
-  // The place of a step is a number, too, found among those of the samples.
-  described->surprise +=
-    static_cast<double>(fit.set.steps()) * std::log(static_cast<double>(Fitter.training().size()));
   described->effects = std::move(fit.set);
   return described;
 }

@@ -28,8 +28,7 @@ public:
   double elements() const override { return Fitter.trainingElements(); }
   double noiseEnergy() const override { return Fitter.noiseEnergy(); }
   FitPointer nominal() const override;
-  // By what one linear step would explain beyond the effects already there. Forms with several starting points keep the
-  // best; steps in time start where the cumulative sums of the residual break.
+  // Forms with several starting points keep the best; steps in time start where the cumulative sums of the residual break.
   std::vector<GapPreview> previews(const ObservedFit& from) const override;
   FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
   FitPointer reduced(const ObservedFit& from, std::size_t positions) const override;
@@ -43,6 +42,7 @@ public:
   GroupEnergies energies(const EffectFit& fit) const;
 
 private:
+  void describe(ObservedFit& described, const EffectFit& fit, const Eigen::VectorXd& step) const;
   FitPointer described(EffectFit fit, std::vector<std::size_t> set) const;
 
   EffectFitter Fitter;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -25,14 +27,37 @@ TEST(SampleObservation, AFitWithoutOnePositionIsTheFitOfTheOther)
   };
   const msi::FitPointer nominal = observation.nominal();
   const msi::FitPointer gain =
-    observation.extended(*nominal, { optionOf("exposure_gain"), {}, 0.0, 1.0 });
-  const msi::FitPointer both =
-    observation.extended(*gain, { optionOf("dark_offset"), {}, 0.0, 1.0 });
+    observation.extended(*nominal, { optionOf("exposure_gain"), {}, {} });
+  const msi::FitPointer both = observation.extended(*gain, { optionOf("dark_offset"), {}, {} });
   EXPECT_LT(both->energy, gain->energy);
   EXPECT_LT(gain->energy, nominal->energy);
   const msi::FitPointer again = observation.reduced(*both, 1);
   EXPECT_EQ(again->set, gain->set);
   EXPECT_NEAR(again->energy, gain->energy, 1e-3 * gain->energy);
+}
+
+// Beside another effect; the gains of the channels, seven numbers, learn how much they scatter.
+TEST(SampleObservation, APreviewOfALinearEffectIsItsFit)
+{
+  const msi::GapData data = dataOf(captureWith({ { "dark_offset", "", "", { 0.01 } },
+    { "channel_gain", "", "", { 1.02, 0.99, 0.98, 1.01, 1.03, 0.99, 1.0 } } }));
+  const msi::SampleObservation observation(data, data.usable, msi::choicesFor(data.scene, {}), 1);
+  const auto with = [&](const msi::ObservedFit& from, const std::string& effect)
+  {
+    std::vector<msi::GapPreview> previews = observation.previews(from);
+    return *std::find_if(previews.begin(), previews.end(),
+      [&](const msi::GapPreview& one)
+      { return observation.options()[one.option].effect->name == effect; });
+  };
+  const msi::FitPointer nominal = observation.nominal();
+  const msi::FitPointer dark = observation.extended(*nominal, with(*nominal, "dark_offset"));
+  const msi::GapPreview preview = with(*dark, "channel_gain");
+  const msi::FitPointer fit = observation.extended(*dark, preview);
+  EXPECT_EQ(preview.fit.set, fit->set);
+  EXPECT_LT(fit->energy, 0.2 * dark->energy);
+  EXPECT_NEAR(preview.fit.energy, fit->energy, 0.05 * fit->energy);
+  EXPECT_NEAR(preview.fit.surprise, fit->surprise, 1.0); // a logarithm of odds
+  EXPECT_NEAR(preview.fit.information.sum(), fit->information.sum(), 0.05 * fit->information.sum());
 }
 
 } // namespace

@@ -243,7 +243,7 @@ std::string separatingCapture(std::string_view effect)
 
 ImageStep stepOfLight()
 {
-  ImageStep step{ ImageStage::Light, { {} },
+  ImageStep step{ ImageStage::Light, { { 0.0, ImageAxis::Position } },
     [](const double* numbers, const ImagePixel& pixel, double& signal, double* by)
     {
       if (by != nullptr)

@@ -103,7 +103,7 @@ struct ClippingOfImage
   static const ImageStep& step()
   {
     static const ImageStep made{ ImageStage::Detector,
-      { {}, { NeutralLevel, ImageAxis::None, ImagePull::Found } }, clip };
+      { { 0.0, ImageAxis::Level }, { NeutralLevel, ImageAxis::None, ImagePull::Found } }, clip };
     return made;
   }
 };

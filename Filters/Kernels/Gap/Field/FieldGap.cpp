@@ -280,10 +280,17 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   gap->unit = data.unit;
   GapReport& report = gap->report;
   report.gap = heldOutFigures(data, finding.before(), finding.after(), options.seed);
-  // The stripes that were found are an axis of the gap before, too.
+  // The stripes and the end of the range that were found are on the axes of the gap before, too.
   FieldModel nominal = finding.before().model;
   nominal.rows = gap->model.rows;
   nominal.columns = gap->model.columns;
+  for (ImageParameter parameter = 0; parameter < fieldParameterCount(); ++parameter)
+  {
+    if (isShape(parameter))
+    {
+      nominal[parameter] = gap->model[parameter];
+    }
+  }
   report.where = fieldAxes(data, fieldStatistics(data, nominal, &finding.weights, loop), loop);
   const auto beyondNoise = [&](double rms, const FieldStatistics& statistics)
   {

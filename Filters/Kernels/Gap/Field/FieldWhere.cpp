@@ -19,7 +19,7 @@ std::vector<AxisBasis> fieldAxisBases(const FieldModel& model, bool gaps)
     { "channel", {}, FieldColumn::of(ImageAxis::Channel), {} },
     { "level", FieldColumn::of(ImageAxis::Level), {}, {} },
     { "position", {}, FieldColumn::of(ImageAxis::Position), FieldColumn::of(ImageAxis::Position) },
-    { "edges", {}, FieldColumn::of(ImageAxis::Edges), {} },
+    { "edges", {}, FieldColumn::of(ImageAxis::Edges), FieldColumn::of(ImageAxis::Edges) },
   };
   const auto ofSurround = [](int column)
   { return FieldColumn::stepOf(column).step->stage == ImageStage::Surround; };
@@ -27,13 +27,15 @@ std::vector<AxisBasis> fieldAxisBases(const FieldModel& model, bool gaps)
   {
     std::vector<int>& edges = axes.back().own;
     edges.erase(std::remove_if(edges.begin(), edges.end(), ofSurround), edges.end());
+    axes.back().cells = edges;
   }
   for (const bool rows : { true, false })
   {
     if (model.stripes(rows).period > 0.0 || model.stripes(rows).profile != nullptr)
     {
       axes.push_back({ rows ? "rows" : "columns", {},
-        FieldColumn::of(rows ? ImageAxis::Rows : ImageAxis::Columns), {} });
+        FieldColumn::of(rows ? ImageAxis::Rows : ImageAxis::Columns),
+        FieldColumn::of(rows ? ImageAxis::Rows : ImageAxis::Columns) });
     }
   }
   return axes;

@@ -153,6 +153,7 @@ TEST(FieldGap, SaturationOfTheBrightest)
     changed(scene, 42, [](double u, int, int, int, double) { return std::fmin(u, 0.45); });
   const GapReport report = diagnose(pair);
   expectFirst(report, "saturation", "level");
+  EXPECT_GT(report.where.front().share, 0.9);
   expectParameter(report, "saturation", "level", 0.45, 0.005);
 }
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <vector>
 
@@ -120,6 +122,8 @@ TEST(GhostReflection, IsFound)
   EXPECT_EQ(report.causes.front().effect, "ghost_reflection");
   EXPECT_EQ(report.verdict, msi::GapVerdict::Explained);
   EXPECT_GT(report.gap.shrink, 0.85);
+  EXPECT_TRUE(std::any_of(report.where.begin(), report.where.end(),
+    [](const msi::GapAxis& axis) { return axis.axis == "position" && axis.share > 0.05; }));
   expectParameter(report, "ghost_reflection", "strength", Planted, 0.002);
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace msi
@@ -155,13 +156,19 @@ SampleList samplesOf(const GapData& data, int fold, bool inside)
 std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed)
 {
   const CounterRandom random(seed, 71);
-  const auto key = [&](Eigen::Index i)
+  const auto byKey = [](const auto& keyOf)
+  { return [keyOf](Eigen::Index a, Eigen::Index b) { return keyOf(a) < keyOf(b); }; };
+  const Eigen::VectorXd level = data.simulated.colwise().maxCoeff();
+  std::sort(among.begin(), among.end(),
+    byKey([&](Eigen::Index i)
+      { return std::make_tuple(data.scene.medium()[static_cast<std::size_t>(i)], level[i], i); }));
+  for (std::size_t first = 0; first < among.size(); first += static_cast<std::size_t>(folds))
   {
-    return std::make_pair(data.scene.medium()[static_cast<std::size_t>(i)],
-      random.uniform(static_cast<std::uint64_t>(i)));
-  };
-  std::sort(
-    among.begin(), among.end(), [&key](Eigen::Index a, Eigen::Index b) { return key(a) < key(b); });
+    const std::size_t last = std::min(first + static_cast<std::size_t>(folds), among.size());
+    std::sort(among.begin() + static_cast<std::ptrdiff_t>(first),
+      among.begin() + static_cast<std::ptrdiff_t>(last),
+      byKey([&](Eigen::Index i) { return random.uniform(static_cast<std::uint64_t>(i)); }));
+  }
   std::vector<int> fold(static_cast<std::size_t>(data.samples()), -1);
   for (std::size_t i = 0; i < among.size(); ++i)
   {

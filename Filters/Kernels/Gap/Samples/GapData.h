@@ -42,7 +42,9 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options);
 // physics, and below that part of the gap no element is trusted more than another.
 void setWeights(GapData& data);
 
-// Balanced folds over some of the samples, media kept in proportion; the same for the same seed. Of each sample, -1 for others.
+// Balanced folds over some of the samples; the same for the same seed. Every fold has its part of each medium and, within it, of
+// the bright and the dark: what few bright samples show, as the end of the range, is seen without each fold. Of each sample, -1
+// for others.
 std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed);
 
 // The usable samples of a fold of the data, or all but those.

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <ostream>
+#include <set>
+#include <vector>
 
 namespace
 {
@@ -91,6 +94,29 @@ TEST(EffectFit, ResistsReadingsThatAreWrongAltogether)
   set.add(choiceOf({ "exposure_gain", "", "", {} }), data.camera);
   EXPECT_NEAR(
     fitter.fit(std::move(set), msi::FinalFit).set.effects.front().parameters[0], 1.05, 0.002);
+}
+
+TEST(FoldsOf, EachHasItsPartOfTheBrightAndTheDarkOfAMedium)
+{
+  const msi::GapData data = dataOf(captureWith({}));
+  const std::vector<int> fold = msi::foldsOf(data, data.usable, 5, 1);
+  EXPECT_NE(fold, msi::foldsOf(data, data.usable, 5, 2));
+  for (int medium = 0; medium < static_cast<int>(data.scene.media().size()); ++medium)
+  {
+    msi::SampleList samples;
+    std::copy_if(data.usable.begin(), data.usable.end(), std::back_inserter(samples),
+      [&](Eigen::Index i) { return data.scene.medium()[static_cast<std::size_t>(i)] == medium; });
+    std::sort(samples.begin(), samples.end(),
+      [&](Eigen::Index a, Eigen::Index b)
+      { return data.simulated.col(a).maxCoeff() > data.simulated.col(b).maxCoeff(); });
+    for (auto fifth = samples.begin(); samples.end() - fifth >= 9; fifth += 9)
+    {
+      std::set<int> there; // nine in a row hold five that were dealt together
+      std::for_each(
+        fifth, fifth + 9, [&](Eigen::Index i) { there.insert(fold[static_cast<std::size_t>(i)]); });
+      EXPECT_EQ(there.size(), 5U);
+    }
+  }
 }
 
 // One Gauss-Newton step without a fold is exact for an effect that is linear: compared with fits that really leave

@@ -114,7 +114,7 @@ Columns columnsOf(const std::vector<AxisBasis>& axes, std::size_t subset)
 }
 
 // Takes from the columns of cells what those of channel and level can do in the training data of a channel.
-void leaveContrasts(const std::vector<AxisBasis>& axes, AxisSplit& split)
+void leaveContrasts(const std::vector<AxisBasis>& axes, std::vector<AxisSplit>& splits)
 {
   const Columns base = columnsOf(axes, ChannelAndLevel);
   std::vector<int> others = base.own;
@@ -124,13 +124,16 @@ void leaveContrasts(const std::vector<AxisBasis>& axes, AxisSplit& split)
   {
     cells.insert(cells.end(), axis.cells.begin(), axis.cells.end());
   }
-  for (std::size_t k = 0; k < split.training.size(); ++k)
+  for (AxisSplit& split : splits)
   {
-    const Eigen::MatrixXd& N = split.training[k];
-    Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(N.rows(), N.cols());
-    mix(others, cells) = -ridged(N(others, others)).ldlt().solve(N(others, cells).eval());
-    split.training[k] = mix.transpose() * split.training[k] * mix;
-    split.test[k] = mix.transpose() * split.test[k] * mix;
+    for (std::size_t k = 0; k < split.training.size(); ++k)
+    {
+      const Eigen::MatrixXd& N = split.training[k];
+      Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(N.rows(), N.cols());
+      mix(others, cells) = -ridged(N(others, others)).ldlt().solve(N(others, cells).eval());
+      split.training[k] = mix.transpose() * split.training[k] * mix;
+      split.test[k] = mix.transpose() * split.test[k] * mix;
+    }
   }
 }
 
@@ -147,8 +150,19 @@ double leftOf(const ChannelNormals& test, const Coefficients& coefficients)
 }
 
 PredictedEnergies predictedEnergies(
-  const std::vector<AxisBasis>& axes, std::vector<AxisSplit> splits, int gain)
+  std::vector<AxisBasis> axes, std::vector<AxisSplit> splits, int gain)
 {
+  const auto splitsOf = [&](std::size_t subset) -> const std::vector<AxisSplit>&
+  {
+    for (std::size_t a = 0; a < axes.size(); ++a)
+    {
+      if ((subset >> a & 1U) != 0 && !axes[a].behind.empty())
+      {
+        return axes[a].behind;
+      }
+    }
+    return splits;
+  };
   const auto coefficients = [&](const AxisSplit& split, std::size_t subset)
   {
     const Columns columns = columnsOf(axes, subset);
@@ -160,29 +174,34 @@ PredictedEnergies predictedEnergies(
   const auto predicted = [&](std::size_t subset)
   {
     double left = 0.0;
-    for (const AxisSplit& split : splits)
+    for (const AxisSplit& split : splitsOf(subset))
     {
       left += leftOf(split.test, coefficients(split, subset));
     }
     return energies.before - left;
   };
-  const std::size_t subsets = std::size_t(1) << axes.size();
-  double left = 0.0;
   for (const AxisSplit& split : splits)
   {
     for (const Eigen::MatrixXd& N : split.test)
     {
       energies.before += N(N.rows() - 1, N.cols() - 1);
     }
+  }
+  const std::size_t subsets = std::size_t(1) << axes.size();
+  double left = 0.0;
+  for (const AxisSplit& split : splitsOf(subsets - 1))
+  {
     energies.coefficients.push_back(coefficients(split, subsets - 1));
     left += leftOf(split.test, energies.coefficients.back());
   }
   energies.all = energies.before - left;
   if (predicted(ChannelAndLevel) >= (1.0 - Decision::SmallPart) * energies.all)
   {
-    for (AxisSplit& split : splits)
+    const std::vector<AxisBasis> all = axes;
+    leaveContrasts(all, splits);
+    for (AxisBasis& axis : axes)
     {
-      leaveContrasts(axes, split);
+      leaveContrasts(all, axis.behind);
     }
   }
   std::vector<double> value(subsets, 0.0);

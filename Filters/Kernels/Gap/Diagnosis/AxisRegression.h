@@ -9,6 +9,14 @@
 namespace msi
 {
 
+// Of K channels, products of P + 1 columns, the last of which is the gap.
+using ChannelNormals = std::vector<Eigen::MatrixXd>;
+
+struct AxisSplit
+{
+  ChannelNormals training, test;
+};
+
 // Numbers of columns of the normal matrices: with one coefficient for all channels, or one for each.
 struct AxisBasis
 {
@@ -16,15 +24,9 @@ struct AxisBasis
   std::vector<int> common, own;
   // Those of cells (media, places, times): a gap that is the same in all of them is not the axis's where channel and level alone
   // predict nearly all that the axes predict.
-  std::vector<int> cells;
-};
-
-// Of K channels, products of P + 1 columns, the last of which is the gap.
-using ChannelNormals = std::vector<Eigen::MatrixXd>;
-
-struct AxisSplit
-{
-  ChannelNormals training, test;
+  std::vector<int> cells = {};
+  // Where the axis does more than its columns reach: the splits once it has done so. Sets with the axis start from there.
+  std::vector<AxisSplit> behind = {};
 };
 
 struct PredictedEnergies
@@ -40,6 +42,6 @@ struct PredictedEnergies
 //   axes: the first is the channel, with `gain` among its own columns, the second the level.
 // Source: Shapley values as in Shrink.h.
 PredictedEnergies predictedEnergies(
-  const std::vector<AxisBasis>& axes, std::vector<AxisSplit> splits, int gain);
+  std::vector<AxisBasis> axes, std::vector<AxisSplit> splits, int gain);
 
 } // namespace msi

@@ -291,7 +291,8 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
       nominal[parameter] = gap->model[parameter];
     }
   }
-  report.where = fieldAxes(data, fieldStatistics(data, nominal, &finding.weights, loop), loop);
+  report.where = fieldAxes(
+    data, fieldStatistics(data, nominal, &finding.weights, loop), loop, &finding.after().model);
   const auto beyondNoise = [&](double rms, const FieldStatistics& statistics)
   {
     return rms > Decision::BeyondNoise * report.gap.noiseFloor ||

@@ -78,7 +78,8 @@ std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics);
 //   region         (without labels) means of blocks: what the others leave
 // Fitted on the training blocks; the shares are Shapley values of the R^2 on the test blocks, of the energy beyond
 // noise. A common gain is level's.
-std::vector<GapAxis> fieldAxes(
-  const FieldData& data, const FieldStatistics& statistics, const FieldLoop& loop);
+// after: null, or a model whose displacements and blurs are on the axis of edges as they are, however large.
+std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& statistics,
+  const FieldLoop& loop, const FieldModel* after = nullptr);
 
 } // namespace msi

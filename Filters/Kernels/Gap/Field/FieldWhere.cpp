@@ -12,15 +12,27 @@ namespace msi
 
 namespace
 {
-// channel and level first. Where the surround is partly not simulated (gaps) it is no part of the edges.
+AxisBasis basis(const char* name, unsigned axis)
+{
+  return { name, {}, FieldColumn::of(axis), FieldColumn::of(axis) };
+}
+
+// channel and level first, edges last. Where the surround is partly not simulated (gaps) it is no part of the edges.
 std::vector<AxisBasis> fieldAxisBases(const FieldModel& model, bool gaps)
 {
   std::vector<AxisBasis> axes = {
-    { "channel", {}, FieldColumn::of(ImageAxis::Channel), {} },
-    { "level", FieldColumn::of(ImageAxis::Level), {}, {} },
-    { "position", {}, FieldColumn::of(ImageAxis::Position), FieldColumn::of(ImageAxis::Position) },
-    { "edges", {}, FieldColumn::of(ImageAxis::Edges), FieldColumn::of(ImageAxis::Edges) },
+    { "channel", {}, FieldColumn::of(ImageAxis::Channel) },
+    { "level", FieldColumn::of(ImageAxis::Level), {} },
+    basis("position", ImageAxis::Position),
   };
+  for (const bool rows : { true, false })
+  {
+    if (model.stripes(rows).period > 0.0 || model.stripes(rows).profile != nullptr)
+    {
+      axes.push_back(basis(rows ? "rows" : "columns", rows ? ImageAxis::Rows : ImageAxis::Columns));
+    }
+  }
+  axes.push_back(basis("edges", ImageAxis::Edges));
   const auto ofSurround = [](int column)
   { return FieldColumn::stepOf(column).step->stage == ImageStage::Surround; };
   if (gaps)
@@ -28,15 +40,6 @@ std::vector<AxisBasis> fieldAxisBases(const FieldModel& model, bool gaps)
     std::vector<int>& edges = axes.back().own;
     edges.erase(std::remove_if(edges.begin(), edges.end(), ofSurround), edges.end());
     axes.back().cells = edges;
-  }
-  for (const bool rows : { true, false })
-  {
-    if (model.stripes(rows).period > 0.0 || model.stripes(rows).profile != nullptr)
-    {
-      axes.push_back({ rows ? "rows" : "columns", {},
-        FieldColumn::of(rows ? ImageAxis::Rows : ImageAxis::Columns),
-        FieldColumn::of(rows ? ImageAxis::Rows : ImageAxis::Columns) });
-    }
   }
   return axes;
 }
@@ -54,6 +57,11 @@ ChannelNormals sumOfNormals(const FieldData& data, const FieldStatistics& statis
     }
   }
   return sum;
+}
+
+std::vector<AxisSplit> splitOf(const FieldData& data, const FieldStatistics& statistics)
+{
+  return { { sumOfNormals(data, statistics, true), sumOfNormals(data, statistics, false) } };
 }
 
 // Of each label, a row a channel: sum of what the columns leave, pixels, squared residual.
@@ -153,14 +161,28 @@ std::vector<GapCell> stripeCells(double period, const std::string& lines)
 }
 }
 
-std::vector<GapAxis> fieldAxes(
-  const FieldData& data, const FieldStatistics& statistics, const FieldLoop& loop)
+std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& statistics,
+  const FieldLoop& loop, const FieldModel* after)
 {
   // Plain energies, so that shares are of the gap in response units.
-  const FieldStatistics plain = fieldStatistics(data, statistics.model, nullptr, loop);
-  const std::vector<AxisBasis> axes = fieldAxisBases(statistics.model, !data.filled.empty());
-  const PredictedEnergies energies = predictedEnergies(axes,
-    { { sumOfNormals(data, plain, true), sumOfNormals(data, plain, false) } }, FieldColumn::gain());
+  FieldStatistics plain = fieldStatistics(data, statistics.model, nullptr, loop);
+  std::vector<AxisBasis> axes = fieldAxisBases(statistics.model, !data.filled.empty());
+  const std::vector<AxisSplit> splits = splitOf(data, plain);
+  FieldModel moved = statistics.model;
+  for (ImageParameter parameter = 0; after != nullptr && parameter < fieldParameterCount();
+       ++parameter)
+  {
+    if (stepOf(parameter).step->stage == ImageStage::Scene)
+    {
+      moved[parameter] = (*after)[parameter];
+    }
+  }
+  if (after != nullptr)
+  {
+    plain = fieldStatistics(data, moved, nullptr, loop);
+    axes.back().behind = splitOf(data, plain);
+  }
+  const PredictedEnergies energies = predictedEnergies(axes, splits, FieldColumn::gain());
   double noise = 0.0;
   std::vector<std::pair<double, double>> level;
   std::vector<std::pair<double, double>> gradient;
@@ -203,7 +225,7 @@ std::vector<GapAxis> fieldAxes(
   }
   // What goes with labels, or with blocks, of what is left.
   found.push_back(data.pair.labels != nullptr
-      ? sampleAxis(data, statistics.model, change, beyond, loop)
+      ? sampleAxis(data, moved, change, beyond, loop)
       : GapAxis{
           "region", regionEnergy(data, statistics, plain, change) / beyond, position.worst() });
   return worthNaming(std::move(found));

@@ -69,6 +69,7 @@ TEST(FieldGap, DisplacementOfManyPixels)
   expectFirst(report, "misregistration", "edges");
   expectParameter(report, "misregistration", "right[C2]", 6.3, 0.02);
   expectParameter(report, "misregistration", "down[C2]", -4.6, 0.02);
+  EXPECT_GT(report.where.front().share, 0.85); // however far
 }
 
 TEST(FieldGap, LateralColor)

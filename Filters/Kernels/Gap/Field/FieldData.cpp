@@ -120,8 +120,28 @@ constexpr std::size_t EnoughBlocks = 64;
 constexpr std::size_t FewestBlocks = 15;
 constexpr double UsablePart = 0.25;
 
+constexpr double MostMean = 2.0;    // white
 constexpr double OtherUnit = 5.0;   // times
 constexpr double Correlated = 0.25; // squared
+
+// Highlights may pass white, but not the image as a whole.
+void requireRelativeToWhite(const FieldPair& pair)
+{
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < pair.pixels() * pair.channels.size(); ++i)
+  {
+    const auto value = static_cast<double>(pair.simulated[i]);
+    sum += std::isfinite(value) ? value : 0.0;
+    count += std::isfinite(value) ? 1.0 : 0.0;
+  }
+  if (sum > MostMean * count)
+  {
+    reject("the simulated image has a mean of ", sum / count,
+      ", which looks like counts; expected responses relative to white (1 = perfect white): divide "
+      "both images by the counts of white");
+  }
+}
 
 // The unit of each channel of the real image, where it is not that of the simulated one (white = 1): counts, say. 1 where the
 // images agree within a factor of five, else the same for all channels where that is enough.
@@ -319,6 +339,7 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
     reject("the images have ", pair.extent.width, " x ", pair.extent.height, " pixels and ",
       pair.channels.size(), " channels; expected at least one of each");
   }
+  requireRelativeToWhite(pair);
   FieldData data;
   data.pair = pair;
   data.filled = filledScene(pair);

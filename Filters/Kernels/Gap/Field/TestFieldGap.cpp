@@ -236,6 +236,11 @@ TEST(FieldGap, ErrorsSayWhatWasExpected)
   msi::GapOptions options;
   options.without = { "gremlins" };
   EXPECT_EQ(messageOf(pair.pair(), options), "there is no effect 'gremlins' to leave out");
+  TestPair counts = pair;
+  std::fill(counts.simulated.begin(), counts.simulated.end(), 750.0F);
+  EXPECT_EQ(messageOf(counts.pair()),
+    "the simulated image has a mean of 750, which looks like counts; expected responses relative "
+    "to white (1 = perfect white): divide both images by the counts of white");
   std::fill(pair.real.begin(), pair.real.end(), std::numeric_limits<float>::quiet_NaN());
   EXPECT_EQ(messageOf(pair.pair()),
     "the images share 0 blocks of 4 x 4 usable pixels; expected at least 15: pixels must be finite "

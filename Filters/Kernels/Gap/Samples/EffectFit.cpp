@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace msi
 {
@@ -40,6 +41,18 @@ Eigen::ArrayXd huber(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& weigh
   }
   const double cut = Decision::OutlierDeviations * std::fmax(robustDeviation(std::move(size)), 1.0);
   return (whitened.abs() > cut).select((cut / whitened.abs().cwiseMax(1e-300)).sqrt(), 1.0);
+}
+
+// First and number of the channels in which a parameter acts.
+std::pair<Eigen::Index, Eigen::Index> reached(
+  const FreeParameter& parameter, Eigen::Index reach, Eigen::Index channels)
+{
+  if (parameter.channel < 0)
+  {
+    return { 0, channels };
+  }
+  const Eigen::Index first = std::max<Eigen::Index>(parameter.channel - reach, 0);
+  return { first, std::min(parameter.channel + reach + 1, channels) - first };
 }
 
 double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
@@ -99,20 +112,20 @@ Eigen::ArrayXd EffectFitter::whitened(const Eigen::MatrixXd& predicted) const
   return (weight > 0.0).select(weight.sqrt() * (flat(Data.observed) - flat(predicted)), 0.0);
 }
 
-void EffectFitter::linearise(EffectFit& fit, const StagedResponse& here,
-  const Eigen::ArrayXd& residual, const Eigen::ArrayXd& root) const
+void EffectFitter::linearise(
+  EffectFit& fit, const StagedResponse& here, const Eigen::ArrayXd& residual) const
 {
+  fit.root = huber(residual, flat(Weight));
   fit.free = fit.set.freeParameters(Data.camera);
   fit.jacobian = jacobian(here, fit.set, fit.free);
-  solve(fit, residual, root);
+  solve(fit, residual);
 }
 
-void EffectFitter::solve(
-  EffectFit& fit, const Eigen::ArrayXd& residual, const Eigen::ArrayXd& root) const
+void EffectFitter::solve(EffectFit& fit, const Eigen::ArrayXd& residual) const
 {
   const Eigen::ArrayXXd trust =
-    Weight.array().sqrt() * root.reshaped(Data.channels(), Data.samples());
-  const Eigen::ArrayXXd left = (residual * root).reshaped(Data.channels(), Data.samples());
+    Weight.array().sqrt() * fit.root.reshaped(Data.channels(), Data.samples());
+  const Eigen::ArrayXXd left = (residual * fit.root).reshaped(Data.channels(), Data.samples());
   std::vector<NormalEquations> folds;
   for (const SampleList& members : Fold)
   {
@@ -121,7 +134,7 @@ void EffectFitter::solve(
   // What is left beyond noise counts as in the criterion.
   const double numbers =
     std::min(static_cast<double>(Training.size()), Decision::DiscrepancyNumbers);
-  const double dispersion = std::fmax((huberCost(residual, root) - NoiseEnergy) / numbers, 1.0);
+  const double dispersion = std::fmax((huberCost(residual, fit.root) - NoiseEnergy) / numbers, 1.0);
   fit.linear = LinearFit(
     { fit.free.begin(), fit.free.end() }, std::move(folds), fit.set.size() > 1, dispersion);
 }
@@ -135,6 +148,7 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   {
     fit.predicted = fit.set.size() == 0 ? Data.simulated : noResponse(Data.camera, Data.scene);
     fit.jacobian.resize(Data.observed.size(), 0);
+    fit.root = huber(whitened(fit.predicted), flat(Weight));
     crossValidate(fit);
     return fit;
   }
@@ -143,14 +157,13 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   bool done = false;
   for (int iteration = 0;; ++iteration)
   {
-    const Eigen::ArrayXd root = huber(residual, flat(Weight));
-    linearise(fit, *here, residual, root);
+    linearise(fit, *here, residual);
     if (done || iteration == effort.iterations)
     {
       break;
     }
-    const double before =
-      huberCost(residual, root) + fit.linear.penalty(Eigen::VectorXd::Zero(fit.jacobian.cols()));
+    const double before = huberCost(residual, fit.root) +
+      fit.linear.penalty(Eigen::VectorXd::Zero(fit.jacobian.cols()));
     bool better = false;
     double after = before;
     for (int attempt = 0; attempt < 6 && !better; ++attempt)
@@ -161,7 +174,7 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
       if (there)
       {
         Eigen::ArrayXd trialResidual = whitened(there->response());
-        after = huberCost(trialResidual, root) + fit.linear.penalty(step);
+        after = huberCost(trialResidual, fit.root) + fit.linear.penalty(step);
         better = after < before;
         if (better)
         {
@@ -203,8 +216,8 @@ std::optional<EffectFit> EffectFitter::oneStep(
   fit.jacobian.resize(fit.predicted.size(), static_cast<Eigen::Index>(fit.free.size()));
   fit.jacobian << present.jacobian.leftCols(known),
     jacobian(*here, fit.set, { added, fit.free.end() });
-  const Eigen::ArrayXd residual = whitened(fit.predicted);
-  solve(fit, residual, huber(residual, flat(Weight)));
+  fit.root = present.root;
+  solve(fit, whitened(fit.predicted));
   crossValidate(fit);
   return fit;
 }
@@ -213,13 +226,20 @@ void EffectFitter::crossValidate(EffectFit& fit) const
 {
   const Eigen::Index channels = Data.channels();
   const Eigen::Index samples = Data.samples();
+  const Eigen::Index reach = fit.set.reach();
   fit.heldOut = (Weight.array() > 0.0).select(Data.observed - fit.predicted, 0.0);
   for (std::size_t f = 0; f < fit.linear.folds(); ++f)
   {
     const Eigen::VectorXd step = fit.linear.stepWithout(f);
-    for (const Eigen::Index j : Fold[f])
+    for (std::size_t p = 0; p < fit.free.size(); ++p)
     {
-      fit.heldOut.col(j) -= fit.jacobian.middleRows(j * channels, channels) * step;
+      const auto column = static_cast<Eigen::Index>(p);
+      const auto [first, count] = reached(fit.free[p], reach, channels);
+      for (const Eigen::Index j : Fold[f])
+      {
+        fit.heldOut.col(j).segment(first, count) -=
+          step[column] * fit.jacobian.col(column).segment(j * channels + first, count);
+      }
     }
   }
   fit.heldOut = (Weight.array() > 0.0).select(fit.heldOut, 0.0);

@@ -34,6 +34,7 @@ struct EffectFit
   Eigen::MatrixXd predicted; // K x S, all samples
   Eigen::MatrixXd jacobian;  // KS x p
   LinearFit linear;          // about the set
+  Eigen::ArrayXd root;       // KS, of the Huber weights
   Eigen::MatrixXd heldOut;   // K x S, cross-validated residual of the training samples, 0 elsewhere
   double energy = 0.0;       // weighted sum of squares of heldOut
   double dispersion =
@@ -67,11 +68,9 @@ public:
 private:
   // Residuals over their standard deviations, 0 where there is no weight.
   Eigen::ArrayXd whitened(const Eigen::MatrixXd& predicted) const;
-  // root: of the Huber weights.
-  void linearise(EffectFit& fit, const StagedResponse& here, const Eigen::ArrayXd& residual,
-    const Eigen::ArrayXd& root) const;
+  void linearise(EffectFit& fit, const StagedResponse& here, const Eigen::ArrayXd& residual) const;
   // By the normal equations of its jacobian.
-  void solve(EffectFit& fit, const Eigen::ArrayXd& residual, const Eigen::ArrayXd& root) const;
+  void solve(EffectFit& fit, const Eigen::ArrayXd& residual) const;
   void crossValidate(EffectFit& fit) const;
 
   const GapData& Data;

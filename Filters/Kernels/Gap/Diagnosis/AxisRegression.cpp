@@ -197,11 +197,10 @@ PredictedEnergies predictedEnergies(
   energies.all = energies.before - left;
   if (predicted(ChannelAndLevel) >= (1.0 - Decision::SmallPart) * energies.all)
   {
-    const std::vector<AxisBasis> all = axes;
-    leaveContrasts(all, splits);
+    leaveContrasts(axes, splits);
     for (AxisBasis& axis : axes)
     {
-      leaveContrasts(all, axis.behind);
+      leaveContrasts(axes, axis.behind);
     }
   }
   std::vector<double> value(subsets, 0.0);

@@ -124,28 +124,8 @@ constexpr double MostMean = 2.0;    // white
 constexpr double OtherUnit = 5.0;   // times
 constexpr double Correlated = 0.25; // squared
 
-// Highlights may pass white, but not the image as a whole.
-void requireRelativeToWhite(const FieldPair& pair)
-{
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < pair.pixels() * pair.channels.size(); ++i)
-  {
-    const auto value = static_cast<double>(pair.simulated[i]);
-    sum += std::isfinite(value) ? value : 0.0;
-    count += std::isfinite(value) ? 1.0 : 0.0;
-  }
-  if (sum > MostMean * count)
-  {
-    reject("the simulated image has a mean of ", sum / count,
-      ", which looks like counts; expected responses relative to white (1 = perfect white): divide "
-      "both images by the counts of white");
-  }
-}
-
-// The unit of each channel of the real image, where it is not that of the simulated one (white = 1): counts, say. 1 where the
-// images agree within a factor of five, else the same for all channels where that is enough.
-Eigen::ArrayXd fieldUnits(const FieldPair& pair)
+// Of each channel.
+std::vector<PairSums> channelSums(const FieldPair& pair)
 {
   const std::size_t K = pair.channels.size();
   std::vector<PairSums> sums(K);
@@ -157,8 +137,33 @@ Eigen::ArrayXd fieldUnits(const FieldPair& pair)
       sums[k].add(pair.real[i * K + k], pair.simulated[i * K + k]);
     }
   }
-  Eigen::ArrayXd ratio(static_cast<Eigen::Index>(K));
-  for (std::size_t k = 0; k < K; ++k)
+  return sums;
+}
+
+// Highlights may pass white, but not the image as a whole.
+void requireRelativeToWhite(const std::vector<PairSums>& sums)
+{
+  double sum = 0.0;
+  double count = 0.0;
+  for (const PairSums& channel : sums)
+  {
+    sum += channel.simulated;
+    count += channel.n;
+  }
+  if (sum > MostMean * count)
+  {
+    reject("the simulated image has a mean of ", sum / count,
+      ", which looks like counts; expected responses relative to white (1 = perfect white): divide "
+      "both images by the counts of white");
+  }
+}
+
+// The unit of each channel of the real image, where it is not that of the simulated one (white = 1): counts, say. 1 where the
+// images agree within a factor of five, else the same for all channels where that is enough.
+Eigen::ArrayXd fieldUnits(const std::vector<PairSums>& sums)
+{
+  Eigen::ArrayXd ratio(static_cast<Eigen::Index>(sums.size()));
+  for (std::size_t k = 0; k < sums.size(); ++k)
   {
     const PairSums& sum = sums[k];
     const double both = sum.ofBoth();
@@ -339,11 +344,12 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
     reject("the images have ", pair.extent.width, " x ", pair.extent.height, " pixels and ",
       pair.channels.size(), " channels; expected at least one of each");
   }
-  requireRelativeToWhite(pair);
+  const std::vector<PairSums> sums = channelSums(pair);
+  requireRelativeToWhite(sums);
   FieldData data;
   data.pair = pair;
   data.filled = filledScene(pair);
-  data.unit = fieldUnits(pair);
+  data.unit = fieldUnits(sums);
   const auto regions = regionsOf(pair.extent);
   for (const int size : { 16, 8, SmallestBlock })
   {

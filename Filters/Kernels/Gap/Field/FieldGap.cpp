@@ -284,13 +284,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   FieldModel nominal = finding.before().model;
   nominal.rows = gap->model.rows;
   nominal.columns = gap->model.columns;
-  for (ImageParameter parameter = 0; parameter < fieldParameterCount(); ++parameter)
-  {
-    if (isShape(parameter))
-    {
-      nominal[parameter] = gap->model[parameter];
-    }
-  }
+  nominal.take(gap->model, isShape);
   report.where = fieldAxes(
     data, fieldStatistics(data, nominal, &finding.weights, loop), loop, &finding.after().model);
   const auto beyondNoise = [&](double rms, const FieldStatistics& statistics)

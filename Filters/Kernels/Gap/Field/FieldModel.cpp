@@ -57,6 +57,19 @@ FieldModel::FieldModel(Eigen::Index channels)
   }
 }
 
+bool FieldModel::take(const FieldModel& other, bool (*which)(ImageParameter))
+{
+  const Eigen::ArrayXXd before = Values;
+  for (ImageParameter p = 0; p < fieldParameterCount(); ++p)
+  {
+    if (which(p))
+    {
+      (*this)[p] = other[p];
+    }
+  }
+  return (Values != before).any();
+}
+
 bool FieldModel::isNeutral(ImageParameter parameter) const
 {
   return ((*this)[parameter] == numberOf(parameter).neutral).all();

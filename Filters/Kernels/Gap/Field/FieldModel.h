@@ -91,6 +91,8 @@ struct FieldModel
   bool isNeutral(const PlacedStep& step) const;
   bool isNeutral(const PlacedStep& step, Eigen::Index channel) const;
 
+  // The parameters for which `which` is true. Returns whether one of them was another.
+  bool take(const FieldModel& other, bool (*which)(ImageParameter));
   void goHalfwayTo(const FieldModel& other) { Values = 0.5 * (Values + other.Values); }
 
   // The steps of these stages that change something or are asked for. They refer to the model.

@@ -169,15 +169,9 @@ std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& sta
   std::vector<AxisBasis> axes = fieldAxisBases(statistics.model, !data.filled.empty());
   const std::vector<AxisSplit> splits = splitOf(data, plain);
   FieldModel moved = statistics.model;
-  for (ImageParameter parameter = 0; after != nullptr && parameter < fieldParameterCount();
-       ++parameter)
-  {
-    if (stepOf(parameter).step->stage == ImageStage::Scene)
-    {
-      moved[parameter] = (*after)[parameter];
-    }
-  }
-  if (after != nullptr)
+  const auto isOfScene = [](ImageParameter parameter)
+  { return stepOf(parameter).step->stage == ImageStage::Scene; };
+  if (after != nullptr && moved.take(*after, isOfScene))
   {
     plain = fieldStatistics(data, moved, nullptr, loop);
     axes.back().behind = splitOf(data, plain);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 namespace msi
 {
@@ -41,18 +40,6 @@ Eigen::ArrayXd huber(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& weigh
   }
   const double cut = Decision::OutlierDeviations * std::fmax(robustDeviation(std::move(size)), 1.0);
   return (whitened.abs() > cut).select((cut / whitened.abs().cwiseMax(1e-300)).sqrt(), 1.0);
-}
-
-// First and number of the channels in which a parameter acts.
-std::pair<Eigen::Index, Eigen::Index> reached(
-  const FreeParameter& parameter, Eigen::Index reach, Eigen::Index channels)
-{
-  if (parameter.channel < 0)
-  {
-    return { 0, channels };
-  }
-  const Eigen::Index first = std::max<Eigen::Index>(parameter.channel - reach, 0);
-  return { first, std::min(parameter.channel + reach + 1, channels) - first };
 }
 
 double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
@@ -234,7 +221,7 @@ void EffectFitter::crossValidate(EffectFit& fit) const
     for (std::size_t p = 0; p < fit.free.size(); ++p)
     {
       const auto column = static_cast<Eigen::Index>(p);
-      const auto [first, count] = reached(fit.free[p], reach, channels);
+      const auto [first, count] = fit.free[p].channels(reach, channels);
       for (const Eigen::Index j : Fold[f])
       {
         fit.heldOut.col(j).segment(first, count) -=

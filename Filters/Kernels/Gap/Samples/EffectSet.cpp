@@ -288,12 +288,8 @@ Eigen::MatrixXd jacobian(
         }
         if (there)
         {
-          const Eigen::Index low =
-            perChannel ? std::max<Eigen::Index>(free[p].channel - reach, 0) : 0;
-          const Eigen::Index high = perChannel
-            ? std::min<Eigen::Index>(free[p].channel + reach, channels - 1)
-            : channels - 1;
-          derive(there->response(), base, stepOf(free[p]), low, high, column);
+          const auto [low, count] = free[p].channels(reach, channels);
+          derive(there->response(), base, stepOf(free[p]), low, low + count - 1, column);
         }
       }
     }

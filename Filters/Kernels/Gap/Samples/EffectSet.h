@@ -9,8 +9,10 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace msi
@@ -36,6 +38,13 @@ struct FreeParameter : FreeNumber
   Eigen::Index channel; // -1: common to all channels
   double neutral;
   std::string name, unit;
+
+  // First and number of those in which it acts. reach: EffectSet::reach().
+  std::pair<Eigen::Index, Eigen::Index> channels(Eigen::Index reach, Eigen::Index all) const
+  {
+    const Eigen::Index first = channel < 0 ? 0 : std::max<Eigen::Index>(channel - reach, 0);
+    return { first, (channel < 0 ? all : std::min(channel + reach + 1, all)) - first };
+  }
 };
 
 // The parameter that says when a step takes place: its index in CameraEffect::parameters, that of its width behind it.

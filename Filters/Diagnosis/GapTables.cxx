@@ -80,8 +80,7 @@ Eigen::VectorXd numberColumn(vtkTable* table, const std::string& name)
   {
     values[i] = numbers->GetComponent(i, 0);
   }
-  // One place that is not known would leave a hole in the field.
-  return values.allFinite() ? values : Eigen::VectorXd();
+  return values;
 }
 
 std::vector<std::string> namesOf(vtkTable* samples)

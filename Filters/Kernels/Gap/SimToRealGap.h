@@ -24,7 +24,8 @@ struct GapCapture
 {
   CameraModel camera;               // the simulated camera, K channels
   WavelengthGrid wavelengths;       // of the samples' reflectance; resampled to the camera's grid
-  SceneSamples samples;             // S samples
+  // S samples. NaN for one whose position or order is not known, as a lid's: in the middle of the field, captured first.
+  SceneSamples samples;
   Eigen::MatrixXd readings;         // K x R, what the real camera answered; NaN: not measured
   std::vector<int> sampleOf;        // R, the sample of each reading; repeats name a sample again
   std::optional<CameraNoise> noise; // read and shot of a reading; empty: the repeats decide

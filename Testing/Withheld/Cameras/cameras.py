@@ -1,8 +1,12 @@
-"""Withheld cases of cameras of many kinds, in numpy: cameras.py FOLDER KEYFILE [small|full] [SEED]
+"""Withheld cases of cameras of many kinds, in numpy: cameras.py FOLDER KEYFILE [small|full] [SEED] [RESULTFILE]
 
 Cameras of 3, 6, 8, 16 and 30 channels, known but for small errors (where an effect is there) or fitted to half of the samples, look at measured
 reflectances (with MULTISPECTRAL_DATA) under lamps of the CIE; one effect, two or none are added. Shares no code with the
 other generators and none with the simulator.
+
+With the results of a diagnosis of these cases (same size and seed) lists those for which it recommends a next capture, with that capture
+beside the first. Where it measures a part of the camera or of a sample, effects on that part are not tried again; cases where such an
+effect is planted are left out, as that measurement shows it by itself.
 """
 
 import csv
@@ -30,6 +34,12 @@ AXES = {"illuminant_drift": "channel spectral_shape", "exposure_gain": "level ch
         "veiling_glare": "level channel", "medium_gain": "medium level", "specular_component": "medium level",
         "interreflection": "medium level", "session_drift": "order", "vignetting": "position", "illumination_gradient": "position"}
 ON_A_MEDIUM = {"medium_gain", "specular_component", "interreflection"}
+# Next captures that measure a part of the camera or of a sample, and the effects on it.
+MEASURES = {"lamp spectrum; white tile": ["illuminant_drift"],
+            "monochromator": ["filter_shift", "filter_bandwidth", "filter_leak"],
+            "specular included and excluded measurement; black glossy tile": ["specular_component"],
+            "layers over black and white backing": ["translucency"], "UV-cut filter": ["fluorescence"],
+            "flat and folded sample": ["interreflection"], "rotated sample": ["medium_gain"]}
 
 
 def numbers(path):
@@ -84,22 +94,47 @@ def widened(curves, deviation):
     return curves @ (weights / weights[len(FINE) // 2].sum())
 
 
+class Scene:
+    """Samples where they stand and when they are captured. Without places: in the middle, at the start, and nobody tells."""
+
+    def __init__(self, reflectance, medium=None, x=None, y=None, turn=None):
+        nought = numpy.zeros(len(reflectance))
+        self.reflectance = reflectance
+        self.medium = numpy.full(len(reflectance), "") if medium is None else medium
+        self.placed, self.ordered = x is not None, turn is not None
+        self.x, self.y, self.turn = nought if x is None else x, nought if y is None else y, nought if turn is None else turn
+
+    def after(self, name):
+        """What the next capture of that name looks at."""
+        even = numpy.full_like(self.reflectance, 0.9)
+        board = even.copy()
+        board[::2] = 0.03
+        levels = {"lens cap": [0.0], "exposure series of one patch": [0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05],
+                  "black trap; second scene": [0.0, 0.03, 0.03, 0.03], "repeated white": [0.9, 0.9]}
+        if name in levels:
+            return Scene(numpy.outer(levels[name], numpy.ones(len(FINE))))
+        if name == "narrow-band source":
+            return Scene(numpy.exp(-0.5 * ((FINE - COARSE[:, None]) / 5.0) ** 2))
+        return {"flat field": Scene(even, None, self.x, self.y), "interleaved white": Scene(even, None, None, None, self.turn),
+                "patch with black and with white surround": Scene(board, None, self.x, self.y),
+                "chart rotated by 180 degrees": Scene(self.reflectance, self.medium, -self.x, -self.y, self.turn)}[name]
+
+
 class Case:
     """A camera before samples, and what it answers once effects of some strength are added."""
 
     def __init__(self, random, effects, kind, fitted):
         charts = random.choice(CHARTS, 2 if ON_A_MEDIUM & set(effects) or random.random() < 0.3 else 1, replace=False)
-        self.reflectance = numpy.vstack([chart(name) for name in charts])
-        self.medium = numpy.concatenate([[name] * len(chart(name)) for name in charts])
+        reflectance = numpy.vstack([chart(name) for name in charts])
+        medium = numpy.concatenate([[name] * len(chart(name)) for name in charts])
         base = random.choice(LAMPS[:3])
         self.light = lamp(base)
         self.curves = sensitivities(kind, random)
         self.white = (self.curves * self.light).sum(1)
         self.matrix = self.curves * self.light / self.white[:, None]
-        order = random.permutation(len(self.medium))
+        order = random.permutation(len(medium))
         if fitted:
-            half = order[:len(order) // 2]
-            self.fit(random, half)
+            self.fit(random, reflectance[order[:len(order) // 2]])
             order = order[len(order) // 2:]
         else:
             error = 1.0 if effects else 0.0
@@ -109,24 +144,21 @@ class Case:
             self.dark = error * random.normal(0, 0.0004, len(moved))
             if len(order) > 60 and random.random() < 0.5:
                 order = order[:random.integers(24, 60)]
-        self.reflectance = self.reflectance[order]
-        self.medium = self.medium[order]
         count = len(order)
         columns = int(numpy.ceil(numpy.sqrt(1.4 * count)))
         place = random.permutation(columns * int(numpy.ceil(count / columns)))[:count]
-        self.x = 2.0 * (place % columns) / (columns - 1) - 1.0
-        self.y = 2.0 * (place // columns) / max(int(numpy.ceil(count / columns)) - 1, 1) - 1.0
-        self.turn = random.permutation(count)
+        self.scene = Scene(reflectance[order], medium[order], 2.0 * (place % columns) / (columns - 1) - 1.0,
+                           2.0 * (place // columns) / max(int(numpy.ceil(count / columns)) - 1, 1) - 1.0, random.permutation(count))
         self.faults = [(name, self.draw(random, base)) for name in effects]
 
-    def fit(self, random, samples):
+    def fit(self, random, reflectance):
         """Ridge regression with a penalty on the second differences of each channel's responsivity, and an offset."""
-        seen = noisy(random, self.matrix @ self.reflectance[samples].T)
-        spectra = CubicSpline(FINE, self.reflectance[samples].T)(COARSE).T
-        design = numpy.hstack([spectra, numpy.ones((len(samples), 1))])
+        seen = noisy(random, self.matrix @ reflectance.T)
+        spectra = CubicSpline(FINE, reflectance.T)(COARSE).T
+        design = numpy.hstack([spectra, numpy.ones((len(spectra), 1))])
         rough = numpy.diff(numpy.eye(len(COARSE)), 2, axis=0)
         penalty = numpy.zeros((len(COARSE) + 1,) * 2)
-        penalty[:-1, :-1] = 3e-4 * len(samples) * rough.T @ rough
+        penalty[:-1, :-1] = 3e-4 * len(spectra) * rough.T @ rough
         solution = numpy.linalg.solve(design.T @ design + penalty + 1e-9 * numpy.eye(len(penalty)), design.T @ seen.T)
         self.camera, self.dark = solution[:-1].T, solution[-1]
 
@@ -134,17 +166,17 @@ class Case:
         channels = len(self.matrix)
         sign = random.choice([-1.0, 1.0])
         return {"size": random.uniform(0.7, 1.4), "sign": sign, "balanced": random.random() < 0.5,
-                "medium": self.medium == random.choice(sorted(set(self.medium))), "slope": random.normal(size=2),
+                "medium": random.choice(sorted(set(self.scene.medium))), "slope": random.normal(size=2),
                 "at": random.uniform(0.25, 0.75), "drift": random.choice(["step", "slope", "warm"]),
                 "curve": random.choice(["gamma", "square"]), "hard": random.random() < 0.5, "gains": random.normal(size=channels),
                 "offsets": sign * (random.uniform(0.3, 1.0, channels) if random.random() < 0.5 else numpy.ones(channels)),
                 "lamp": random.choice([name for name in LAMPS if name != base])}
 
-    def answer(self, strength):
-        reflectance, matrix, light = self.reflectance.copy(), self.matrix.copy(), numpy.ones(len(self.medium))
+    def answer(self, strength, scene):
+        reflectance, matrix, light = scene.reflectance.copy(), self.matrix.copy(), numpy.ones(len(scene.medium))
         for name, fault in self.faults:
             size = strength * fault["size"]
-            mine = fault["medium"]
+            mine = scene.medium == fault["medium"]
             if name == "illuminant_drift":
                 part = min(size, 1.0)
                 matrix *= (1.0 - part) + part * lamp(fault["lamp"]) / self.light
@@ -161,21 +193,21 @@ class Case:
                 cavity = min(0.9 * size, 0.95)
                 reflectance[mine] *= (1.0 - cavity) / (1.0 - cavity * reflectance[mine])
             elif name == "vignetting":
-                light *= numpy.cos(numpy.arctan(1.2 * size * numpy.hypot(self.x, self.y))) ** 4
+                light *= numpy.cos(numpy.arctan(1.2 * size * numpy.hypot(scene.x, scene.y))) ** 4
             elif name == "illumination_gradient":
-                light *= 1.0 + size * (fault["slope"] @ [self.x, self.y])
+                light *= 1.0 + size * (fault["slope"] @ [scene.x, scene.y])
             if name in ("illuminant_drift", "filter_shift", "filter_bandwidth") and fault["balanced"]:
                 matrix = matrix / matrix.sum(1)[:, None]
-        return self.detected((matrix @ reflectance.T) * light, strength)
+        return self.detected((matrix @ reflectance.T) * light, strength, scene)
 
-    def detected(self, seen, strength):
+    def detected(self, seen, strength, scene):
         for name, fault in self.faults:
             size = strength * fault["size"]
             sign = fault["sign"]
             if name == "veiling_glare":
                 seen = seen + size * seen.mean(1)[:, None]
             elif name == "session_drift":
-                time = self.turn / (len(self.turn) - 1)
+                time = scene.turn / max(scene.turn.max(), 1)
                 shape = {"step": (time > fault["at"]).astype(float), "slope": time, "warm": 1.0 - numpy.exp(-5.0 * time)}
                 seen = seen * (1.0 + 0.3 * size * sign * shape[fault["drift"]])
             elif name == "exposure_gain":
@@ -191,7 +223,7 @@ class Case:
                 seen = (numpy.sign(seen) * numpy.abs(seen) ** (1.0 + 0.5 * size * sign) if fault["curve"] == "gamma"
                         else seen - 0.4 * size * sign * seen * (1.0 - seen))
             elif name == "saturation":
-                top = numpy.quantile(self.matrix @ self.reflectance.T, 1.0 - 0.45 * min(size, 1.0))
+                top = numpy.quantile(self.matrix @ self.scene.reflectance.T, 1.0 - 0.45 * min(size, 1.0))
                 knee = 0.85 * top
                 soft = knee + (top - knee) * numpy.tanh((seen - knee) / (top - knee))
                 seen = numpy.minimum(seen, top) if fault["hard"] else numpy.where(seen < knee, seen, soft)
@@ -208,15 +240,11 @@ def strength_for(random, case, truth):
     """That makes a gap of a size drawn; half of the single lamps are whole."""
     if [name for name, _ in case.faults] == ["illuminant_drift"] and random.random() < 0.5:
         return 1.0 / case.faults[0][1]["size"]
-    return strength_of(random.uniform(0.006, 0.03), lambda strength: case.answer(strength) - truth, high=1.0, rounds=30)
+    return strength_of(random.uniform(0.006, 0.03), lambda strength: case.answer(strength, case.scene) - truth, high=1.0, rounds=30)
 
 
-def write(folder, random, effects, kind, fitted):
-    """One case; returns what the key says of it."""
-    case = Case(random, effects, kind, fitted)
-    truth = case.matrix @ case.reflectance.T
-    seen = case.answer(strength_for(random, case, truth)) if effects else truth
-    known, repeats = [(True, 3), (False, 3), (False, 1)][random.integers(3)]
+def capture(folder, random, case, strength, scene, known, repeats):
+    seen = case.answer(strength, scene)
     channels = [f"C{k + 1}" for k in range(len(seen))]
     names = [f"s{i + 1}" for i in range(seen.shape[1])]
     os.makedirs(folder, exist_ok=True)
@@ -225,37 +253,65 @@ def write(folder, random, effects, kind, fitted):
                    "noise": {"read": READ if known else None, "shot": SHOT if known else None}}, file)
     table(os.path.join(folder, "camera.csv"), ["wavelength", *channels],
           [[f"{w:g}", *map("{:.9g}".format, case.camera[:, j])] for j, w in enumerate(COARSE)])
-    measured = CubicSpline(FINE, case.reflectance.T)(COARSE).T
+    measured = CubicSpline(FINE, scene.reflectance.T)(COARSE).T
     measured = measured + random.normal(0, SPECTROPHOTOMETER, measured.shape)
+    places = [[f"{scene.x[i]:.5f}", f"{scene.y[i]:.5f}"] if scene.placed else ["", ""] for i in range(len(names))]
     table(os.path.join(folder, "samples.csv"), ["sample", "medium", "scene", "x", "y", "order", *(f"R{w:g}" for w in COARSE)],
-          [[name, case.medium[i], "one", f"{case.x[i]:.5f}", f"{case.y[i]:.5f}", case.turn[i] + 1,
+          [[name, scene.medium[i], "one" if scene is case.scene else "", *places[i], scene.turn[i] + 1 if scene.ordered else "",
             *map("{:.5f}".format, measured[i])] for i, name in enumerate(names)])
     readings = [noisy(random, seen) for _ in range(repeats)]
     table(os.path.join(folder, "responses.csv"), ["sample", "repeat", *channels],
           [[name, r + 1, *map("{:.7f}".format, readings[r][:, i])] for i, name in enumerate(names) for r in range(repeats)])
-    modelled = case.camera @ CubicSpline(FINE, case.reflectance.T)(COARSE) + case.dark[:, None]
+
+
+def write(folder, random, effects, kind, fitted):
+    """One case; returns what the key says of it."""
+    case = Case(random, effects, kind, fitted)
+    scene = case.scene
+    truth = case.matrix @ scene.reflectance.T
+    strength = strength_for(random, case, truth) if effects else 0.0
+    seen = case.answer(strength, scene)
+    known, repeats = [(True, 3), (False, 3), (False, 1)][random.integers(3)]
+    capture(folder, random, case, strength, scene, known, repeats)
+    modelled = case.camera @ CubicSpline(FINE, scene.reflectance.T)(COARSE) + case.dark[:, None]
     gap = rms(seen - modelled)
     described = f"{KINDS[kind]}; {'fitted' if fitted else 'known'}".replace(";", " and")
-    return [";".join(effects), ";".join([described] * len(effects)),
+    told = [";".join(effects), ";".join([described] * len(effects)),
             ";".join(axis for name in effects for axis in AXES[name].split()), gap,
             max(0.0, 1.0 - rms(truth - modelled) / gap) if effects else 1.0]
+    return (case, strength), (known, repeats), told
+
+
+def recommended(path):
+    """The next capture of each case that has one."""
+    with open(path, encoding="utf-8") as file:
+        return {row["case"]: row["next_capture"] for row in csv.DictReader(file) if row["next_capture"]}
 
 
 def main():
     folder, key = sys.argv[1:3]
     full = sys.argv[3:4] == ["full"]
-    random = numpy.random.default_rng(int(sys.argv[4]) if len(sys.argv) > 4 else 2024)
+    seed = int(sys.argv[4]) if len(sys.argv) > 4 else 2024
+    after = recommended(sys.argv[5]) if len(sys.argv) > 5 else None
+    random = numpy.random.default_rng(seed)
     names = list(AXES)
     cases = []
+    number = 1000
     os.makedirs(folder, exist_ok=True)
     for kind in KINDS if "MULTISPECTRAL_DATA" in os.environ else ():
         for fitted in (False, True):
             singles = [[name] for name in names] if full else [["illuminant_drift"], [str(random.choice(names))]]
             pairs = [[str(name) for name in random.choice(names, 2, replace=False)] for _ in range(4 if full else 1)]
             for effects in singles + pairs + [[]]:
-                name = f"case-{1001 + len(cases)}"
-                told = write(os.path.join(folder, name), random, effects, kind, fitted)
-                cases.append([name, ("clean", "single", "several")[len(effects)], *told])
+                number += 1
+                name = f"case-{number}"
+                place = os.path.join(folder, name)
+                case, how, told = write(place, random, effects, kind, fitted)
+                without = MEASURES.get(after.get(name), []) if after else []
+                if after and not without and name in after:
+                    capture(os.path.join(place, "next"), numpy.random.default_rng([seed, number]), *case, case[0].scene.after(after[name]), *how)
+                if after is None or (name in after and not set(without) & set(effects)):
+                    cases.append([name, ("clean", "single", "several")[len(effects)], *told, ";".join(without)])
     lists(folder, key, cases)
 
 

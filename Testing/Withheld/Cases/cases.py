@@ -27,8 +27,9 @@ def table(path, header, rows):
 
 
 def lists(folder, key, cases):
-    """The names of the cases for the diagnosis, what was planted for the scorer: name, set, effects, kinds, axes, gap, best shrink."""
-    table(os.path.join(folder, "cases.csv"), ["case", "without"], [[case[0], ""] for case in cases])
+    """The names of the cases for the diagnosis, what was planted for the scorer: name, set, effects, kinds, axes, gap, best shrink, and
+    the effects that may not be tried."""
+    table(os.path.join(folder, "cases.csv"), ["case", "without"], [[case[0], case[-1]] for case in cases])
     table(key, ["case", "set", "effects", "kinds", "axes", "gap_rms", "best_shrink", "without", "twin"],
-          [[*case, "", ""] for case in cases])
+          [[*case, ""] for case in cases])
     print(f"{len(cases)} cases in {folder}")

@@ -2,6 +2,7 @@
 
 #include "Formats/Capture.h"
 
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <stdexcept>
@@ -30,7 +31,12 @@ Eigen::VectorXd numbers(const msi::SampleTable& table, const char* name)
 
 msi::GapCapture readTable(const std::string& folder)
 {
-  const msi::Capture capture = msi::readCapture(folder);
+  std::vector<std::string> captures{ folder };
+  if (std::filesystem::exists(folder + "/next"))
+  {
+    captures.push_back(folder + "/next");
+  }
+  const msi::Capture capture = msi::readCaptures(captures);
   const auto& darkList = capture.description.dark;
   Eigen::VectorXd dark = Eigen::VectorXd::Zero(capture.camera.values.cols());
   for (std::size_t k = 0; k < darkList.size(); ++k)

@@ -2,6 +2,7 @@
 // Every result is written as soon as it is there; cases that RESULTFILE has already are not done again.
 #include "Engines.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -58,6 +59,13 @@ std::string lineOf(const msi::GapReport& report, double seconds)
   {
     line << *report.unexplained.rmsWithRest;
   }
+  line << ',';
+  if (!report.nextCaptures.empty())
+  {
+    std::string name = report.nextCaptures.front().capture;
+    std::replace(name.begin(), name.end(), ',', ';');
+    line << name;
+  }
   line << ',' << seconds;
   return line.str();
 }
@@ -108,7 +116,7 @@ int main(int argc, char** argv)
   if (done.empty())
   {
     output << "case,verdict,axis,where,rms_before,rms_after,noise_floor,shrink,shrink_low,shrink_"
-              "high,causes,unexplained,candidates,probabilities,rms_with_rest,seconds"
+              "high,causes,unexplained,candidates,probabilities,rms_with_rest,next_capture,seconds"
            << std::endl;
   }
   std::atomic<std::size_t> next{ 0 };
@@ -121,9 +129,10 @@ int main(int argc, char** argv)
       try
       {
         std::vector<std::string> without;
-        if (!cases[i].second.empty())
+        std::istringstream names(cases[i].second);
+        for (std::string name; std::getline(names, name, ';');)
         {
-          without.push_back(cases[i].second);
+          without.push_back(name);
         }
         const withheld::CaseInput input = withheld::readCase(folder + "/" + cases[i].first);
         const auto start = std::chrono::steady_clock::now();

@@ -287,7 +287,7 @@ def main():
             name = f"case-{1001 + len(cases)}"
             told = write(os.path.join(folder, name), random, effects, kinds[n % len(kinds)], exact)
             nominal = {"single": "nominal", "several": "nominal several"}.get(group, group)
-            cases.append([name, group if exact else nominal, *told])
+            cases.append([name, group if exact else nominal, *told, ""])
     lists(folder, key, cases)
 
 

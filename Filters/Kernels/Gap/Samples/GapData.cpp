@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -46,11 +47,37 @@ void validate(const GapCapture& capture)
   }
 }
 
+constexpr auto Known = Eigen::PropagateNumbers;
+
+// What some samples do not tell, as those of a lid beside a chart: in the middle of the field, at the start of the session.
+void fillIn(SceneSamples& samples)
+{
+  if (samples.x.size() > 0 && samples.y.size() == samples.x.size())
+  {
+    const auto unknown = !(samples.x.array().isFinite() && samples.y.array().isFinite());
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    samples.x = unknown.select(none, samples.x);
+    samples.y = unknown.select(none, samples.y);
+  }
+  const auto fill = [](Eigen::VectorXd& v, double middle)
+  {
+    if (v.size() > 0)
+    {
+      const double low = v.minCoeff<Known>();
+      const double high = v.maxCoeff<Known>();
+      v = v.array().isFinite().select(v, low + middle * (high - low)).eval();
+    }
+  };
+  fill(samples.x, 0.5);
+  fill(samples.y, 0.5);
+  fill(samples.order, 0.0);
+}
+
 // Without positions that differ, or an order that does, nothing depends on them.
 void dropConstantColumns(SceneSamples& samples)
 {
   const auto constant = [](const Eigen::VectorXd& v)
-  { return v.size() > 0 && v.maxCoeff() == v.minCoeff(); };
+  { return v.size() > 0 && !(v.maxCoeff() > v.minCoeff()); }; // or not a number
   if (samples.x.size() > 0 && constant(samples.x) && constant(samples.y))
   {
     samples.x.resize(0);
@@ -71,6 +98,7 @@ SampleScene alignedScene(const GapCapture& capture)
     samples.reflectance =
       (resamplingMatrix(capture.wavelengths, grid) * samples.reflectance).eval();
   }
+  fillIn(samples);
   dropConstantColumns(samples);
   return SampleScene(grid, std::move(samples));
 }

@@ -64,7 +64,18 @@ std::string namesOf(EffectNeed need)
   return all;
 }
 
-void noteScene(std::vector<std::string>& notes, const GapData& data)
+void noteUnknown(std::vector<std::string>& notes, const Eigen::ArrayXd& column, const char* what,
+  const char* taken)
+{
+  const Eigen::Index unknown = column.size() - column.isFinite().count();
+  if (unknown > 0)
+  {
+    notes.push_back(textOf(3, unknown, " of ", column.size(), " samples have no ", what,
+      ": they are taken to be ", taken, "."));
+  }
+}
+
+void noteScene(std::vector<std::string>& notes, const GapData& data, const SceneSamples& given)
 {
   const SceneSamples& samples = data.scene.samples();
   if (samples.medium.empty())
@@ -80,9 +91,17 @@ void noteScene(std::vector<std::string>& notes, const GapData& data)
   {
     notes.push_back("No positions: " + namesOf(EffectNeed::Position) + " were not tried.");
   }
+  else
+  {
+    noteUnknown(notes, given.x.array() + given.y.array(), "position", "in the middle of the field");
+  }
   if (!data.scene.hasOrder())
   {
     notes.push_back("No capture order: " + namesOf(EffectNeed::Order) + " was not tried.");
+  }
+  else
+  {
+    noteUnknown(notes, given.order.array(), "capture order", "captured first");
   }
   if (data.scene.scenes().size() == 1)
   {
@@ -222,7 +241,7 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
 {
   std::vector<std::string> notes;
   noteNoise(notes, capture, noise, reflectanceNoise);
-  noteScene(notes, data);
+  noteScene(notes, data, capture.samples);
   noteSamples(notes, data, report);
   noteSaturation(notes, data);
   noteDoubts(notes, report);

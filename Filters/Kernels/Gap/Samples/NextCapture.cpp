@@ -24,8 +24,8 @@ constexpr double LeastProbability = 0.02;   // of an explanation that is looked 
 struct Predictor
 {
   EffectFit fit;
-  Eigen::MatrixXd covariance; // of the free parameters
-  double rest = 0.0;          // variance of an element that the explanation leaves beyond noise
+  Eigen::MatrixXd root; // of the covariance of the free parameters
+  double rest = 0.0;    // variance of an element that the explanation leaves beyond noise
 };
 
 Predictor predictorOf(const SampleObservation& data, const ObservedFit& explanation)
@@ -34,11 +34,15 @@ Predictor predictorOf(const SampleObservation& data, const ObservedFit& explanat
   const EffectFit& fit = predictor.fit;
   const Eigen::MatrixXd posterior =
     fit.linear.information() / std::fmax(fit.dispersion, 1.0) + fit.linear.precision();
-  predictor.covariance =
-    posterior.ldlt().solve(Eigen::MatrixXd::Identity(posterior.rows(), posterior.cols()));
+  const Eigen::LDLT<Eigen::MatrixXd> decomposed(
+    posterior.ldlt().solve(Eigen::MatrixXd::Identity(posterior.rows(), posterior.cols())));
+  predictor.root = decomposed.transpositionsP().transpose() *
+    Eigen::MatrixXd(decomposed.matrixL()) *
+    decomposed.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   const GroupEnergies energies = data.energies(fit);
-  predictor.rest =
-    std::fmax(sumOf(energies.after) - sumOf(energies.noise), 0.0) / std::fmax(data.elements(), 1.0);
+  predictor.rest = (std::fmax(sumOf(energies.after) - sumOf(energies.noise), 0.0) +
+                     Decision::FormPart * sumOf(energies.before)) /
+    std::fmax(data.elements(), 1.0);
   return predictor;
 }
 
@@ -68,7 +72,8 @@ SceneSamples selected(const SceneSamples& samples, const SampleList& which)
   return some;
 }
 
-SceneSamples chartOf(const GapData& data)
+// Samples of the chart, spread over it.
+SampleList chartOf(const GapData& data)
 {
   SampleList which;
   const auto count = static_cast<Eigen::Index>(data.usable.size());
@@ -78,7 +83,7 @@ SceneSamples chartOf(const GapData& data)
   {
     which.push_back(data.usable[static_cast<std::size_t>(i * count / kept)]);
   }
-  return selected(data.scene.samples(), which);
+  return which;
 }
 
 // Normal distribution with covariance diag(variance) + factor factor'.
@@ -145,30 +150,45 @@ EffectSet shownBy(const CaptureCandidate& candidate, const SampleScene& scene, c
   return shown;
 }
 
-// Root of the covariance of some of the parameters.
-Eigen::MatrixXd rootOf(const Predictor& predictor, const EffectSet& shown,
-  const std::vector<std::size_t>& kept, const std::vector<FreeParameter>& free)
+// The column of a parameter among all of the explanation; none: it has no variance.
+std::optional<Eigen::Index> columnOf(
+  const Predictor& predictor, const FreeParameter& parameter, std::size_t effect)
 {
   const std::vector<FreeParameter>& all = predictor.fit.free;
-  std::vector<Eigen::Index> place;
-  for (const FreeParameter& one : free)
+  const auto same = std::find_if(all.begin(), all.end(),
+    [&](const FreeParameter& other)
+    {
+      return other.effect == effect && other.index == parameter.index &&
+        other.channel == parameter.channel;
+    });
+  return same == all.end() ? std::nullopt : std::make_optional(same - all.begin());
+}
+
+// How much worse than the chart's own the response to each of these spectra is known, by a camera that is known from that chart:
+// ratio of their leverages.
+Eigen::RowVectorXd strangeness(const GapData& data, const SampleScene& scene)
+{
+  constexpr double Scatter = 0.003; // of reflectances; what a chart has less of it does not show
+  const Eigen::MatrixXd chart = data.scene.reflectance()(Eigen::all, data.usable);
+  Eigen::MatrixXd moments = chart * chart.transpose();
+  moments.diagonal().array() += Scatter * Scatter * static_cast<double>(chart.cols());
+  const Eigen::LLT<Eigen::MatrixXd> known(moments);
+  const auto leverage = [&known](const Eigen::MatrixXd& spectra) -> Eigen::RowVectorXd
+  { return known.matrixL().solve(spectra).colwise().squaredNorm(); };
+  return leverage(scene.reflectance()) / leverage(chart).mean();
+}
+
+double distinctSpectra(const SampleScene& scene)
+{
+  std::vector<Eigen::VectorXd> seen;
+  for (const auto& spectrum : scene.reflectance().colwise())
   {
-    const std::size_t effect =
-      one.effect < shown.size() ? kept[one.effect] : predictor.fit.set.size();
-    const auto same = std::find_if(all.begin(), all.end(),
-      [&one, effect](const FreeParameter& other) {
-        return other.effect == effect && other.index == one.index && other.channel == one.channel;
-      });
-    place.push_back(same - all.begin());
+    if (std::find(seen.begin(), seen.end(), spectrum) == seen.end())
+    {
+      seen.emplace_back(spectrum);
+    }
   }
-  // What is not among all has no variance.
-  const auto known = static_cast<Eigen::Index>(all.size());
-  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(known + 1, known + 1);
-  padded.topLeftCorner(known, known) = predictor.covariance;
-  const Eigen::MatrixXd covariance = padded(place, place);
-  const Eigen::LDLT<Eigen::MatrixXd> decomposed(covariance);
-  return decomposed.transpositionsP().transpose() * Eigen::MatrixXd(decomposed.matrixL()) *
-    decomposed.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return static_cast<double>(seen.size());
 }
 
 // Empty where the camera would see nothing.
@@ -182,14 +202,48 @@ std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandid
   {
     return std::nullopt;
   }
+  const Eigen::Index elements = here->response().size();
+  Eigen::VectorXd mean = here->response().reshaped();
+  Eigen::VectorXd variance = data.variance.rowwise().mean().replicate(scene.size(), 1);
+  Eigen::MatrixXd derivative =
+    Eigen::MatrixXd::Zero(elements, static_cast<Eigen::Index>(predictor.fit.free.size()));
   const std::vector<FreeParameter> free = shown.freeParameters(data.camera);
-  const Eigen::MatrixXd derivative = jacobian(*here, shown, free);
-  const Eigen::Map<const Eigen::VectorXd> mean(here->response().data(), here->response().size());
-  const Eigen::VectorXd noise = data.variance.rowwise().mean();
-  const Eigen::VectorXd variance =
-    (noise.replicate(scene.size(), 1).array() + predictor.rest + 1e-14) * Decision::Temperature;
-  return LowRankNormal(mean, variance,
-    std::sqrt(Decision::Temperature) * derivative * rootOf(predictor, shown, kept, free));
+  const Eigen::MatrixXd columns = jacobian(*here, shown, free);
+  for (std::size_t p = 0; p < free.size(); ++p)
+  {
+    const std::size_t effect =
+      free[p].effect < shown.size() ? kept[free[p].effect] : predictor.fit.set.size();
+    if (const auto column = columnOf(predictor, free[p], effect))
+    {
+      derivative.col(*column) = columns.col(static_cast<Eigen::Index>(p));
+    }
+  }
+  Eigen::VectorXd systematic =
+    predictor.rest * strangeness(data, scene).replicate(data.channels(), 1).reshaped();
+  if (!candidate.again.empty())
+  {
+    // What was seen, changed by what the explanation changes.
+    SampleList rows;
+    for (const Eigen::Index j : candidate.again)
+    {
+      for (Eigen::Index k = 0; k < data.channels(); ++k)
+      {
+        rows.push_back(j * data.channels() + k);
+      }
+    }
+    mean -= predictor.fit.predicted.reshaped()(rows);
+    systematic.setConstant(Decision::FormPart * mean.squaredNorm() / static_cast<double>(elements));
+    mean += data.observed.reshaped()(rows);
+    variance += data.variance.reshaped()(rows);
+    derivative -= predictor.fit.jacobian(rows, Eigen::all);
+  }
+  // It counts as few numbers, as in the criterion; as one a channel for what is the same spectrum.
+  const double numbers = std::fmin(
+    static_cast<double>(data.channels()) * distinctSpectra(scene), Decision::BeliefNumbers);
+  variance += systematic * std::fmax(static_cast<double>(elements) / numbers, 1.0);
+  variance.array() += 1e-14;
+  return LowRankNormal(std::move(mean), Decision::Temperature * variance,
+    std::sqrt(Decision::Temperature) * derivative * predictor.root);
 }
 
 double logSumExp(const std::vector<double>& logs)
@@ -248,6 +302,7 @@ std::vector<CaptureCandidate> captureCandidates(
   };
   std::vector<CaptureCandidate> candidates;
   candidates.push_back({ "lens cap", flat({ 0.0 }) });
+  candidates.push_back({ "repeated white", flat({ 0.9, 0.9 }) });
   candidates.push_back(
     { "exposure series of one patch", flat({ 0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05 }) });
   candidates.push_back({ "black trap, second scene", flat({ 0.0, 0.03, 0.03, 0.03 }) });
@@ -265,7 +320,8 @@ std::vector<CaptureCandidate> captureCandidates(
   }
   candidates.push_back({ "narrow-band source", narrow });
 
-  const SceneSamples chart = chartOf(data);
+  const SampleList again = chartOf(data);
+  const SceneSamples chart = selected(data.scene.samples(), again);
   if (data.scene.hasPositions())
   {
     SceneSamples even = chart;
@@ -275,7 +331,7 @@ std::vector<CaptureCandidate> captureCandidates(
     SceneSamples turned = chart;
     turned.x = (chart.x.minCoeff() + chart.x.maxCoeff()) - chart.x.array();
     turned.y = (chart.y.minCoeff() + chart.y.maxCoeff()) - chart.y.array();
-    candidates.push_back({ "chart rotated by 180 degrees", turned });
+    candidates.push_back({ "chart rotated by 180 degrees", turned, again });
     SceneSamples board = even;
     for (Eigen::Index i = 0; i < board.reflectance.cols(); i += 2)
     {
@@ -292,14 +348,10 @@ std::vector<CaptureCandidate> captureCandidates(
     white.y.resize(0);
     candidates.push_back({ "interleaved white", white });
   }
-  else
-  {
-    candidates.push_back({ "repeated white", flat({ 0.9, 0.9 }) });
-  }
 
-  candidates.push_back({ effectWith(EffectTrait::SpectralGain).separatingCapture, chart,
+  candidates.push_back({ effectWith(EffectTrait::SpectralGain).separatingCapture, chart, again,
     [](const EffectDefinition& effect) { return effect.has(EffectTrait::SpectralGain); } });
-  candidates.push_back({ "monochromator", chart, [](const EffectDefinition& effect) {
+  candidates.push_back({ "monochromator", chart, again, [](const EffectDefinition& effect) {
                           return effect.stage == EffectStage::Responsivity &&
                             !effect.has(EffectTrait::SpectralGain);
                         } });
@@ -308,7 +360,7 @@ std::vector<CaptureCandidate> captureCandidates(
     const bool named = std::find(effects.begin(), effects.end(), effect.name) != effects.end();
     if (named && effect.stage == EffectStage::Reflectance)
     {
-      candidates.push_back({ effect.separatingCapture, chart,
+      candidates.push_back({ effect.separatingCapture, chart, again,
         [&effect](const EffectDefinition& other) { return &other == &effect; } });
     }
   }

@@ -17,7 +17,8 @@ namespace msi
 struct CaptureCandidate
 {
   std::string name;
-  SceneSamples samples;                                         // reflectances on the camera's grid
+  SceneSamples samples;  // reflectances on the camera's grid
+  SampleList again = {}; // those of the first capture that it shows again; empty: none
   std::function<bool(const EffectDefinition&)> known = nullptr; // empty: none
 };
 // Those that the data's chart allows, and those that measure one of the samples' effects named.

@@ -132,9 +132,11 @@ def check_further_capture(launcher, folder):
         shutil.copy(DEMO / "camera.csv", place)
         (place / "capture.json").write_text(json.dumps(
             {"name": name, "dark": 0, "noise": {"read": 0.0008, "shot": 0.001}}), encoding="utf-8")
+        places = ["x", "y"] if medium == "paper" else []
+        raster = [[str(number % 8), str(number // 8)][:len(places)] for number in range(len(spectra))]
         (place / "samples.csv").write_text("\n".join(
-            [",".join(["sample", "medium", *(f"R{place:g}" for place in camera[:, 0])])] +
-            [",".join([str(number), medium, *map(str, spectrum)]) for number, spectrum in enumerate(spectra)]) + "\n",
+            [",".join(["sample", "medium", *places, *(f"R{place:g}" for place in camera[:, 0])])] +
+            [",".join([str(number), medium, *raster[number], *map(str, spectrum)]) for number, spectrum in enumerate(spectra)]) + "\n",
             encoding="utf-8")
         noisy = [[str(number), str(repeat), *(f"{u + random.gauss(0, 0.0009):.6f}" for u in camera[:, 1:].T @ spectrum + 0.008)]
                  for repeat in (1, 2) for number, spectrum in enumerate(spectra)]
@@ -158,6 +160,8 @@ def check_further_capture(launcher, folder):
            f"an offset and a lid: {both['causes']}")
     expect(both["probabilities"]["dark_offset"] > alone["probabilities"]["dark_offset"],
            f"an offset and a lid: {both['probabilities']}, before {alone['probabilities']}")
+    expect("8 of 48 samples have no position: they are taken to be in the middle of the field." in both["notes"],
+           f"a chart with places and a lid: {both['notes']}")
     samples = (folder / "both" / "samples.csv").read_text(encoding="utf-8")
     page = (folder / "both" / "report.html").read_text(encoding="utf-8")
     expect("Sim-to-real gap: swatches and lid" in page and "1 minutes" not in page, "an offset and a lid: report.html")

@@ -3,6 +3,7 @@
 #include "Kernels/Camera/CameraDesign.h"
 #include "Kernels/Colorimetry/Illuminant.h"
 #include "Kernels/Gap/Samples/GapTestData.h"
+#include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
 #include <gtest/gtest.h>
@@ -283,16 +284,38 @@ TEST(SimToRealGap, WhatThisCaptureCannotTellApartIsSaid)
   EXPECT_EQ(report.causes.front().effect, "exposure_gain");
   EXPECT_TRUE(says(report.causes.front().equivalent, "medium_gain"));
   ASSERT_FALSE(report.nextCaptures.empty());
-  // Any white tile tells: it is not of that medium. A dark frame tells nothing of gains.
-  EXPECT_EQ(report.nextCaptures.front().capture, "flat field");
+  // A white tile is not of that medium, and its light is that of the lamp. A dark frame tells nothing of gains, and the same chart
+  // nothing new.
+  EXPECT_EQ(report.nextCaptures.front().capture, "lamp spectrum, white tile");
   EXPECT_TRUE(says(report.nextCaptures.front().separates, "medium_gain"));
   EXPECT_GT(*report.nextCaptures.front().expectedBits,
-    entropyOf(report, { "exposure_gain", "medium_gain" }) - 0.1);
+    entropyOf(report, { "exposure_gain", "medium_gain", "illuminant_drift" }) - 0.1);
   for (const msi::GapNextCapture& next : report.nextCaptures)
   {
     EXPECT_NE(next.capture, "lens cap");
+    EXPECT_NE(next.capture, "chart rotated by 180 degrees");
   }
   EXPECT_TRUE(says(report.notes, "One medium only"));
+}
+
+TEST(SimToRealGap, ALidWithoutAPlaceLeavesTheChartItsPlaces)
+{
+  const msi::SceneSamples chart = rasterSamples(96);
+  msi::SceneSamples lid;
+  lid.reflectance = Eigen::MatrixXd::Zero(chart.reflectance.rows(), 3);
+  msi::GapCapture capture =
+    captureOf(msi::joined(chart, lid), { { "vignetting", "", "", { 0.3, 0.0, 0.0 } } });
+  for (Eigen::VectorXd* column : { &capture.samples.x, &capture.samples.y, &capture.samples.order })
+  {
+    column->tail(3).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const msi::GapReport report = diagnosisOf(capture);
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "vignetting");
+  EXPECT_TRUE(
+    says(report.notes, "3 of 99 samples have no position: they are taken to be in the middle"));
+  EXPECT_TRUE(says(
+    report.notes, "3 of 99 samples have no capture order: they are taken to be captured first"));
 }
 
 // A gain of its own for each sample: in no library.

@@ -40,6 +40,8 @@ MEASURES = {"lamp spectrum; white tile": ["illuminant_drift"],
             "specular included and excluded measurement; black glossy tile": ["specular_component"],
             "layers over black and white backing": ["translucency"], "UV-cut filter": ["fluorescence"],
             "flat and folded sample": ["interreflection"], "rotated sample": ["medium_gain"]}
+# What the camera sees at the same time.
+BESIDE = {"lamp spectrum; white tile": "repeated white"}
 
 
 def numbers(path):
@@ -106,17 +108,18 @@ class Scene:
 
     def after(self, name):
         """What the next capture of that name looks at."""
-        even = numpy.full_like(self.reflectance, 0.9)
-        board = even.copy()
-        board[::2] = 0.03
         levels = {"lens cap": [0.0], "exposure series of one patch": [0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05],
                   "black trap; second scene": [0.0, 0.03, 0.03, 0.03], "repeated white": [0.9, 0.9]}
         if name in levels:
             return Scene(numpy.outer(levels[name], numpy.ones(len(FINE))))
         if name == "narrow-band source":
             return Scene(numpy.exp(-0.5 * ((FINE - COARSE[:, None]) / 5.0) ** 2))
-        return {"flat field": Scene(even, None, self.x, self.y), "interleaved white": Scene(even, None, None, None, self.turn),
-                "patch with black and with white surround": Scene(board, None, self.x, self.y),
+        even = numpy.full((9, len(FINE)), 0.9)
+        board = numpy.where(numpy.arange(9)[:, None] % 2, even, 0.03)
+        place = numpy.arange(9)
+        return {"flat field": Scene(even, None, place % 3 - 1.0, place // 3 - 1.0),
+                "interleaved white": Scene(even, None, None, None, place * (len(self.turn) - 1) / 8),
+                "patch with black and with white surround": Scene(board, None, place % 3 - 1.0, place // 3 - 1.0),
                 "chart rotated by 180 degrees": Scene(self.reflectance, self.medium, -self.x, -self.y, self.turn)}[name]
 
 
@@ -308,8 +311,9 @@ def main():
                 place = os.path.join(folder, name)
                 case, how, told = write(place, random, effects, kind, fitted)
                 without = MEASURES.get(after.get(name), []) if after else []
-                if after and not without and name in after:
-                    capture(os.path.join(place, "next"), numpy.random.default_rng([seed, number]), *case, case[0].scene.after(after[name]), *how)
+                beside = BESIDE.get(after.get(name), after.get(name)) if after else None
+                if beside and (not without or beside != after[name]):
+                    capture(os.path.join(place, "next"), numpy.random.default_rng([seed, number]), *case, case[0].scene.after(beside), *how)
                 if after is None or (name in after and not set(without) & set(effects)):
                     cases.append([name, ("clean", "single", "several")[len(effects)], *told, ";".join(without)])
     lists(folder, key, cases)

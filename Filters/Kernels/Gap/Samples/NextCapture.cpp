@@ -166,7 +166,7 @@ std::optional<Eigen::Index> columnOf(
 
 // How much worse than the chart's own the response to each of these spectra is known, by a camera that is known from that chart:
 // ratio of their leverages.
-Eigen::RowVectorXd strangeness(const GapData& data, const SampleScene& scene)
+Eigen::RowVectorXd strangeness(const GapData& data, const Eigen::MatrixXd& spectra)
 {
   constexpr double Scatter = 0.003; // of reflectances; what a chart has less of it does not show
   const Eigen::MatrixXd chart = data.scene.reflectance()(Eigen::all, data.usable);
@@ -175,20 +175,34 @@ Eigen::RowVectorXd strangeness(const GapData& data, const SampleScene& scene)
   const Eigen::LLT<Eigen::MatrixXd> known(moments);
   const auto leverage = [&known](const Eigen::MatrixXd& spectra) -> Eigen::RowVectorXd
   { return known.matrixL().solve(spectra).colwise().squaredNorm(); };
-  return leverage(scene.reflectance()) / leverage(chart).mean();
+  return leverage(spectra) / leverage(chart).mean();
 }
 
-double distinctSpectra(const SampleScene& scene)
+double distinctColumns(const Eigen::MatrixXd& matrix)
 {
   std::vector<Eigen::VectorXd> seen;
-  for (const auto& spectrum : scene.reflectance().colwise())
+  for (const auto& column : matrix.colwise())
   {
-    if (std::find(seen.begin(), seen.end(), spectrum) == seen.end())
+    if (std::find(seen.begin(), seen.end(), column) == seen.end())
     {
-      seen.emplace_back(spectrum);
+      seen.emplace_back(column);
     }
   }
   return static_cast<double>(seen.size());
+}
+
+// Places of these samples' elements in a column of all.
+SampleList elementsOf(const GapData& data, const SampleList& samples)
+{
+  SampleList rows;
+  for (const Eigen::Index j : samples)
+  {
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      rows.push_back(j * data.channels() + k);
+    }
+  }
+  return rows;
 }
 
 // Empty where the camera would see nothing.
@@ -218,29 +232,34 @@ std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandid
       derivative.col(*column) = columns.col(static_cast<Eigen::Index>(p));
     }
   }
-  Eigen::VectorXd systematic =
-    predictor.rest * strangeness(data, scene).replicate(data.channels(), 1).reshaped();
-  if (!candidate.again.empty())
+  // What is systematic counts as few numbers, as in the criterion; as one a channel for what is the same spectrum.
+  const auto add = [&](const Eigen::VectorXd& systematic, Eigen::Index first, double spectra)
   {
-    // What was seen, changed by what the explanation changes.
-    SampleList rows;
-    for (const Eigen::Index j : candidate.again)
-    {
-      for (Eigen::Index k = 0; k < data.channels(); ++k)
-      {
-        rows.push_back(j * data.channels() + k);
-      }
-    }
-    mean -= predictor.fit.predicted.reshaped()(rows);
-    systematic.setConstant(Decision::FormPart * mean.squaredNorm() / static_cast<double>(elements));
-    mean += data.observed.reshaped()(rows);
-    variance += data.variance.reshaped()(rows);
-    derivative -= predictor.fit.jacobian(rows, Eigen::all);
+    const auto count = static_cast<double>(systematic.size());
+    const double numbers =
+      std::fmin(static_cast<double>(data.channels()) * spectra, Decision::BeliefNumbers);
+    variance.segment(first, systematic.size()) += systematic * std::fmax(count / numbers, 1.0);
+  };
+  // What was seen before is changed by what the explanation changes.
+  const SampleList rows = elementsOf(data, candidate.again);
+  const auto known = static_cast<Eigen::Index>(rows.size());
+  if (known > 0)
+  {
+    mean.head(known) -= predictor.fit.predicted.reshaped()(rows);
+    add(Eigen::VectorXd::Constant(
+          known, Decision::FormPart * mean.head(known).squaredNorm() / static_cast<double>(known)),
+      0, Decision::BeliefNumbers);
+    mean.head(known) += data.observed.reshaped()(rows);
+    variance.head(known) += data.variance.reshaped()(rows);
+    derivative.topRows(known) -= predictor.fit.jacobian(rows, Eigen::all);
   }
-  // It counts as few numbers, as in the criterion; as one a channel for what is the same spectrum.
-  const double numbers = std::fmin(
-    static_cast<double>(data.channels()) * distinctSpectra(scene), Decision::BeliefNumbers);
-  variance += systematic * std::fmax(static_cast<double>(elements) / numbers, 1.0);
+  if (elements > known)
+  {
+    const Eigen::MatrixXd unseen =
+      scene.reflectance().rightCols(scene.size() - known / data.channels());
+    add(predictor.rest * strangeness(data, unseen).replicate(data.channels(), 1).reshaped().eval(),
+      known, distinctColumns(unseen));
+  }
   variance.array() += 1e-14;
   return LowRankNormal(std::move(mean), Decision::Temperature * variance,
     std::sqrt(Decision::Temperature) * derivative * predictor.root);
@@ -288,6 +307,36 @@ double expectedBits(const std::vector<LowRankNormal>& predicted,
 }
 }
 
+SceneSamples joined(SceneSamples first, const SceneSamples& next)
+{
+  const auto before = static_cast<std::size_t>(first.reflectance.cols());
+  const Eigen::Index added = next.reflectance.cols();
+  const std::size_t all = before + static_cast<std::size_t>(added);
+  Eigen::MatrixXd reflectance(first.reflectance.rows(), static_cast<Eigen::Index>(all));
+  reflectance << first.reflectance, next.reflectance;
+  first.reflectance = std::move(reflectance);
+  first.medium.resize(before);
+  first.medium.insert(first.medium.end(), next.medium.begin(), next.medium.end());
+  first.medium.resize(all);
+  first.scene.resize(before);
+  first.scene.resize(all, "next capture");
+  const auto add = [added](Eigen::VectorXd& to, const Eigen::VectorXd& more, double middle)
+  {
+    if (to.size() == 0)
+    {
+      return;
+    }
+    Eigen::VectorXd both(to.size() + added);
+    const double taken = to.minCoeff() + middle * (to.maxCoeff() - to.minCoeff());
+    both << to, (more.size() > 0 ? more : Eigen::VectorXd::Constant(added, taken));
+    to = std::move(both);
+  };
+  add(first.x, next.x, 0.5);
+  add(first.y, next.y, 0.5);
+  add(first.order, next.order, 0.0);
+  return first;
+}
+
 std::vector<CaptureCandidate> captureCandidates(
   const GapData& data, const std::vector<std::string>& effects)
 {
@@ -302,7 +351,8 @@ std::vector<CaptureCandidate> captureCandidates(
   };
   std::vector<CaptureCandidate> candidates;
   candidates.push_back({ "lens cap", flat({ 0.0 }) });
-  candidates.push_back({ "repeated white", flat({ 0.9, 0.9 }) });
+  const SceneSamples white = flat({ 0.9, 0.9 });
+  candidates.push_back({ "repeated white", white });
   candidates.push_back(
     { "exposure series of one patch", flat({ 0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05 }) });
   candidates.push_back({ "black trap, second scene", flat({ 0.0, 0.03, 0.03, 0.03 }) });
@@ -324,9 +374,16 @@ std::vector<CaptureCandidate> captureCandidates(
   const SceneSamples chart = selected(data.scene.samples(), again);
   if (data.scene.hasPositions())
   {
-    SceneSamples even = chart;
-    even.reflectance.setConstant(0.9);
-    even.medium.clear();
+    constexpr int Side = 3;
+    SceneSamples even = flat(std::vector<double>(Side * Side, 0.9));
+    const auto ofRaster = [](const Eigen::VectorXd& v, bool row)
+    {
+      return Eigen::VectorXd::NullaryExpr(Side * Side,
+        [low = v.minCoeff(), range = v.maxCoeff() - v.minCoeff(), row](Eigen::Index i)
+        { return low + range * static_cast<double>(row ? i / Side : i % Side) / (Side - 1); });
+    };
+    even.x = ofRaster(chart.x, false);
+    even.y = ofRaster(chart.y, true);
     candidates.push_back({ "flat field", even });
     SceneSamples turned = chart;
     turned.x = (chart.x.minCoeff() + chart.x.maxCoeff()) - chart.x.array();
@@ -341,16 +398,17 @@ std::vector<CaptureCandidate> captureCandidates(
   }
   if (data.scene.hasOrder())
   {
-    SceneSamples white = chart;
-    white.reflectance.setConstant(0.9);
-    white.medium.clear();
-    white.x.resize(0);
-    white.y.resize(0);
-    candidates.push_back({ "interleaved white", white });
+    constexpr int Times = 9;
+    SceneSamples interleaved = flat(std::vector<double>(Times, 0.9));
+    interleaved.order =
+      Eigen::VectorXd::LinSpaced(Times, chart.order.minCoeff(), chart.order.maxCoeff());
+    candidates.push_back({ "interleaved white", interleaved });
   }
 
-  candidates.push_back({ effectWith(EffectTrait::SpectralGain).separatingCapture, chart, again,
-    [](const EffectDefinition& effect) { return effect.has(EffectTrait::SpectralGain); } });
+  // The tile on which the lamp is measured is also seen by the camera.
+  candidates.push_back(
+    { effectWith(EffectTrait::SpectralGain).separatingCapture, joined(chart, white), again,
+      [](const EffectDefinition& effect) { return effect.has(EffectTrait::SpectralGain); } });
   candidates.push_back({ "monochromator", chart, again, [](const EffectDefinition& effect) {
                           return effect.stage == EffectStage::Responsivity &&
                             !effect.has(EffectTrait::SpectralGain);

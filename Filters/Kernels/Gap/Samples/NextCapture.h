@@ -18,9 +18,11 @@ struct CaptureCandidate
 {
   std::string name;
   SceneSamples samples;  // reflectances on the camera's grid
-  SampleList again = {}; // those of the first capture that it shows again; empty: none
+  SampleList again = {}; // samples of the first capture that it shows again, first in `samples`
   std::function<bool(const EffectDefinition&)> known = nullptr; // empty: none
 };
+// Two captures as one, the next one a scene of its own; what it does not tell is in the middle of the field, captured first.
+SceneSamples joined(SceneSamples first, const SceneSamples& next);
 // Those that the data's chart allows, and those that measure one of the samples' effects named.
 std::vector<CaptureCandidate> captureCandidates(
   const GapData& data, const std::vector<std::string>& effects);

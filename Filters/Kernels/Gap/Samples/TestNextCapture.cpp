@@ -15,44 +15,6 @@ namespace
 
 using namespace msi::test;
 
-// Both captures as one table, read by the camera with its true effects.
-msi::GapCapture joinedCapture(const msi::GapCapture& first, const msi::CaptureCandidate& candidate,
-  const std::vector<msi::CameraEffect>& truth)
-{
-  msi::SceneSamples samples = first.samples;
-  const Eigen::Index old = samples.reflectance.cols();
-  const Eigen::Index added = candidate.samples.reflectance.cols();
-  Eigen::MatrixXd reflectance(samples.reflectance.rows(), old + added);
-  reflectance << samples.reflectance, candidate.samples.reflectance;
-  samples.reflectance = reflectance;
-  const auto names = [old, added](std::vector<std::string> before,
-                       const std::vector<std::string>& after, const std::string& nameBefore,
-                       const std::string& nameAfter)
-  {
-    before.resize(static_cast<std::size_t>(old), nameBefore);
-    for (Eigen::Index i = 0; i < added; ++i)
-    {
-      before.push_back(after.empty() ? nameAfter : after[static_cast<std::size_t>(i)]);
-    }
-    return before;
-  };
-  samples.medium = names(samples.medium, candidate.samples.medium, "", "tile");
-  samples.scene = names(samples.scene, {}, "first", "second");
-  const auto numbers = [added](const Eigen::VectorXd& before, const Eigen::VectorXd& after)
-  {
-    Eigen::VectorXd both(before.size() == 0 ? 0 : before.size() + added);
-    if (both.size() > 0)
-    {
-      both << before, (after.size() > 0 ? after : Eigen::VectorXd::Constant(added, before.mean()));
-    }
-    return both;
-  };
-  samples.x = numbers(samples.x, candidate.samples.x);
-  samples.y = numbers(samples.y, candidate.samples.y);
-  samples.order = numbers(samples.order, candidate.samples.order);
-  return captureOf(samples, truth);
-}
-
 // Whether the second capture names what the first leaves open; empty where it leaves nothing open.
 std::optional<bool> toldByNext(const msi::SceneSamples& samples, const msi::CameraEffect& planted)
 {
@@ -68,28 +30,23 @@ std::optional<bool> toldByNext(const msi::SceneSamples& samples, const msi::Came
   const auto taken = std::find_if(candidates.begin(), candidates.end(),
     [&next](const msi::CaptureCandidate& candidate) { return candidate.name == next.capture; });
   EXPECT_NE(taken, candidates.end()) << next.capture;
-  msi::GapReport after;
-  if (taken->known)
+  // What is known is taken into the simulated camera: where it was the cause, no gap is left.
+  if (taken->known && taken->known(msi::requireEffect(planted.name)))
   {
-    // What is known is taken into the simulated camera: where it was the cause, no gap is left.
-    if (taken->known(msi::requireEffect(planted.name)))
-    {
-      return true;
-    }
-    msi::GapOptions options;
-    for (const msi::EffectDefinition& effect : msi::effectLibrary())
-    {
-      if (taken->known(effect))
-      {
-        options.without.push_back(effect.name);
-      }
-    }
-    after = diagnosisOf(first, options);
+    return true;
   }
-  else
+  msi::GapOptions options;
+  for (const msi::EffectDefinition& effect : msi::effectLibrary())
   {
-    after = diagnosisOf(joinedCapture(first, *taken, { planted }));
+    if (taken->known && taken->known(effect))
+    {
+      options.without.push_back(effect.name);
+    }
   }
+  // Of samples that the first capture has only what is known is new.
+  const msi::SceneSamples both =
+    taken->known ? taken->samples : msi::joined(first.samples, taken->samples);
+  const msi::GapReport after = diagnosisOf(captureOf(both, { planted }), options);
   return !after.causes.empty() && after.causes.front().effect == planted.name;
 }
 

@@ -284,6 +284,9 @@ std::vector<Figure> figuresOf(const std::vector<ScoredCase>& cases)
   const auto spared = [](const ScoredCase& one)
   { return one.causes.empty() || one.causes.front().share < AccusedShare; };
   figures.part("single: first cause exact", "single", exact);
+  figures.part("single: exact, no equivalent", "single",
+    [&exact](const ScoredCase& one)
+    { return exact(one) && one.causes.front().equivalent.empty(); });
   figures.part("single: within its class", "single", alike);
   figures.part("single: right axis", "located", rightAxis);
   figures.medianShrink();

@@ -22,8 +22,8 @@ namespace msi
 // A capture as numbers.
 struct GapCapture
 {
-  CameraModel camera;               // the simulated camera, K channels
-  WavelengthGrid wavelengths;       // of the samples' reflectance; resampled to the camera's grid
+  CameraModel camera;         // the simulated camera, K channels
+  WavelengthGrid wavelengths; // of the samples' reflectance; resampled to the camera's grid
   // S samples. NaN for one whose position or order is not known, as a lid's: in the middle of the field, captured first.
   SceneSamples samples;
   Eigen::MatrixXd readings;         // K x R, what the real camera answered; NaN: not measured

@@ -298,6 +298,17 @@ TEST(SimToRealGap, WhatThisCaptureCannotTellApartIsSaid)
   EXPECT_TRUE(says(report.notes, "One medium only"));
 }
 
+TEST(SimToRealGap, ACameraFarFromWhiteIsSaid)
+{
+  const msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } }, 96);
+  EXPECT_FALSE(says(diagnosisOf(capture).notes, "to a perfect white"));
+  msi::GapCapture quarter = capture;
+  quarter.camera =
+    capture.camera.with(0.25 * capture.camera.responsivity(), 0.25 * capture.camera.dark());
+  quarter.readings *= 0.25;
+  EXPECT_TRUE(says(diagnosisOf(quarter).notes, "answers 0.25 to a perfect white"));
+}
+
 TEST(SimToRealGap, ALidWithoutAPlaceLeavesTheChartItsPlaces)
 {
   const msi::SceneSamples chart = rasterSamples(96);

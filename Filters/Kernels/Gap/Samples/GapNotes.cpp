@@ -12,6 +12,7 @@ namespace msi
 namespace
 {
 constexpr double ClippedReadings = 0.01; // of all at the largest value
+constexpr double FarFromWhite = 2.0;     // factor
 
 void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise)
@@ -138,6 +139,19 @@ void noteSamples(std::vector<std::string>& notes, const GapData& data, const Gap
   }
 }
 
+// Typical sizes, and effects that depend on the level, are those of responses relative to white.
+void noteWhite(std::vector<std::string>& notes, const CameraModel& camera)
+{
+  const double mean = camera.whiteResponse().mean();
+  if (mean < 1.0 / FarFromWhite || mean > FarFromWhite)
+  {
+    notes.push_back(textOf(3, "The simulated camera answers ", mean,
+      " to a perfect white; expected about 1: effects that depend on the level, as a curve of the "
+      "detector, are then taken for "
+      "others. Divide camera and responses by that."));
+  }
+}
+
 void noteSaturation(std::vector<std::string>& notes, const GapData& data)
 {
   const double top = data.observed.maxCoeff();
@@ -243,6 +257,7 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   noteNoise(notes, capture, noise, reflectanceNoise);
   noteScene(notes, data, capture.samples);
   noteSamples(notes, data, report);
+  noteWhite(notes, data.camera);
   noteSaturation(notes, data);
   noteDoubts(notes, report);
   return notes;

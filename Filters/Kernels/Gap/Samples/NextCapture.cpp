@@ -2,6 +2,7 @@
 
 #include "Kernels/Camera/StagedResponse.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Samples/GapNoise.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
 #include <Eigen/Cholesky>
@@ -165,16 +166,16 @@ std::optional<Eigen::Index> columnOf(
 }
 
 // How much worse than the chart's own the response to each of these spectra is known, by a camera that is known from that chart:
-// ratio of their leverages.
-Eigen::RowVectorXd strangeness(const GapData& data, const Eigen::MatrixXd& spectra)
+// ratio of their leverages. The chart tells nothing that is smaller than the noise of its reflectances.
+Eigen::RowVectorXd relativeLeverage(const GapData& data, const Eigen::MatrixXd& spectra)
 {
-  constexpr double Scatter = 0.003; // of reflectances; what a chart has less of it does not show
   const Eigen::MatrixXd chart = data.scene.reflectance()(Eigen::all, data.usable);
   Eigen::MatrixXd moments = chart * chart.transpose();
-  moments.diagonal().array() += Scatter * Scatter * static_cast<double>(chart.cols());
+  moments.diagonal().array() +=
+    LargestReflectanceNoise * LargestReflectanceNoise * static_cast<double>(chart.cols());
   const Eigen::LLT<Eigen::MatrixXd> known(moments);
-  const auto leverage = [&known](const Eigen::MatrixXd& spectra) -> Eigen::RowVectorXd
-  { return known.matrixL().solve(spectra).colwise().squaredNorm(); };
+  const auto leverage = [&known](const Eigen::MatrixXd& some) -> Eigen::RowVectorXd
+  { return known.matrixL().solve(some).colwise().squaredNorm(); };
   return leverage(spectra) / leverage(chart).mean();
 }
 
@@ -191,22 +192,23 @@ double distinctColumns(const Eigen::MatrixXd& matrix)
   return static_cast<double>(seen.size());
 }
 
-// Places of these samples' elements in a column of all.
-SampleList elementsOf(const GapData& data, const SampleList& samples)
+// What an explanation expects of the elements of a capture.
+struct Expectation
 {
-  SampleList rows;
-  for (const Eigen::Index j : samples)
-  {
-    for (Eigen::Index k = 0; k < data.channels(); ++k)
-    {
-      rows.push_back(j * data.channels() + k);
-    }
-  }
-  return rows;
-}
+  Eigen::VectorXd mean, variance;
+  Eigen::MatrixXd derivative; // by the free parameters of the explanation
 
-// Empty where the camera would see nothing.
-std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandidate& candidate,
+  // Of elements from `first` on: counts as no more than so many numbers, as what is systematic does in the criterion.
+  void addSystematic(const Eigen::VectorXd& added, Eigen::Index first, double numbers)
+  {
+    const double copies =
+      static_cast<double>(added.size()) / std::fmin(numbers, Decision::BeliefNumbers);
+    variance.segment(first, added.size()) += std::fmax(copies, 1.0) * added;
+  }
+};
+
+// By the simulator alone. Empty where the camera would see nothing.
+std::optional<Expectation> simulated(const GapData& data, const CaptureCandidate& candidate,
   const SampleScene& scene, const Predictor& predictor)
 {
   std::vector<std::size_t> kept;
@@ -216,11 +218,10 @@ std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandid
   {
     return std::nullopt;
   }
-  const Eigen::Index elements = here->response().size();
-  Eigen::VectorXd mean = here->response().reshaped();
-  Eigen::VectorXd variance = data.variance.rowwise().mean().replicate(scene.size(), 1);
-  Eigen::MatrixXd derivative =
-    Eigen::MatrixXd::Zero(elements, static_cast<Eigen::Index>(predictor.fit.free.size()));
+  const Eigen::VectorXd noise = data.variance.rowwise().mean();
+  Expectation expected{ here->response().reshaped(), noise.replicate(scene.size(), 1),
+    Eigen::MatrixXd::Zero(
+      here->response().size(), static_cast<Eigen::Index>(predictor.fit.free.size())) };
   const std::vector<FreeParameter> free = shown.freeParameters(data.camera);
   const Eigen::MatrixXd columns = jacobian(*here, shown, free);
   for (std::size_t p = 0; p < free.size(); ++p)
@@ -229,40 +230,64 @@ std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandid
       free[p].effect < shown.size() ? kept[free[p].effect] : predictor.fit.set.size();
     if (const auto column = columnOf(predictor, free[p], effect))
     {
-      derivative.col(*column) = columns.col(static_cast<Eigen::Index>(p));
+      expected.derivative.col(*column) = columns.col(static_cast<Eigen::Index>(p));
     }
   }
-  // What is systematic counts as few numbers, as in the criterion; as one a channel for what is the same spectrum.
-  const auto add = [&](const Eigen::VectorXd& systematic, Eigen::Index first, double spectra)
+  return expected;
+}
+
+// What was seen is seen again, changed by what the explanation changes.
+void seeAgain(
+  Expectation& expected, const GapData& data, const SampleList& again, const Predictor& predictor)
+{
+  SampleList rows;
+  for (const Eigen::Index j : again)
   {
-    const auto count = static_cast<double>(systematic.size());
-    const double numbers =
-      std::fmin(static_cast<double>(data.channels()) * spectra, Decision::BeliefNumbers);
-    variance.segment(first, systematic.size()) += systematic * std::fmax(count / numbers, 1.0);
-  };
-  // What was seen before is changed by what the explanation changes.
-  const SampleList rows = elementsOf(data, candidate.again);
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      rows.push_back(j * data.channels() + k);
+    }
+  }
   const auto known = static_cast<Eigen::Index>(rows.size());
-  if (known > 0)
+  auto mean = expected.mean.head(known);
+  mean -= predictor.fit.predicted.reshaped()(rows);
+  const double error = Decision::FormPart * mean.squaredNorm() / static_cast<double>(known);
+  expected.addSystematic(Eigen::VectorXd::Constant(known, error), 0, Decision::BeliefNumbers);
+  mean += data.observed.reshaped()(rows);
+  expected.variance.head(known) += data.variance.reshaped()(rows);
+  expected.derivative.topRows(known) -= predictor.fit.jacobian(rows, Eigen::all);
+}
+
+// Errors of the response to spectra are one number a channel and spectrum.
+void doubt(Expectation& expected, const GapData& data, const Eigen::MatrixXd& spectra,
+  const Predictor& predictor)
+{
+  const Eigen::MatrixXd error =
+    predictor.rest * relativeLeverage(data, spectra).replicate(data.channels(), 1);
+  expected.addSystematic(error.reshaped(), expected.mean.size() - error.size(),
+    static_cast<double>(data.channels()) * distinctColumns(spectra));
+}
+
+std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandidate& candidate,
+  const SampleScene& scene, const Predictor& predictor)
+{
+  std::optional<Expectation> expected = simulated(data, candidate, scene, predictor);
+  if (!expected)
   {
-    mean.head(known) -= predictor.fit.predicted.reshaped()(rows);
-    add(Eigen::VectorXd::Constant(
-          known, Decision::FormPart * mean.head(known).squaredNorm() / static_cast<double>(known)),
-      0, Decision::BeliefNumbers);
-    mean.head(known) += data.observed.reshaped()(rows);
-    variance.head(known) += data.variance.reshaped()(rows);
-    derivative.topRows(known) -= predictor.fit.jacobian(rows, Eigen::all);
+    return std::nullopt;
   }
-  if (elements > known)
+  const auto again = static_cast<Eigen::Index>(candidate.again.size());
+  if (again > 0)
   {
-    const Eigen::MatrixXd unseen =
-      scene.reflectance().rightCols(scene.size() - known / data.channels());
-    add(predictor.rest * strangeness(data, unseen).replicate(data.channels(), 1).reshaped().eval(),
-      known, distinctColumns(unseen));
+    seeAgain(*expected, data, candidate.again, predictor);
   }
-  variance.array() += 1e-14;
-  return LowRankNormal(std::move(mean), Decision::Temperature * variance,
-    std::sqrt(Decision::Temperature) * derivative * predictor.root);
+  if (scene.size() > again)
+  {
+    doubt(*expected, data, scene.reflectance().rightCols(scene.size() - again), predictor);
+  }
+  return LowRankNormal(std::move(expected->mean),
+    Decision::Temperature * (expected->variance.array() + 1e-14),
+    std::sqrt(Decision::Temperature) * expected->derivative * predictor.root);
 }
 
 double logSumExp(const std::vector<double>& logs)

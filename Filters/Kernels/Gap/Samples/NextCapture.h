@@ -32,7 +32,8 @@ std::vector<CaptureCandidate> captureCandidates(
 //
 // Each capture is simulated with this camera and chart under every explanation: its mean by the simulator, its
 // covariance from the noise, from what the explanation leaves of the gap, and from the uncertainty of the explanation's
-// parameters (to first order). A capture's worth is the mutual information of explanation and readings,
+// parameters (to first order). What was seen is seen again, but for what the explanation changes; the less the chart's
+// spectra span a new one, the less its response is trusted. A capture's worth is the mutual information of explanation and readings,
 //   I = sum_h p_h E_{y | h} [ log2 p(y | c(h)) - log2 p(y) ]   bits (Lindley 1956, doi:10.1214/aoms/1177728069),
 // with p from `explanations` and c(h) the effects in question that h has, by draws from a counter generator. They are
 // ranked by I per minute, getting ready included. A capture that measures a part of the camera or of a sample (a lamp's

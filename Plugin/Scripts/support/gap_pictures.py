@@ -272,6 +272,7 @@ def _candidates(plot, rows):
         plot.plot(row["shrink"], place, "o", markersize=9, color=color,
                   markerfacecolor=color if row["cause"] else "white", markeredgewidth=2)
     plot.set_yticks(range(len(rows)), [_label(row) for row in rows])
+    plot.set_ylim(-0.6, len(rows) - 0.4)
     plot.set_xlim(min([-0.05] + [row["shrink_low"] for row in rows]), 1.02)
     plot.axvline(0, color="#808080", linewidth=0.8)
     plot.set_xlabel("How far it shrinks the gap, with the 95 % interval; filled: one of the causes")

@@ -31,7 +31,8 @@ for set in $sets; do
   if ! { [ "${RESUME:-0}" = 1 ] && [ -s "$key" ]; }; then
     case $set in
       cameras) /usr/bin/python3 "$root/Testing/Withheld/Cameras/cameras.py" "$output/$set" "$key" "$size" "$seed" ;;
-      next) /usr/bin/python3 "$root/Testing/Withheld/Cameras/cameras.py" "$output/$set" "$key" "$size" "$seed" "$output/cameras-$engine.csv" ;;
+      next) rm -rf "${output:?}/$set" # captures of another version's recommendations
+        /usr/bin/python3 "$root/Testing/Withheld/Cameras/cameras.py" "$output/$set" "$key" "$size" "$seed" "$output/cameras-$engine.csv" ;;
       scenes) /usr/bin/python3 "$root/Testing/Withheld/Scenes/scenes.py" "$output/$set" "$key" "$size" "$seed" ;;
       *) "$programs/GenerateWithheld" "$set" "$output/$set" "$key" "$size" "$seed" ;;
     esac

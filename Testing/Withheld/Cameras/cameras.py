@@ -246,14 +246,15 @@ def strength_for(random, case, truth):
     return strength_of(random.uniform(0.006, 0.03), lambda strength: case.answer(strength, case.scene) - truth, high=1.0, rounds=30)
 
 
-def capture(folder, random, case, strength, scene, known, repeats):
-    seen = case.answer(strength, scene)
+def capture(folder, random, case, scene):
+    """Writes what the camera answers to a scene, and returns it without noise."""
+    seen = case.answer(case.strength, scene)
     channels = [f"C{k + 1}" for k in range(len(seen))]
     names = [f"s{i + 1}" for i in range(seen.shape[1])]
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "capture.json"), "w", encoding="utf-8") as file:
         json.dump({"name": os.path.basename(folder), "white_level": 65535, "dark": case.dark.tolist(),
-                   "noise": {"read": READ if known else None, "shot": SHOT if known else None}}, file)
+                   "noise": {"read": READ if case.known else None, "shot": SHOT if case.known else None}}, file)
     table(os.path.join(folder, "camera.csv"), ["wavelength", *channels],
           [[f"{w:g}", *map("{:.9g}".format, case.camera[:, j])] for j, w in enumerate(COARSE)])
     measured = CubicSpline(FINE, scene.reflectance.T)(COARSE).T
@@ -262,27 +263,27 @@ def capture(folder, random, case, strength, scene, known, repeats):
     table(os.path.join(folder, "samples.csv"), ["sample", "medium", "scene", "x", "y", "order", *(f"R{w:g}" for w in COARSE)],
           [[name, scene.medium[i], "one" if scene is case.scene else "", *places[i], scene.turn[i] + 1 if scene.ordered else "",
             *map("{:.5f}".format, measured[i])] for i, name in enumerate(names)])
-    readings = [noisy(random, seen) for _ in range(repeats)]
+    readings = [noisy(random, seen) for _ in range(case.repeats)]
     table(os.path.join(folder, "responses.csv"), ["sample", "repeat", *channels],
-          [[name, r + 1, *map("{:.7f}".format, readings[r][:, i])] for i, name in enumerate(names) for r in range(repeats)])
+          [[name, r + 1, *map("{:.7f}".format, readings[r][:, i])] for i, name in enumerate(names) for r in range(case.repeats)])
+    return seen
 
 
 def write(folder, random, effects, kind, fitted):
-    """One case; returns what the key says of it."""
+    """One case, and what the key says of it."""
     case = Case(random, effects, kind, fitted)
     scene = case.scene
     truth = case.matrix @ scene.reflectance.T
-    strength = strength_for(random, case, truth) if effects else 0.0
-    seen = case.answer(strength, scene)
-    known, repeats = [(True, 3), (False, 3), (False, 1)][random.integers(3)]
-    capture(folder, random, case, strength, scene, known, repeats)
+    case.strength = strength_for(random, case, truth) if effects else 0.0
+    case.known, case.repeats = [(True, 3), (False, 3), (False, 1)][random.integers(3)]
+    seen = capture(folder, random, case, scene)
     modelled = case.camera @ CubicSpline(FINE, scene.reflectance.T)(COARSE) + case.dark[:, None]
     gap = rms(seen - modelled)
     described = f"{KINDS[kind]}; {'fitted' if fitted else 'known'}".replace(";", " and")
     told = [";".join(effects), ";".join([described] * len(effects)),
             ";".join(axis for name in effects for axis in AXES[name].split()), gap,
             max(0.0, 1.0 - rms(truth - modelled) / gap) if effects else 1.0]
-    return (case, strength), (known, repeats), told
+    return case, told
 
 
 def recommended(path):
@@ -309,12 +310,13 @@ def main():
                 number += 1
                 name = f"case-{number}"
                 place = os.path.join(folder, name)
-                case, how, told = write(place, random, effects, kind, fitted)
-                without = MEASURES.get(after.get(name), []) if after else []
-                beside = BESIDE.get(after.get(name), after.get(name)) if after else None
-                if beside and (not without or beside != after[name]):
-                    capture(os.path.join(place, "next"), numpy.random.default_rng([seed, number]), *case, case[0].scene.after(beside), *how)
-                if after is None or (name in after and not set(without) & set(effects)):
+                case, told = write(place, random, effects, kind, fitted)
+                wanted = after.get(name) if after is not None else None
+                without = MEASURES.get(wanted, [])
+                seen = BESIDE.get(wanted) if without else wanted
+                if seen:
+                    capture(os.path.join(place, "next"), numpy.random.default_rng([seed, number]), case, case.scene.after(seen))
+                if after is None or (wanted and not set(without) & set(effects)):
                     cases.append([name, ("clean", "single", "several")[len(effects)], *told, ";".join(without)])
     lists(folder, key, cases)
 

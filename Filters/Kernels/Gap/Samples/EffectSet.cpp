@@ -33,17 +33,17 @@ auto litOrNothing(Simulate simulate) -> std::optional<decltype(simulate())>
   }
 }
 
-// (there - here) / step in the rows low..high of all samples; 0 for samples without reflectance.
+// (there - here) / step in `count` rows from `low` on, of all samples; 0 for samples without reflectance.
 void derive(const Eigen::MatrixXd& there, const Eigen::MatrixXd& here, double step,
-  Eigen::Index low, Eigen::Index high, double* column)
+  Eigen::Index low, Eigen::Index count, double* column)
 {
-  const bool whole = low == 0 && high == here.rows() - 1;
+  const bool whole = count == here.rows();
   const Eigen::Index runs = whole ? 1 : here.cols();
-  const Eigen::Index count = whole ? here.size() : high - low + 1;
+  const Eigen::Index length = whole ? here.size() : count;
   for (Eigen::Index j = 0; j < runs; ++j)
   {
     const Eigen::Index first = j * here.rows() + low;
-    for (Eigen::Index i = first; i < first + count; ++i)
+    for (Eigen::Index i = first; i < first + length; ++i)
     {
       const double change = (there.data()[i] - here.data()[i]) / step;
       column[i] = std::isfinite(change) ? change : 0.0;
@@ -289,7 +289,7 @@ Eigen::MatrixXd jacobian(
         if (there)
         {
           const auto [low, count] = free[p].channels(reach, channels);
-          derive(there->response(), base, stepOf(free[p]), low, low + count - 1, column);
+          derive(there->response(), base, stepOf(free[p]), low, count, column);
         }
       }
     }

@@ -47,32 +47,6 @@ void validate(const GapCapture& capture)
   }
 }
 
-constexpr auto Known = Eigen::PropagateNumbers;
-
-// What some samples do not tell, as those of a lid beside a chart: in the middle of the field, at the start of the session.
-void fillIn(SceneSamples& samples)
-{
-  if (samples.x.size() > 0 && samples.y.size() == samples.x.size())
-  {
-    const auto unknown = !(samples.x.array().isFinite() && samples.y.array().isFinite());
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    samples.x = unknown.select(none, samples.x);
-    samples.y = unknown.select(none, samples.y);
-  }
-  const auto fill = [](Eigen::VectorXd& v, double middle)
-  {
-    if (v.size() > 0)
-    {
-      const double low = v.minCoeff<Known>();
-      const double high = v.maxCoeff<Known>();
-      v = v.array().isFinite().select(v, low + middle * (high - low)).eval();
-    }
-  };
-  fill(samples.x, 0.5);
-  fill(samples.y, 0.5);
-  fill(samples.order, 0.0);
-}
-
 // Without positions that differ, or an order that does, nothing depends on them.
 void dropConstantColumns(SceneSamples& samples)
 {
@@ -98,7 +72,7 @@ SampleScene alignedScene(const GapCapture& capture)
     samples.reflectance =
       (resamplingMatrix(capture.wavelengths, grid) * samples.reflectance).eval();
   }
-  fillIn(samples);
+  fillInUnknown(samples);
   dropConstantColumns(samples);
   return SampleScene(grid, std::move(samples));
 }
@@ -128,6 +102,30 @@ void averageReadings(const GapCapture& capture, GapData& data)
     }
   }
 }
+}
+
+void fillInUnknown(SceneSamples& samples)
+{
+  if (samples.x.size() > 0 && samples.y.size() == samples.x.size())
+  {
+    const auto unknown = !(samples.x.array().isFinite() && samples.y.array().isFinite());
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    samples.x = unknown.select(none, samples.x);
+    samples.y = unknown.select(none, samples.y);
+  }
+  constexpr auto Known = Eigen::PropagateNumbers;
+  const auto fill = [](Eigen::VectorXd& v, double middle)
+  {
+    if (v.size() > 0)
+    {
+      const double low = v.minCoeff<Known>();
+      const double high = v.maxCoeff<Known>();
+      v = v.array().isFinite().select(v, low + middle * (high - low)).eval();
+    }
+  };
+  fill(samples.x, 0.5);
+  fill(samples.y, 0.5);
+  fill(samples.order, 0.0);
 }
 
 GapData prepareGapData(const GapCapture& capture, const GapOptions& options)

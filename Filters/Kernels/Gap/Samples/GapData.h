@@ -34,6 +34,10 @@ struct GapData
   Eigen::Index samples() const noexcept { return observed.cols(); }
 };
 
+// Positions and orders that are NaN, as a lid's beside a chart: in the middle of the field, captured first. A column of nothing else
+// stays.
+void fillInUnknown(SceneSamples& samples);
+
 // Averages and aligns; variance is 0, weight is left empty.
 // Errors: as diagnoseGap.
 GapData prepareGapData(const GapCapture& capture, const GapOptions& options);

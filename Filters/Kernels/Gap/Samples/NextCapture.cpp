@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace msi
@@ -19,7 +20,8 @@ namespace
 constexpr std::uint32_t DrawStream = 77;
 constexpr int Draws = 64;                   // of each explanation
 constexpr Eigen::Index MostElements = 2000; // of a chart that is simulated again
-constexpr double LeastProbability = 0.02;   // of an explanation that is looked at
+constexpr int Side = 3;                   // of a raster of whites: few, since they are one spectrum
+constexpr double LeastProbability = 0.02; // of an explanation that is looked at
 
 // An explanation made ready to predict.
 struct Predictor
@@ -165,31 +167,40 @@ std::optional<Eigen::Index> columnOf(
   return same == all.end() ? std::nullopt : std::make_optional(same - all.begin());
 }
 
-// How much worse than the chart's own the response to each of these spectra is known, by a camera that is known from that chart:
-// ratio of their leverages. The chart tells nothing that is smaller than the noise of its reflectances.
-Eigen::RowVectorXd relativeLeverage(const GapData& data, const Eigen::MatrixXd& spectra)
+// The spectra of a capture that the chart did not have.
+struct NewSpectra
 {
+  // How much worse than the chart's own the response to each of them is known, by a camera that is known from that chart: ratio of
+  // their leverages. The chart tells nothing that is smaller than the noise of its reflectances.
+  Eigen::RowVectorXd leverage;
+  double distinct = 0.0;
+};
+
+NewSpectra newSpectra(const GapData& data, const CaptureCandidate& candidate)
+{
+  const Eigen::MatrixXd& all = candidate.samples.reflectance;
+  const Eigen::MatrixXd spectra =
+    all.rightCols(all.cols() - static_cast<Eigen::Index>(candidate.again.size()));
+  if (spectra.cols() == 0)
+  {
+    return {};
+  }
   const Eigen::MatrixXd chart = data.scene.reflectance()(Eigen::all, data.usable);
   Eigen::MatrixXd moments = chart * chart.transpose();
   moments.diagonal().array() +=
     LargestReflectanceNoise * LargestReflectanceNoise * static_cast<double>(chart.cols());
   const Eigen::LLT<Eigen::MatrixXd> known(moments);
-  const auto leverage = [&known](const Eigen::MatrixXd& some) -> Eigen::RowVectorXd
+  const auto leverageOf = [&known](const Eigen::MatrixXd& some) -> Eigen::RowVectorXd
   { return known.matrixL().solve(some).colwise().squaredNorm(); };
-  return leverage(spectra) / leverage(chart).mean();
-}
-
-double distinctColumns(const Eigen::MatrixXd& matrix)
-{
-  std::vector<Eigen::VectorXd> seen;
-  for (const auto& column : matrix.colwise())
+  std::vector<Eigen::VectorXd> distinct;
+  for (const auto& spectrum : spectra.colwise())
   {
-    if (std::find(seen.begin(), seen.end(), column) == seen.end())
+    if (std::find(distinct.begin(), distinct.end(), spectrum) == distinct.end())
     {
-      seen.emplace_back(column);
+      distinct.emplace_back(spectrum);
     }
   }
-  return static_cast<double>(seen.size());
+  return { leverageOf(spectra) / leverageOf(chart).mean(), static_cast<double>(distinct.size()) };
 }
 
 // What an explanation expects of the elements of a capture.
@@ -240,50 +251,45 @@ std::optional<Expectation> simulated(const GapData& data, const CaptureCandidate
 void seeAgain(
   Expectation& expected, const GapData& data, const SampleList& again, const Predictor& predictor)
 {
-  SampleList rows;
-  for (const Eigen::Index j : again)
-  {
-    for (Eigen::Index k = 0; k < data.channels(); ++k)
-    {
-      rows.push_back(j * data.channels() + k);
-    }
-  }
-  const auto known = static_cast<Eigen::Index>(rows.size());
+  const auto known = static_cast<Eigen::Index>(again.size()) * data.channels();
   auto mean = expected.mean.head(known);
-  mean -= predictor.fit.predicted.reshaped()(rows);
+  mean -= predictor.fit.predicted(Eigen::all, again).reshaped();
   const double error = Decision::FormPart * mean.squaredNorm() / static_cast<double>(known);
   expected.addSystematic(Eigen::VectorXd::Constant(known, error), 0, Decision::BeliefNumbers);
-  mean += data.observed.reshaped()(rows);
-  expected.variance.head(known) += data.variance.reshaped()(rows);
-  expected.derivative.topRows(known) -= predictor.fit.jacobian(rows, Eigen::all);
+  mean += data.observed(Eigen::all, again).reshaped();
+  expected.variance.head(known) += data.variance(Eigen::all, again).reshaped();
+  Eigen::Index row = 0;
+  for (const Eigen::Index j : again)
+  {
+    expected.derivative.middleRows(row, data.channels()) -=
+      predictor.fit.jacobian.middleRows(j * data.channels(), data.channels());
+    row += data.channels();
+  }
 }
 
 // Errors of the response to spectra are one number a channel and spectrum.
-void doubt(Expectation& expected, const GapData& data, const Eigen::MatrixXd& spectra,
-  const Predictor& predictor)
+void doubt(Expectation& expected, const NewSpectra& spectra, Eigen::Index channels, double rest)
 {
-  const Eigen::MatrixXd error =
-    predictor.rest * relativeLeverage(data, spectra).replicate(data.channels(), 1);
+  const Eigen::MatrixXd error = rest * spectra.leverage.replicate(channels, 1);
   expected.addSystematic(error.reshaped(), expected.mean.size() - error.size(),
-    static_cast<double>(data.channels()) * distinctColumns(spectra));
+    static_cast<double>(channels) * spectra.distinct);
 }
 
 std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandidate& candidate,
-  const SampleScene& scene, const Predictor& predictor)
+  const SampleScene& scene, const NewSpectra& spectra, const Predictor& predictor)
 {
   std::optional<Expectation> expected = simulated(data, candidate, scene, predictor);
   if (!expected)
   {
     return std::nullopt;
   }
-  const auto again = static_cast<Eigen::Index>(candidate.again.size());
-  if (again > 0)
+  if (!candidate.again.empty())
   {
     seeAgain(*expected, data, candidate.again, predictor);
   }
-  if (scene.size() > again)
+  if (spectra.leverage.size() > 0)
   {
-    doubt(*expected, data, scene.reflectance().rightCols(scene.size() - again), predictor);
+    doubt(*expected, spectra, data.channels(), predictor.rest);
   }
   return LowRankNormal(std::move(expected->mean),
     Decision::Temperature * (expected->variance.array() + 1e-14),
@@ -345,20 +351,20 @@ SceneSamples joined(SceneSamples first, const SceneSamples& next)
   first.medium.resize(all);
   first.scene.resize(before);
   first.scene.resize(all, "next capture");
-  const auto add = [added](Eigen::VectorXd& to, const Eigen::VectorXd& more, double middle)
+  const auto add = [added](Eigen::VectorXd& to, const Eigen::VectorXd& more)
   {
-    if (to.size() == 0)
+    if (to.size() > 0)
     {
-      return;
+      const double unknown = std::numeric_limits<double>::quiet_NaN();
+      Eigen::VectorXd both(to.size() + added);
+      both << to, (more.size() > 0 ? more : Eigen::VectorXd::Constant(added, unknown));
+      to = std::move(both);
     }
-    Eigen::VectorXd both(to.size() + added);
-    const double taken = to.minCoeff() + middle * (to.maxCoeff() - to.minCoeff());
-    both << to, (more.size() > 0 ? more : Eigen::VectorXd::Constant(added, taken));
-    to = std::move(both);
   };
-  add(first.x, next.x, 0.5);
-  add(first.y, next.y, 0.5);
-  add(first.order, next.order, 0.0);
+  add(first.x, next.x);
+  add(first.y, next.y);
+  add(first.order, next.order);
+  fillInUnknown(first);
   return first;
 }
 
@@ -399,16 +405,11 @@ std::vector<CaptureCandidate> captureCandidates(
   const SceneSamples chart = selected(data.scene.samples(), again);
   if (data.scene.hasPositions())
   {
-    constexpr int Side = 3;
     SceneSamples even = flat(std::vector<double>(Side * Side, 0.9));
-    const auto ofRaster = [](const Eigen::VectorXd& v, bool row)
-    {
-      return Eigen::VectorXd::NullaryExpr(Side * Side,
-        [low = v.minCoeff(), range = v.maxCoeff() - v.minCoeff(), row](Eigen::Index i)
-        { return low + range * static_cast<double>(row ? i / Side : i % Side) / (Side - 1); });
-    };
-    even.x = ofRaster(chart.x, false);
-    even.y = ofRaster(chart.y, true);
+    const auto across = [](const Eigen::VectorXd& v) -> Eigen::VectorXd
+    { return Eigen::VectorXd::LinSpaced(Side, v.minCoeff(), v.maxCoeff()); };
+    even.x = across(chart.x).replicate(Side, 1);
+    even.y = across(chart.y).transpose().replicate(Side, 1).reshaped();
     candidates.push_back({ "flat field", even });
     SceneSamples turned = chart;
     turned.x = (chart.x.minCoeff() + chart.x.maxCoeff()) - chart.x.array();
@@ -423,10 +424,9 @@ std::vector<CaptureCandidate> captureCandidates(
   }
   if (data.scene.hasOrder())
   {
-    constexpr int Times = 9;
-    SceneSamples interleaved = flat(std::vector<double>(Times, 0.9));
+    SceneSamples interleaved = flat(std::vector<double>(Side * Side, 0.9));
     interleaved.order =
-      Eigen::VectorXd::LinSpaced(Times, chart.order.minCoeff(), chart.order.maxCoeff());
+      Eigen::VectorXd::LinSpaced(Side * Side, chart.order.minCoeff(), chart.order.maxCoeff());
     candidates.push_back({ "interleaved white", interleaved });
   }
 
@@ -490,10 +490,11 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   for (const CaptureCandidate& candidate : captureCandidates(gap, effects))
   {
     const SampleScene scene(gap.camera.wavelengths(), candidate.samples);
+    const NewSpectra spectra = newSpectra(gap, candidate);
     std::vector<LowRankNormal> predicted;
     for (const Predictor& predictor : predictors)
     {
-      if (auto one = prediction(gap, candidate, scene, predictor))
+      if (auto one = prediction(gap, candidate, scene, spectra, predictor))
       {
         predicted.push_back(std::move(*one));
       }

@@ -43,7 +43,7 @@ std::optional<bool> toldByNext(const msi::SceneSamples& samples, const msi::Came
       options.without.push_back(effect.name);
     }
   }
-  // Of samples that the first capture has only what is known is new.
+  // Where a part of the camera is known, the chart once more is in the candidate's own samples.
   const msi::SceneSamples both =
     taken->known ? taken->samples : msi::joined(first.samples, taken->samples);
   const msi::GapReport after = diagnosisOf(captureOf(both, { planted }), options);

@@ -163,7 +163,7 @@ HWY_INLINE void turnPairs(const FloatFactors& factors, PairBlock& block, std::si
     hn::And(wide, hn::Le(hn::Abs(turns), product * constant(SideTolerance)));
   const FloatsVector uncertain = hn::LoadU(d, &block.uncertain[at]);
   hn::StoreU(
-    hn::IfThenElse(opposite, constant(2.0 * LargestSquare), uncertain), d, &block.uncertain[at]);
+    hn::IfThenElse(opposite, constant(2.0F * LargestSquare), uncertain), d, &block.uncertain[at]);
 }
 
 // The weights, the rotation and the sum, with one denominator.

@@ -216,11 +216,16 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   const bool causes = !found.best->set.empty();
   const EffectFit best = observation.whole(*found.best);
   const double alone = shrinkOf(observation.energies(best)); // all samples took part in the choice
+  const ExcessNoise excess = excessNoise(data, noise, capture.noise, options.without);
+  const double ofNoise = partOf(excess, report.gap);
   Evidence evidence;
-  evidence.explained = report.gap.shrink;
+  bool scatterAlone = false;
+  if (causes)
+  {
+    evidence.noticed = report.gap.shrink > 0.0 ? noticed(data, before, after, integration) : 0.0;
+  }
   if (causes && report.gap.shrink > 0.0 &&
-    (noticeable(data, before, after, integration) ||
-      mostlyBesideSpectra(observation, *found.best, before)))
+    (evidence.noticed > 1.0 || mostlyBesideSpectra(observation, *found.best, before)))
   {
     evidence.credited = report.gap.shrink;
     evidence.rest = rest.axes;
@@ -239,7 +244,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
                      where.predictable > negligibleEnergy(data, after, integration)) ||
       report.gap.rmsBefore >
         Decision::BeyondNoise * std::hypot(report.gap.noiseFloor, std::sqrt(doubted));
+    scatterAlone = !evidence.gap && excess.energy > 0.0 && excess.belief == 0.0;
+    evidence.gap = evidence.gap || scatterAlone;
   }
+  evidence.explained =
+    (1.0 - ofNoise) * (evidence.credited > 0.0 ? report.gap.shrink : 0.0) + ofNoise * excess.belief;
   predicted.back() = best.predicted;
   if (evidence.credited > 0.0)
   {
@@ -260,7 +269,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     report.nextCaptures =
       nextCaptures(observation, explanations, inQuestion(report.causes), options.seed);
   }
-  addExcessNoise(report, data, noise, capture.noise, options.without);
+  if (scatterAlone)
+  {
+    report.unexplained.where = whereOf(noise);
+  }
+  addExcessNoise(report, data, noise, excess);
   report.notes = notesOn(data, capture, noise, reflectanceNoise, report);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   report.gapBefore = data.measured().select(before, nan);

@@ -1,3 +1,4 @@
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/SimToRealGap.h"
 
 #include "Kernels/Camera/CameraDesign.h"
@@ -377,6 +378,37 @@ TEST(SimToRealGap, ScatterBeyondTheNoiseModelIsExcessNoise)
   EXPECT_EQ(report.causes.front().effect, "excess_noise");
   EXPECT_NEAR(report.causes.front().parameters.front().value, 2.0,
     4.0 * report.causes.front().parameters.front().standardError);
+  EXPECT_EQ(report.probabilityOf("excess_noise"), 1.0);
+  EXPECT_EQ(report.probabilityOf("nothing"), 0.0);
+  msi::GapOptions options;
+  options.without = { "excess_noise" };
+  const msi::GapReport barred = diagnosisOf(capture, options);
+  EXPECT_EQ(barred.verdict, GapVerdict::Unexplained);
+  EXPECT_NE(barred.unexplained.where.find("scatter between repeats"), std::string::npos)
+    << barred.unexplained.where;
+  EXPECT_GT(barred.probabilityOf("unknown"), 0.5);
+  EXPECT_TRUE(barred.causes.empty());
+}
+
+// Scatter of single readings beyond the noise model may be noise, or not: what a cause leaves to it is in doubt.
+TEST(SimToRealGap, WhatACauseLeavesToScatterIsInDoubt)
+{
+  const auto unknownBeside = [](double readNoise)
+  {
+    msi::GapCapture capture =
+      captureOf(rasterSamples(96), { { "exposure_gain", "", "", { 1.1 } } }, 1, readNoise);
+    capture.noise = msi::CameraNoise{ 0.001, 0.0 };
+    return diagnosisOf(capture);
+  };
+  const msi::GapReport calm = unknownBeside(0.001);
+  EXPECT_EQ(calm.causes.size(), 1U);
+  EXPECT_LT(calm.probabilityOf("unknown"), 0.1);
+  const msi::GapReport scattered = unknownBeside(0.008);
+  ASSERT_EQ(scattered.causes.size(), 2U);
+  EXPECT_EQ(scattered.causes[1].effect, "excess_noise");
+  // Odds of three times the part of the gap that is not explained for sure.
+  const double unsure = scattered.causes[1].share * (1.0 - msi::Decision::Unconfirmed);
+  EXPECT_GT(scattered.probabilityOf("unknown"), 3.0 * unsure / (1.0 + 3.0 * unsure) - 0.02);
 }
 
 TEST(SimToRealGap, TheSameBytesOnManyThreadsAndOne)

@@ -243,6 +243,43 @@ double unknownProbability(double shrink, double chanceOfCurve, int standIns)
   return odds / (1.0 + odds);
 }
 
+namespace
+{
+std::set<std::string> namesOf(const Observation& data, const ObservedFit& fit)
+{
+  std::set<std::string> names;
+  for (const std::size_t option : fit.set)
+  {
+    names.insert(data.options()[option].effect->name);
+  }
+  return names;
+}
+
+// What gets too little beside the causes to be one is none in explanations that have all the causes.
+void leaveOutSmall(std::vector<Explanation>& explanations, const std::set<std::string>& best,
+  const std::vector<GapCause>& causes)
+{
+  std::set<std::string> credited;
+  for (const GapCause& cause : causes)
+  {
+    credited.insert(cause.effect);
+  }
+  for (Explanation& one : explanations)
+  {
+    if (std::includes(one.effects.begin(), one.effects.end(), credited.begin(), credited.end()))
+    {
+      for (const std::string& name : best)
+      {
+        if (credited.count(name) == 0)
+        {
+          one.effects.erase(name);
+        }
+      }
+    }
+  }
+}
+}
+
 std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets& found)
 {
   // Of a set of causes only the likeliest forms count: more forms make no effect likelier.
@@ -251,11 +288,7 @@ std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets
   double all = 0.0;
   for (std::size_t v = 0; v < found.visited.size(); ++v)
   {
-    std::set<std::string> names;
-    for (const std::size_t option : found.visited[v]->set)
-    {
-      names.insert(data.options()[option].effect->name);
-    }
+    const std::set<std::string> names = namesOf(data, *found.visited[v]);
     const double weight = std::exp((found.belief[v] - top) / Decision::Temperature);
     Explanation& explanation = sets[names];
     if (!explanation.fit || weight > explanation.probability)
@@ -376,21 +409,18 @@ std::vector<GapNextCapture> separatingCaptures(
 }
 
 std::vector<std::pair<std::string, double>> effectProbabilities(
-  const std::vector<Explanation>& explanations, bool gap, double unknown)
+  const std::vector<Explanation>& explanations, bool gap, double none)
 {
-  double nothing = 0.0;
+  double all = none;
   for (const Explanation& explanation : explanations)
   {
-    nothing += explanation.effects.empty() ? explanation.probability : 0.0;
+    all += explanation.effects.empty() ? (1.0 - none) * explanation.probability : 0.0;
   }
-  unknown = gap ? unknown : 0.0;
-  std::vector<std::pair<std::string, double>> probabilities{
-    { "nothing", gap ? 0.0 : nothing },
-    { "unknown", unknown + (gap ? (1.0 - unknown) * nothing : 0.0) },
-  };
+  std::vector<std::pair<std::string, double>> probabilities{ { gap ? "unknown" : "nothing", all },
+    { gap ? "nothing" : "unknown", 0.0 } };
   for (const auto& [name, chance] : chancesOf(explanations))
   {
-    probabilities.emplace_back(name, (1.0 - unknown) * chance);
+    probabilities.emplace_back(name, (1.0 - none) * chance);
   }
   std::stable_sort(probabilities.begin(), probabilities.end(),
     [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -400,10 +430,11 @@ std::vector<std::pair<std::string, double>> effectProbabilities(
 std::vector<Explanation> conclude(GapReport& report, const Observation& data,
   const FoundSets& found, const Evidence& evidence, std::uint64_t seed)
 {
-  const bool credible = evidence.credited > 0.0;
-  if (credible)
+  std::vector<Explanation> explanations = explanationsOf(data, found);
+  if (evidence.credited > 0.0)
   {
     creditCauses(report, foundCauses(data, found, evidence.credited));
+    leaveOutSmall(explanations, namesOf(data, *found.best), report.causes);
     report.verdict = !report.unconfirmed ? verdictOf(evidence.explained)
       : report.causes.empty()            ? GapVerdict::Unexplained
                                          : GapVerdict::PartlyExplained;
@@ -411,17 +442,18 @@ std::vector<Explanation> conclude(GapReport& report, const Observation& data,
   }
   else
   {
-    report.verdict = evidence.gap ? GapVerdict::Unexplained : GapVerdict::NoGap;
+    report.verdict = evidence.gap ? verdictOf(evidence.explained) : GapVerdict::NoGap;
     report.unexplained = remainderOf(evidence.gap ? 1.0 : 0.0, report.where);
     report.gap.rmsAfter = report.gap.rmsBefore;
     report.gap.shrink = 0.0;
     report.gap.shrinkInterval = { 0.0, 0.0 };
   }
   report.candidates = foundCandidates(data, found, seed);
-  std::vector<Explanation> explanations = explanationsOf(data, found);
-  const double unknown = unknownProbability(
-    credible ? evidence.explained : 0.0, found.best->chanceOfCurve, standInsOf(data, *found.best));
-  believe(report, effectProbabilities(explanations, report.verdict != GapVerdict::NoGap, unknown));
+  const bool gap = report.verdict != GapVerdict::NoGap;
+  const double none = gap ? unknownProbability(evidence.explained, found.best->chanceOfCurve,
+                              standInsOf(data, *found.best))
+                          : 1.0 / (1.0 + std::fmin(evidence.noticed, 1.0));
+  believe(report, effectProbabilities(explanations, gap, none));
   return explanations;
 }
 

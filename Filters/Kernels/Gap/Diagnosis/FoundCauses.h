@@ -65,16 +65,18 @@ std::vector<GapNextCapture> separatingCaptures(
   const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion);
 
 // Of "nothing", of "unknown", and of each effect being a cause; the largest first.
-// gap: whether there is one beyond noise. unknown: unknownProbability.
+// gap: whether there is one beyond noise. none: probability that none of the explanations is true, but something unknown (a gap), or
+// nothing (no gap).
 std::vector<std::pair<std::string, double>> effectProbabilities(
-  const std::vector<Explanation>& explanations, bool gap, double unknown);
+  const std::vector<Explanation>& explanations, bool gap, double none);
 
 // What the data say of a gap beside the sets that were found.
 struct Evidence
 {
   double credited = 0.0;  // what the shares of the causes sum to; 0: they are not believed at all
-  double explained = 0.0; // part of the gap's size, if they are
+  double explained = 0.0; // part of the gap's size
   bool gap = false;       // if they are not: whether there is one beyond noise
+  double noticed = 1.0;   // if there is none: odds that they are causes all the same, at most 1
   std::vector<GapAxis> rest = {}; // along which lies what the causes leave
 };
 

@@ -228,6 +228,43 @@ TEST(SetSearch, AnEffectThatOnlyStoodInForOthersIsDropped)
   EXPECT_EQ(set, (std::vector<std::size_t>{ 2, 3 }));
 }
 
+// Column 2 is found beside column 5, but gets less than 3 % of what both get.
+TEST(Conclude, WhatIsTooSmallToBeACauseIsNotBelievedToBeOne)
+{
+  const Eigen::MatrixXd X = drawnNumbers(SumRows, 8, 1);
+  const ColumnSums data(X, 1.5 * X.col(2) - 30.0 * X.col(5) + drawnNumbers(SumRows, 1, 2));
+  const msi::FoundSets sets = foundSets(data);
+  ASSERT_EQ(sets.best->set.size(), 2U);
+  msi::GapReport report;
+  conclude(report, data, sets, { 0.98, 0.98 }, 1);
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_GT(report.causes.front().probability, 0.9);
+  ASSERT_EQ(report.uncredited.size(), 1U);
+  EXPECT_LT(report.probabilityOf(report.uncredited.front()), 0.1);
+}
+
+// What is found but not credited is nothing where there is no gap, and unknown where there is one.
+TEST(Conclude, TheVerdictAndTheProbabilitiesSayTheSame)
+{
+  const Eigen::MatrixXd X = drawnNumbers(SumRows, 8, 1);
+  const ColumnSums data(X, 4.0 * X.col(2) + drawnNumbers(SumRows, 1, 2));
+  const msi::FoundSets sets = foundSets(data);
+  const std::string found = data.options()[2].effect->name;
+  msi::GapReport report;
+  msi::Evidence evidence;
+  evidence.noticed = 0.5;
+  conclude(report, data, sets, evidence, 1);
+  EXPECT_EQ(report.verdict, msi::GapVerdict::NoGap);
+  EXPECT_NEAR(report.probabilityOf("nothing"), 2.0 / 3.0, 1e-9);
+  EXPECT_NEAR(report.probabilityOf(found), 1.0 / 3.0, 0.01);
+  EXPECT_EQ(report.probabilityOf("unknown"), 0.0);
+  evidence.gap = true;
+  conclude(report, data, sets, evidence, 1);
+  EXPECT_EQ(report.verdict, msi::GapVerdict::Unexplained);
+  EXPECT_NEAR(report.probabilityOf("unknown"), 0.75, 1e-9);
+  EXPECT_EQ(report.probabilityOf("nothing"), 0.0);
+}
+
 TEST(SignsOfStandIns, AnEffectOfEveryMediumIsNotTheMediums)
 {
   const msi::EffectDefinition* gain = msi::findEffect("medium_gain");

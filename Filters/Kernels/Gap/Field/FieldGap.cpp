@@ -304,6 +304,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   else
   {
     evidence.gap = beyondNoise(report.gap.rmsBefore, finding.before());
+    evidence.noticed = finding.set().empty() ? 1.0 : 0.0;
     gap->model = finding.before().model;
   }
   const std::vector<Explanation> explanations =

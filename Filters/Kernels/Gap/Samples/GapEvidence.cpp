@@ -71,16 +71,20 @@ double negligibleEnergy(
     leastOverLeft() * after.squaredNorm());
 }
 
-bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
+double noticed(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
   const Eigen::MatrixXd& integration)
 {
   const Eigen::ArrayXd taken = before.colwise().squaredNorm() - after.colwise().squaredNorm();
   const Eigen::ArrayXd allowed =
     Decision::EstimateFactor * measuredOnly(data, integration).colwise().sum();
   const double explained = taken.sum();
+  if (!(explained > 0.0))
+  {
+    return 0.0;
+  }
   const double beyond = (taken - allowed).max(0.0).sum();
-  return explained > leastOverLeft() * after.squaredNorm() &&
-    (explained > allowed.sum() || beyond > 0.5 * explained);
+  return std::fmin(explained / (leastOverLeft() * after.squaredNorm()),
+    std::fmax(explained / allowed.sum(), 2.0 * beyond / explained));
 }
 
 bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)

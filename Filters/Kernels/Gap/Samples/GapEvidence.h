@@ -31,9 +31,9 @@ bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShar
 double negligibleEnergy(
   const GapData& data, const Eigen::MatrixXd& after, const Eigen::MatrixXd& integration);
 
-// Whether what the causes take away is more than errors of sums over wavelength and of reflectance could be: on average,
-// or in single samples that make up most of it.
-bool noticeable(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
+// What the causes take away over what errors of sums over wavelength and of reflectance could be: on average, or in single
+// samples that make up most of it. Noticeable beyond 1; 0 where they take nothing away.
+double noticed(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
   const Eigen::MatrixXd& integration);
 
 // Whether a change of the response stands in so few samples that none of them can be left out to check it.

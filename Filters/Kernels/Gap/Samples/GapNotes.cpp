@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Gap/Samples/GapEvidence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -165,35 +166,46 @@ void noteSaturation(std::vector<std::string>& notes, const GapData& data)
 }
 }
 
-void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,
+ExcessNoise excessNoise(const GapData& data, const NoiseFinding& noise,
   const std::optional<CameraNoise>& given, const std::vector<std::string>& without)
 {
-  const EffectDefinition& effect = effectOf(EffectStage::Noise);
-  const bool barred = std::find(without.begin(), without.end(), effect.name) != without.end();
   if (!given || noise.excess <= 1.0)
   {
-    return;
+    return {};
   }
-  if (barred)
+  const Eigen::MatrixXd beyond =
+    readingVariance(data, noise.reading) - readingVariance(data, *given);
+  const bool barred =
+    std::find(without.begin(), without.end(), effectOf(EffectStage::Noise).name) != without.end();
+  return { measuredOnly(data, beyond).sum() / static_cast<double>(data.elements),
+    barred               ? 0.0
+      : noise.unrepeated ? Decision::Unconfirmed
+                         : 1.0 };
+}
+
+double partOf(const ExcessNoise& excess, const GapFigures& gap)
+{
+  // Sizes, not energies, as the shares of causes.
+  const double size = std::sqrt(std::fmax(excess.energy, 0.0));
+  const double other =
+    std::sqrt(std::fmax(gap.rmsBefore * gap.rmsBefore - gap.noiseFloor * gap.noiseFloor, 0.0));
+  return size > 0.0 ? size / (size + other) : 0.0;
+}
+
+std::string whereOf(const NoiseFinding& noise)
+{
+  return textOf(3, noise.unrepeated ? "scatter, " : "scatter between repeats, ", noise.excess,
+    " times what the noise model allows");
+}
+
+void addExcessNoise(
+  GapReport& report, const GapData& data, const NoiseFinding& noise, const ExcessNoise& excess)
+{
+  if (excess.belief == 0.0)
   {
-    if (report.verdict == GapVerdict::NoGap)
-    {
-      report.verdict = GapVerdict::Unexplained;
-      report.unexplained = { 1.0,
-        textOf(3, noise.unrepeated ? "scatter, " : "scatter between repeats, ", noise.excess,
-          " times what the noise model allows"),
-        {} };
-    }
     return;
   }
-  const Eigen::MatrixXd expected = readingVariance(data, *given);
-  const Eigen::MatrixXd found = readingVariance(data, noise.reading);
-  const auto measured = data.measured().cast<double>();
-  const double excess =
-    (measured * (found - expected).array()).sum() / static_cast<double>(data.elements);
-  const double before2 = report.gap.rmsBefore * report.gap.rmsBefore;
-  const double floor2 = report.gap.noiseFloor * report.gap.noiseFloor;
-  const double expected2 = std::fmax(floor2 - excess, 0.0);
+  const EffectDefinition& effect = effectOf(EffectStage::Noise);
   GapCause cause;
   cause.effect = effect.name;
   cause.form = effect.forms.front().name;
@@ -201,15 +213,18 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
   cause.parameters.push_back({ factor.name, noise.excess, factor.unit,
     noise.excess /
       std::sqrt(2.0 * (noise.unrepeated ? static_cast<double>(data.elements) : noise.degrees)) });
-  if (report.causes.empty() && report.verdict != GapVerdict::Unexplained)
+  if (report.verdict == GapVerdict::NoGap)
   {
     // The gap is what the given model does not allow; with the effect in the simulator it does.
+    const double before2 = report.gap.rmsBefore * report.gap.rmsBefore;
+    const double expected2 =
+      std::fmax(report.gap.noiseFloor * report.gap.noiseFloor - excess.energy, 0.0);
     cause.share = 1.0;
     report.verdict = GapVerdict::Explained;
     report.gap.noiseFloor = std::sqrt(expected2);
-    report.gap.rmsAfter = std::sqrt(std::fmax(before2 - excess, expected2));
+    report.gap.rmsAfter = std::sqrt(std::fmax(before2 - excess.energy, expected2));
     report.gap.shrink = before2 > expected2
-      ? 1.0 - std::sqrt(std::fmax(before2 - excess - expected2, 0.0) / (before2 - expected2))
+      ? 1.0 - std::sqrt(std::fmax(before2 - excess.energy - expected2, 0.0) / (before2 - expected2))
       : 1.0;
     cause.shrink = report.gap.shrink;
     report.gap.shrinkInterval = { std::fmin(report.gap.shrink, 0.0), 1.0 };
@@ -221,10 +236,7 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
   }
   else
   {
-    // Sizes, not energies, as the other shares.
-    const double size = std::sqrt(std::fmax(excess, 0.0));
-    const double gap = std::sqrt(std::fmax(before2 - floor2, 0.0));
-    const double part = size / (size + gap);
+    const double part = partOf(excess, report.gap);
     cause.share = part;
     for (GapCause& other : report.causes)
     {
@@ -233,16 +245,15 @@ void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& 
     report.unexplained.share *= 1.0 - part;
   }
   std::vector<std::pair<std::string, double>> beliefs = report.probabilities;
-  const double belief = noise.unrepeated ? Decision::Unconfirmed : 1.0;
   for (auto& [name, probability] : beliefs)
   {
     if (name == "unknown" && report.causes.empty())
     {
-      probability = std::fmax(probability, 1.0 - belief);
+      probability = std::fmax(probability, 1.0 - excess.belief);
     }
     probability = name == "nothing" ? 0.0 : probability;
   }
-  beliefs.emplace_back(cause.effect, belief);
+  beliefs.emplace_back(cause.effect, excess.belief);
   report.correction.push_back({ cause.effect, cause.form, "", { noise.excess } });
   report.causes.push_back(std::move(cause));
   std::stable_sort(report.causes.begin(), report.causes.end(),

@@ -12,10 +12,21 @@
 namespace msi
 {
 
-// Adds the cause excess_noise where the repeats scatter more than the given noise model: the mean gap is
-// measured against the model's floor before, and against the repeats' after.
-void addExcessNoise(GapReport& report, const GapData& data, const NoiseFinding& noise,
+// Scatter of the readings beyond the given noise model.
+struct ExcessNoise
+{
+  double energy = 0.0; // mean square of an element; 0: none
+  double belief = 0.0; // probability that it is noise; 0 where noise may not be blamed
+};
+ExcessNoise excessNoise(const GapData& data, const NoiseFinding& noise,
   const std::optional<CameraNoise>& given, const std::vector<std::string>& without);
+// Of the size of the gap, this scatter included.
+double partOf(const ExcessNoise& excess, const GapFigures& gap);
+std::string whereOf(const NoiseFinding& noise);
+// Adds the cause excess_noise where noise may be blamed: the mean gap is measured against the model's floor before, and against
+// that of the scatter after.
+void addExcessNoise(
+  GapReport& report, const GapData& data, const NoiseFinding& noise, const ExcessNoise& excess);
 
 // What the data cannot decide, and why.
 std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,

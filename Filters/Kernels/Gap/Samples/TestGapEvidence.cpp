@@ -31,21 +31,27 @@ protected:
 
 TEST_F(Evidence, SumsOverWavelengthMayBeOffByTwiceTheirVarianceEverywhere)
 {
-  EXPECT_FALSE(noticeable(Data, inSamples(96, 0.0014), None, Integration));
-  EXPECT_TRUE(noticeable(Data, inSamples(96, 0.0015), None, Integration));
+  EXPECT_LT(noticed(Data, inSamples(96, 0.0014), None, Integration), 1.0);
+  EXPECT_GT(noticed(Data, inSamples(96, 0.0015), None, Integration), 1.0);
 }
 
 // 3 samples of 0.006: on average a tenth of 2e-6 less, but 18 times that in these samples.
 TEST_F(Evidence, TheyAreNotOffInThreeSamplesAlone)
 {
-  EXPECT_TRUE(noticeable(Data, inSamples(3, 0.006), None, Integration));
-  EXPECT_FALSE(noticeable(Data, inSamples(3, 0.0015), None, Integration));
+  EXPECT_GT(noticed(Data, inSamples(3, 0.006), None, Integration), 1.0);
+  EXPECT_LT(noticed(Data, inSamples(3, 0.0015), None, Integration), 1.0);
 }
 
 TEST_F(Evidence, WhatIsLeftMustNotBeMuchMore)
 {
-  EXPECT_FALSE(noticeable(Data, inSamples(96, 0.0108), inSamples(96, 0.01), Integration));
-  EXPECT_TRUE(noticeable(Data, inSamples(96, 0.0115), inSamples(96, 0.01), Integration));
+  EXPECT_LT(noticed(Data, inSamples(96, 0.0108), inSamples(96, 0.01), Integration), 1.0);
+  EXPECT_GT(noticed(Data, inSamples(96, 0.0115), inSamples(96, 0.01), Integration), 1.0);
+}
+
+TEST_F(Evidence, NothingIsNoticedOfWhatMakesTheGapLarger)
+{
+  EXPECT_EQ(noticed(Data, None, inSamples(96, 0.01), Integration), 0.0);
+  EXPECT_NEAR(noticed(Data, inSamples(96, 0.001), None, Integration), 0.5, 1e-12);
 }
 
 TEST_F(Evidence, FewSamplesAreThree)

@@ -205,7 +205,7 @@ void writeCauses(const GapReport& report, vtkTable* table)
       rows.add({ rank, cause.effect, cause.form, cause.medium, cause.share, cause.probability,
         cause.shrink, joined(cause.equivalent), parameter.name, parameter.value, parameter.unit,
         parameter.standardError, texts.title, texts.meaning, texts.formula,
-        meaningOf(parameter.name, cause), separatingCapture(cause.effect),
+        meaningOf(parameter.name, cause), requireEffect(cause.effect).separatingCapture.name,
         joined(equivalentTitles) });
     }
   }

@@ -1,6 +1,7 @@
 // The names, parameters and places of the effects that make a real camera differ from its model.
 #pragma once
 
+#include "Kernels/Camera/CaptureKind.h"
 #include "Kernels/Camera/ImageTerm.h"
 
 #include <cstddef>
@@ -100,7 +101,7 @@ struct EffectDefinition
   EffectStage stage;
   EffectNeed need;
   std::vector<EffectForm> forms; // the first is the default, the one with the fewest parameters
-  std::string separatingCapture; // the capture that shows this effect by itself
+  CaptureKind separatingCapture; // shows this effect by itself
   unsigned traits = EffectTrait::None;
   std::vector<ImageForm> imageForms = {}; // what a pair of images shows of it; empty: nothing
 
@@ -116,8 +117,6 @@ const EffectForm* findForm(const EffectDefinition& effect, std::string_view form
 // Errors: std::invalid_argument for an unknown effect or form, listing those known.
 const EffectDefinition& requireEffect(std::string_view name);
 const EffectForm& requireForm(const EffectDefinition& effect, std::string_view form);
-// The capture that shows this effect by itself; empty for an unknown name.
-std::string separatingCapture(std::string_view effect);
 // The first effect of the library with a trait, of a stage. There must be one.
 const EffectDefinition& effectWith(EffectTrait::Bit trait);
 const EffectDefinition& effectOf(EffectStage stage);

@@ -186,7 +186,7 @@ Effect banding()
         "u + sum over n = 1..3 of amplitude_nk sin(2 pi (n row / period + start_nk))",
         harmonics("white", "of white") },
       { "column_offsets", "the same with the column", harmonics("white", "of white") } },
-    "flat field at two exposure times", EffectTrait::None,
+    { "flat field at two exposure times", 5.0 }, EffectTrait::None,
     { { "rows", sines(0) }, { "columns", sines(StripesOfImage::OfColumns) },
       { "row_harmonics", { profile(StripesOfImage::Gain) } },
       { "column_harmonics", { profile(StripesOfImage::OfColumns + StripesOfImage::Gain) } },

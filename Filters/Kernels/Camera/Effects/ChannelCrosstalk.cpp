@@ -104,7 +104,7 @@ Effect channelCrosstalk()
             false, true } } },
       { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
         { previous, next } } },
-    "narrow-band source", EffectTrait::CouplesChannels,
+    Captures::NarrowBands, EffectTrait::CouplesChannels,
     { { "one_sided", { imageTerm(0, previous), imageTerm(1, next) } } } };
   effect.makeBlock = makeBlockOperator<ChannelCrosstalk>;
   effect.onImage.step = &CrosstalkOfImage::step();

@@ -11,7 +11,7 @@ Effect channelGain()
   Effect effect;
   effect.definition = { "channel_gain", "Channel gain",
     "Every channel has an error of its own in exposure or white balance.", EffectStage::Detector,
-    EffectNeed::Nothing, { { "per_channel", "gain_k u_k", { gain }, {} } }, "grey ramp",
+    EffectNeed::Nothing, { { "per_channel", "gain_k u_k", { gain }, {} } }, { "grey ramp", 5.0 },
     EffectTrait::Exact, { { "per_channel", { imageTerm(0, gain) } } } };
   effect.makeBlock = makeBlockOperator<GainOperator>;
   effect.onImage.step = &gainStep();

@@ -58,7 +58,7 @@ Effect darkOffset()
     EffectStage::Detector, EffectNeed::Nothing,
     { { "common", "u + offset", { offset(false) } },
       { "per_channel", "u_k + offset_k", { offset(true) }, {} } },
-    "lens cap", EffectTrait::Exact,
+    Captures::LensCap, EffectTrait::Exact,
     { { "common", { imageTerm(0, offset(false)) } },
       { "per_channel", { imageTerm(0, offset(true)) } } } };
   effect.makeBlock = makeBlockOperator<DarkOffset>;

@@ -62,7 +62,7 @@ Effect defocus()
     EffectStage::Image, EffectNeed::Nothing,
     { { "common", "one blur for all channels", { blur(false) } },
       { "per_channel", "a blur for each channel", { blur(true) } } },
-    "grid target for each filter", EffectTrait::ActsOnEdges,
+    { "grid target for each filter" }, EffectTrait::ActsOnEdges,
     { { "common", { blurVariance(false) } }, { "per_channel", { blurVariance(true) } } } };
   effect.onImage.makeBlur = makeBlur;
   effect.onImage.step = &DefocusOfImage::step();

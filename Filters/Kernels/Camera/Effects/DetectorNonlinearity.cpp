@@ -174,7 +174,7 @@ Effect detectorNonlinearity()
         { square, line("slope", "of the line through u^2 over the samples"),
           line("constant", "of that line") },
         {}, FormTrait::BesideLine } },
-    "exposure series of one patch", EffectTrait::None,
+    Captures::ExposureSeries, EffectTrait::None,
     { { "quadratic", { imageTerm(CurveOfImage::Square, square) } },
       { "anchored", { imageTerm(CurveOfImage::Anchored, square) } },
       { "gamma", { imageTerm(CurveOfImage::Exponent, exponent) } },

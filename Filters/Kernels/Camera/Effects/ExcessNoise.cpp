@@ -17,7 +17,7 @@ Effect excessNoise()
       { "added", "variance + added^2",
         { { "added", "white", 0.0, 0.0, 0.2, 0.002, "further standard deviation" } }, {},
         FormTrait::Adds } },
-    "more repeats" };
+    { "more repeats", 2.0 } };
   return effect;
 }
 

@@ -12,7 +12,7 @@ Effect exposureGain()
   effect.definition = { "exposure_gain", "Exposure gain",
     "All channels brighter or darker: exposure time, aperture, lamp, white tile.",
     EffectStage::Detector, EffectNeed::Nothing, { { "common", "gain u", { gain } } },
-    "repeated white", EffectTrait::Exact | EffectTrait::CommonGain,
+    Captures::RepeatedWhite, EffectTrait::Exact | EffectTrait::CommonGain,
     { { "common", { imageTerm(0, gain) } } } };
   effect.makeBlock = makeBlockOperator<GainOperator>;
   effect.onImage.step = &gainStep();

@@ -82,7 +82,7 @@ Effect filterBandwidth()
         "light x passband(c + (wavelength - c) / factor), c the passband's middle; the light "
         "stays, ln(light) = slope P1(x) + bend P2(x) + twist P3(x), none beyond the grid",
         factor(false), 1.1, FormTrait::Brightens) },
-    "monochromator" };
+    Captures::Monochromator };
   effect.makeResponsivity = makeBandwidth;
   return effect;
 }

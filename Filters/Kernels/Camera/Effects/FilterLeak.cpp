@@ -48,7 +48,7 @@ Effect filterLeak()
     EffectNeed::Nothing,
     { { "common", "M + fraction x (response to white) x spectrum", leak(false) },
       { "per_channel", "the same with a fraction of its own for each channel", leak(true) } },
-    "long-pass tile" };
+    { "long-pass tile" } };
   effect.makeResponsivity = makeResponsivityOperator<FilterLeak>;
   return effect;
 }

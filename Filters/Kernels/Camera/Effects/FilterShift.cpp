@@ -114,7 +114,7 @@ Effect filterShift()
         shift(false), 1.0),
       { "per_channel", "a shift of its own for each channel", { shift(true) }, {},
         FormTrait::KeepsWhite } },
-    "chart at several field positions, lamp spectrum" };
+    { "chart at several field positions, lamp spectrum" } };
   effect.makeResponsivity = makeShift;
   return effect;
 }

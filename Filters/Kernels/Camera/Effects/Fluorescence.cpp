@@ -71,7 +71,7 @@ Effect fluorescence()
         emission },
       { "uncoloured", "r + yield E", emission },
       { "absorbed", "r + yield E (1 - r_x)", emission } },
-    "UV-cut filter" };
+    { "UV-cut filter" } };
   effect.makeBlock = makeBlockOperator<Fluorescence>;
   return effect;
 }

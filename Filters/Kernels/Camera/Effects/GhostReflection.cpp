@@ -28,7 +28,7 @@ Effect ghostReflection()
     { { "common", "u(x, y) + strength u(-x, -y)", { strength(false) } },
       { "per_channel", "the same with a strength of its own for each channel",
         { strength(true) } } },
-    "one bright spot off the center of a dark field", EffectTrait::None,
+    { "one bright spot off the center of a dark field" }, EffectTrait::None,
     { { "common", { imageTerm(0, strength(false)) } },
       { "per_channel", { imageTerm(0, strength(true)) } } } };
   effect.onImage.lightFrom = throughCenter;

@@ -144,7 +144,7 @@ Effect illuminantDrift()
         "logarithms of standard lamps differ (blackbodies, daylight, FL1..FL12 and the LED lamps "
         "of CIE 15:2018), as large as two of them differ on average",
         shapes } },
-    "lamp spectrum, white tile", EffectTrait::SpectralGain };
+    Captures::LampSpectrum, EffectTrait::SpectralGain };
   effect.makeResponsivity = makeResponsivityOperator<IlluminantDrift>;
   return effect;
 }

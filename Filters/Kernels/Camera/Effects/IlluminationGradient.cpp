@@ -125,7 +125,7 @@ Effect illuminationGradient()
     { { "plane", "u (1 + right x + down y), x and y from -1 to 1 over the field", { right, down } },
       { "bent", "u (1 + s + bend s^2), s = right x + down y: a lamp that is near",
         { right, down, bend } } },
-    "flat field", EffectTrait::None, { { "plane", plane }, { "bent", bent, true } } };
+    Captures::FlatField, EffectTrait::None, { { "plane", plane }, { "bent", bent, true } } };
   effect.makeBlock = makeBlockOperator<IlluminationGradient>;
   effect.onImage.step = &GradientOfImage::step();
   return effect;

@@ -37,7 +37,7 @@ Effect interreflection()
       { { "probability", "1", 0.0, -0.8, 0.9, 0.05,
         "probability of a further reflection; negative where the spectrophotometer saw more of "
         "them" } } } },
-    "flat and folded sample" };
+    { "flat and folded sample" } };
   effect.makeBlock = makeBlockOperator<Interreflection>;
   return effect;
 }

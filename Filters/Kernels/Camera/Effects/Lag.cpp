@@ -67,7 +67,7 @@ Effect lag()
     EffectStage::Image, EffectNeed::Nothing,
     { { "common", "u_k + retained u_k-1", { retained } },
       { "conserving", "u_k + retained (u_k-1 - u_k), the first channel as it is", { retained } } },
-    "channels captured in another order", EffectTrait::None,
+    { "channels captured in another order" }, EffectTrait::None,
     { { "common", { imageTerm(0, retained) } }, { "conserving", { imageTerm(1, retained) } } } };
   effect.onImage.makePixels = makePixelOperator<Lag>;
   effect.onImage.step = &LagOfImage::step();

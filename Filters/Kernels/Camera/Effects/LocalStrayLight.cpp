@@ -149,7 +149,7 @@ Effect localStrayLight()
             "reach of the tail, tables only; a pitch is the distance to the next sample", false,
             true },
           radius } } },
-    "patch with black and with white surround", EffectTrait::ActsOnEdges,
+    Captures::BlackAndWhite, EffectTrait::ActsOnEdges,
     { { "neighbours", { imageTerm(TailOfImage::Fraction, tail), reach } },
       { "neighbours", anyTail() } } };
   effect.makeSurround = makeSurroundOperator<StrayLight>;

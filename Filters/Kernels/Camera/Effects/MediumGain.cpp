@@ -33,7 +33,7 @@ Effect mediumGain()
     "The camera's geometry sees less light from this medium than the spectrophotometer's.",
     EffectStage::Reflectance, EffectNeed::Medium,
     { { "gain", "gain r", { { "gain", "1", 1.0, 0.3, 2.0, 0.05, "factor on the reflectance" } } } },
-    "rotated sample" };
+    { "rotated sample" } };
   effect.makeBlock = makeBlockOperator<MediumGain>;
   return effect;
 }

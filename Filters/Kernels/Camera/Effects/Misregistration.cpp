@@ -75,7 +75,7 @@ Effect misregistration()
     { { "per_channel",
       "every channel is turned and magnified about the middle of the field, then displaced",
       parameters } },
-    "grid target for each filter", EffectTrait::ActsOnEdges,
+    { "grid target for each filter" }, EffectTrait::ActsOnEdges,
     { { "per_channel", { right, down } }, { "per_channel", { right, down, magnification } },
       { "per_channel", { right, down, magnification, rotation } } } };
   effect.onImage.makeRegistration = makeRegistration;

@@ -235,12 +235,6 @@ const EffectDefinition& effectOf(EffectStage stage)
   return firstEffect([stage](const EffectDefinition& effect) { return effect.stage == stage; });
 }
 
-std::string separatingCapture(std::string_view effect)
-{
-  const EffectDefinition* definition = findEffect(effect);
-  return definition == nullptr ? std::string() : definition->separatingCapture;
-}
-
 ImageStep stepOfLight()
 {
   ImageStep step{ ImageStage::Light, { { 0.0, ImageAxis::Position } },

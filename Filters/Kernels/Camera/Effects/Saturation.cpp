@@ -126,7 +126,7 @@ Effect saturation()
           { "sharpness", "1", 10.0, 2.0, 60.0, 4.0, "the larger, the sharper is the bend", false,
             true } },
         { { 1.2, 10.0 }, { 0.9, 10.0 }, { 0.7, 10.0 } } } },
-    "shorter exposure", EffectTrait::LimitsResponse,
+    { "shorter exposure", 2.0 }, EffectTrait::LimitsResponse,
     { { "soft",
       { { ClippingOfImage::Clip, false, 0.0, 1.0, 0.3 },
         imageTerm(ClippingOfImage::ClipLevel, level) } } } };

@@ -149,7 +149,7 @@ Effect sessionDrift()
         FormTrait::Adds },
       { "offset_step", "u + change from `place` on", { change("white", false), place, width },
         places(), FormTrait::Adds } },
-    "interleaved white" };
+    Captures::InterleavedWhite };
   effect.makeBlock = makeBlockOperator<SessionDrift>;
   return effect;
 }

@@ -39,7 +39,7 @@ Effect specularComponent()
     { { "pedestal", "r + pedestal", { pedestal } },
       { "body", "(1 - pedestal) r + pedestal: what the surface reflects does not reach the body",
         { pedestal } } },
-    "specular included and excluded measurement, black glossy tile" };
+    { "specular included and excluded measurement, black glossy tile" } };
   effect.makeBlock = makeBlockOperator<SpecularComponent>;
   return effect;
 }

@@ -43,7 +43,7 @@ Effect translucency()
     { { "power", "r / (1 + loss (wavelength / 550 nm)^exponent r)",
       { { "loss", "1", 0.0, -0.4, 2.0, 0.05, "loss at 550 nm for a reflectance of one" },
         { "exponent", "1", 2.0, 1.0, 10.0, 1.0, "growth with the wavelength", false, true } } } },
-    "layers over black and white backing" };
+    { "layers over black and white backing" } };
   effect.makeBlock = makeBlockOperator<Translucency>;
   return effect;
 }

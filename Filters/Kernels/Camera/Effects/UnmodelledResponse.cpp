@@ -117,7 +117,7 @@ Effect unmodelledResponse()
       "u_k + constant_k + u_k (slope_k + square_k u_k + right_k x + down_k y + drift_k (t - 1/2)) "
       "+ from_previous_k (u_k-1 - u_k) + from_next_k (u_k+1 - u_k)",
       parameters } },
-    "chart with other samples", EffectTrait::Remainder, { ofImage } };
+    { "chart with other samples" }, EffectTrait::Remainder, { ofImage } };
   effect.makeBlock = makeBlockOperator<UnmodelledResponse>;
   effect.onImage.step = &RestOfImage::step();
   effect.afterDark = true;

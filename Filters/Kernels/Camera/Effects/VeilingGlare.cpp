@@ -51,7 +51,7 @@ Effect veilingGlare()
       { "conserving", "u + fraction (mean of the scene - u)", { glare(false) } },
       { "per_channel", "u + fraction (mean of the scene), a fraction for each channel",
         { glare(true) } } },
-    "black trap, second scene", EffectTrait::None,
+    Captures::BlackTrap, EffectTrait::None,
     { { "common", { imageTerm(GlareOfImage::Added, glare(false)) } },
       { "conserving", { imageTerm(GlareOfImage::Conserving, glare(false)) } },
       { "per_channel", { imageTerm(GlareOfImage::Added, glare(true)) } } } };

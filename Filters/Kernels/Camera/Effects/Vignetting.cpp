@@ -154,7 +154,7 @@ Effect vignetting()
         { { 0.2, 0.0, 0.0 } } },
       { "polynomial", "u (1 - falloff rho^2 - fourth rho^4 - sixth rho^6), not below zero",
         { orders[0], orders[1], orders[2], center[0], center[1] } } },
-    "chart rotated by 180 degrees", EffectTrait::None,
+    Captures::TurnedChart, EffectTrait::None,
     { { "quadratic", { quadratic } }, { "quadratic", { quadratic, anyX, anyY } },
       { "polynomial", { steep, fourth, sixth } },
       { "polynomial", { steep, fourth, sixth, centerX, centerY } } } };

@@ -255,18 +255,22 @@ std::set<std::string> namesOf(const Observation& data, const ObservedFit& fit)
   return names;
 }
 
-// What gets too little beside the causes to be one is none in explanations that have all the causes.
+// What gets too little beside the causes to be one is none in explanations that have the large ones.
 void leaveOutSmall(std::vector<Explanation>& explanations, const std::set<std::string>& best,
-  const std::vector<GapCause>& causes)
+  const std::vector<GapCause>& causes, double shares)
 {
-  std::set<std::string> credited;
+  std::set<std::string> credited, large;
   for (const GapCause& cause : causes)
   {
     credited.insert(cause.effect);
+    if (cause.share > Decision::LeastPartPerChannel * shares)
+    {
+      large.insert(cause.effect);
+    }
   }
   for (Explanation& one : explanations)
   {
-    if (std::includes(one.effects.begin(), one.effects.end(), credited.begin(), credited.end()))
+    if (std::includes(one.effects.begin(), one.effects.end(), large.begin(), large.end()))
     {
       for (const std::string& name : best)
       {
@@ -356,19 +360,6 @@ std::set<std::string> inQuestion(const std::vector<GapCause>& causes)
   return effects;
 }
 
-double minutesOf(const std::string& capture)
-{
-  static const std::map<std::string, double> minutes = { { "lens cap", 1.0 },
-    { "repeated white", 2.0 }, { "more repeats", 2.0 }, { "shorter exposure", 2.0 },
-    { "flat field", 3.0 }, { "black trap, second scene", 5.0 },
-    { "chart rotated by 180 degrees", 5.0 }, { "exposure series of one patch", 5.0 },
-    { "flat field at two exposure times", 5.0 }, { "grey ramp", 5.0 }, { "interleaved white", 5.0 },
-    { "lamp spectrum, white tile", 5.0 }, { "patch with black and with white surround", 5.0 },
-    { "narrow-band source", 30.0 }, { "monochromator", 60.0 } };
-  const auto known = minutes.find(capture);
-  return known == minutes.end() ? 10.0 : known->second;
-}
-
 void sortByWorth(std::vector<GapNextCapture>& captures)
 {
   const auto rate = [](const GapNextCapture& one)
@@ -380,10 +371,11 @@ void sortByWorth(std::vector<GapNextCapture>& captures)
 std::vector<GapNextCapture> separatingCaptures(
   const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion)
 {
-  std::map<std::string, std::set<std::string>> shown;
+  std::map<std::pair<std::string, double>, std::set<std::string>> shown; // by name and minutes
   for (const std::string& name : inQuestion)
   {
-    shown[separatingCapture(name)].insert(name);
+    const CaptureKind& kind = requireEffect(name).separatingCapture;
+    shown[{ kind.name, kind.minutes }].insert(name);
   }
   const std::vector<std::string> separates = disputed(explanations, inQuestion);
   std::vector<GapNextCapture> captures;
@@ -401,7 +393,7 @@ std::vector<GapNextCapture> separatingCaptures(
     }
     if (bits >= LeastBits)
     {
-      captures.push_back({ capture, separates, bits, minutesOf(capture) });
+      captures.push_back({ capture.first, separates, bits, capture.second });
     }
   }
   sortByWorth(captures);
@@ -434,7 +426,7 @@ std::vector<Explanation> conclude(GapReport& report, const Observation& data,
   if (evidence.credited > 0.0)
   {
     creditCauses(report, foundCauses(data, found, evidence.credited));
-    leaveOutSmall(explanations, namesOf(data, *found.best), report.causes);
+    leaveOutSmall(explanations, namesOf(data, *found.best), report.causes, evidence.credited);
     report.verdict = !report.unconfirmed ? verdictOf(evidence.explained)
       : report.causes.empty()            ? GapVerdict::Unexplained
                                          : GapVerdict::PartlyExplained;

@@ -54,8 +54,6 @@ std::set<std::string> inQuestion(const std::vector<GapCause>& causes);
 
 inline constexpr double LeastBits = 0.1; // that a capture is worth being named for
 
-// Of work that a capture takes, getting ready for it left out: an estimate.
-double minutesOf(const std::string& capture);
 // By bits per minute, getting ready included; the most first.
 void sortByWorth(std::vector<GapNextCapture>& captures);
 

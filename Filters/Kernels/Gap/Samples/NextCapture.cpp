@@ -381,12 +381,12 @@ std::vector<CaptureCandidate> captureCandidates(
     return samples;
   };
   std::vector<CaptureCandidate> candidates;
-  candidates.push_back({ "lens cap", flat({ 0.0 }) });
+  candidates.push_back({ Captures::LensCap, flat({ 0.0 }) });
   const SceneSamples white = flat({ 0.9, 0.9 });
-  candidates.push_back({ "repeated white", white });
+  candidates.push_back({ Captures::RepeatedWhite, white });
   candidates.push_back(
-    { "exposure series of one patch", flat({ 0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05 }) });
-  candidates.push_back({ "black trap, second scene", flat({ 0.0, 0.03, 0.03, 0.03 }) });
+    { Captures::ExposureSeries, flat({ 0.95, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05 }) });
+  candidates.push_back({ Captures::BlackTrap, flat({ 0.0, 0.03, 0.03, 0.03 }) });
 
   SceneSamples narrow;
   const Eigen::Index bands = std::min<Eigen::Index>(N, 40);
@@ -399,7 +399,7 @@ std::vector<CaptureCandidate> captureCandidates(
       narrow.reflectance(n, i) = std::exp(-0.5 * std::pow((grid[n] - center) / 5.0, 2));
     }
   }
-  candidates.push_back({ "narrow-band source", narrow });
+  candidates.push_back({ Captures::NarrowBands, narrow });
 
   const SampleList again = chartOf(data);
   const SceneSamples chart = selected(data.scene.samples(), again);
@@ -410,31 +410,30 @@ std::vector<CaptureCandidate> captureCandidates(
     { return Eigen::VectorXd::LinSpaced(Side, v.minCoeff(), v.maxCoeff()); };
     even.x = across(chart.x).replicate(Side, 1);
     even.y = across(chart.y).transpose().replicate(Side, 1).reshaped();
-    candidates.push_back({ "flat field", even });
+    candidates.push_back({ Captures::FlatField, even });
     SceneSamples turned = chart;
     turned.x = (chart.x.minCoeff() + chart.x.maxCoeff()) - chart.x.array();
     turned.y = (chart.y.minCoeff() + chart.y.maxCoeff()) - chart.y.array();
-    candidates.push_back({ "chart rotated by 180 degrees", turned, again });
+    candidates.push_back({ Captures::TurnedChart, turned, again });
     SceneSamples board = even;
     for (Eigen::Index i = 0; i < board.reflectance.cols(); i += 2)
     {
       board.reflectance.col(i).setConstant(0.03);
     }
-    candidates.push_back({ "patch with black and with white surround", board });
+    candidates.push_back({ Captures::BlackAndWhite, board });
   }
   if (data.scene.hasOrder())
   {
     SceneSamples interleaved = flat(std::vector<double>(Side * Side, 0.9));
     interleaved.order =
       Eigen::VectorXd::LinSpaced(Side * Side, chart.order.minCoeff(), chart.order.maxCoeff());
-    candidates.push_back({ "interleaved white", interleaved });
+    candidates.push_back({ Captures::InterleavedWhite, interleaved });
   }
 
   // The tile on which the lamp is measured is also seen by the camera.
-  candidates.push_back(
-    { effectWith(EffectTrait::SpectralGain).separatingCapture, joined(chart, white), again,
-      [](const EffectDefinition& effect) { return effect.has(EffectTrait::SpectralGain); } });
-  candidates.push_back({ "monochromator", chart, again, [](const EffectDefinition& effect) {
+  candidates.push_back({ Captures::LampSpectrum, joined(chart, white), again,
+    [](const EffectDefinition& effect) { return effect.has(EffectTrait::SpectralGain); } });
+  candidates.push_back({ Captures::Monochromator, chart, again, [](const EffectDefinition& effect) {
                           return effect.stage == EffectStage::Responsivity &&
                             !effect.has(EffectTrait::SpectralGain);
                         } });
@@ -504,7 +503,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
       : 0.0;
     if (bits >= LeastBits)
     {
-      captures.push_back({ candidate.name, separates, bits, minutesOf(candidate.name) });
+      captures.push_back({ candidate.kind.name, separates, bits, candidate.kind.minutes });
     }
   }
   sortByWorth(captures);

@@ -16,7 +16,7 @@ namespace msi
 // A capture that may be taken: of a scene, or of this chart again with the effects on a part of the camera known.
 struct CaptureCandidate
 {
-  std::string name;
+  CaptureKind kind;
   SceneSamples samples;  // reflectances on the camera's grid
   SampleList again = {}; // samples of the first capture that it shows again, first in `samples`
   std::function<bool(const EffectDefinition&)> known = nullptr; // empty: none

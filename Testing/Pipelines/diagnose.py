@@ -61,6 +61,10 @@ def check_contract(report, name):
                 f"parameter {parameter}")
     shrinks = [candidate["shrink"] for candidate in report.get("candidates", [{"shrink": "none"}])]
     has(all(map(number, shrinks)) and shrinks == sorted(shrinks, reverse=True), f"candidates {shrinks}")
+    chances = report.get("probabilities", {})
+    has(all(number(chance) and 0 <= chance <= 1 for chance in chances.values()), f"probabilities {chances}")
+    for verdict, name in (("no gap", "nothing"), ("unexplained", "unknown")):
+        has(report["verdict"] != verdict or chances.get(name, 0) >= 0.5, f"{verdict}, but {name} in {chances}")
     left = report.get("unexplained", {})
     has(number(left.get("share")) and isinstance(left.get("where"), str), f"unexplained {left}")
     following = report.get("next_capture", {})
@@ -185,6 +189,7 @@ def check_images(launcher, folder):
     expect(done.returncode == 0, f"image pair: status {done.returncode}: {done.stderr}")
     report = json.loads((folder / "pair-out" / "report.json").read_text(encoding="utf-8"))
     expect(report["verdict"] == "no gap" and not report["causes"], f"image pair: {report['verdict']}")
+    expect(report["probabilities"]["nothing"] >= 0.5, f"image pair: {report['probabilities']}")
     expect((folder / "pair-out" / "gap-map.png").exists(), "image pair: no map")
 
 

@@ -93,21 +93,224 @@ bool actsOnSpectra(const EffectChoice& choice)
     choice.effect->has(EffectTrait::CouplesChannels) || choice.form->has(FormTrait::BesideLine);
 }
 
-// Whether the others alone take most of the gap's energy.
-bool mostlyBesideSpectra(
-  const SampleObservation& observation, const ObservedFit& best, const Eigen::MatrixXd& before)
+// Its steps in their order.
+class TableDiagnosis
 {
-  const std::vector<EffectChoice>& choices = static_cast<const SampleFit&>(best).effects.choices;
-  std::size_t others = 0;
-  for (std::size_t p = 0; p < choices.size(); ++p)
+public:
+  TableDiagnosis(const GapCapture& capture, const GapOptions& options)
+    : Capture(capture)
+    , Options(options)
+    , Data(prepareGapData(capture, options))
+    , Noise(findNoise(Data, capture.noise))
+    , Integration(integrationVariance(Data, capture.wavelengths))
+    , Before(measuredOnly(Data, Data.observed - Data.simulated))
+    , After(Before)
+    , Predicted(static_cast<std::size_t>(Data.folds) + 1)
+    , Steps(options, Data.folds + 4.0)
   {
-    others |= actsOnSpectra(choices[p]) ? 0 : std::size_t(1) << p;
   }
-  const GapData& data = observation.fitter().data();
-  const EffectFit fit = observation.whole(*observation.reduced(best, others));
-  const Eigen::MatrixXd after = measuredOnly(data, data.observed - fit.predicted);
-  return after.squaredNorm() < 0.5 * before.squaredNorm();
-}
+
+  std::optional<GapReport> run()
+  {
+    expectNoise();
+    Choices = choicesFor(Data.scene, Options.without);
+    Observed.emplace(Data, Data.usable, Choices, Options.seed);
+    Options.forAll(Data.folds + 1, [this](int number) { search(number); });
+    if (Steps.stopped())
+    {
+      return std::nullopt;
+    }
+    learnNoise();
+    Report.gap = figuresOf(energiesOf(Data, Data.usable, Before, After),
+      static_cast<double>(Data.elements), Options.seed);
+    Where = shareOverAxes(Data, Before);
+    Report.where = Where.axes;
+    Report.changePoints =
+      OrderBreaks::significant(Observed->fitter(), Data.simulated, MostChangePoints);
+    Steps("axes shared", 1.0);
+    judge();
+    Steps("done", 10.0);
+    return std::move(Report);
+  }
+
+private:
+  // What is known of the noise before effects are.
+  void expectNoise()
+  {
+    Data.variance =
+      Noise.unknown ? unknownVariance(Data, Before) : readingVariance(Data, Noise.reading);
+    Data.variance += Integration;
+    addReflectanceNoise(Options.reflectanceNoise.value_or(0.0));
+    setWeights(Data);
+  }
+
+  // Number 0: among all samples. Others: without one fold, for which the result predicts what is left.
+  void search(int number)
+  {
+    const std::function<bool()> stop = [this] { return Steps("searching for effects"); };
+    if (stop())
+    {
+      return;
+    }
+    SetSearchLimits limits;
+    limits.maximumEffects = Options.maximumCauses;
+    if (number == 0)
+    {
+      Found = searchSets(*Observed, limits, stop);
+      Steps("effects found", 2.0);
+      return;
+    }
+    const SampleList training = samplesOf(Data, number - 1, false);
+    const SampleList heldOut = samplesOf(Data, number - 1, true);
+    const SampleObservation fold(
+      Data, training, Choices, Options.seed + static_cast<std::uint64_t>(number));
+    limits.beamWidth = 1;
+    limits.optionsFitted = 5;
+    limits.exchange = false;
+    const FoundSets result = searchSets(fold, limits, stop);
+    const EffectFit whole = fold.whole(*result.best);
+    Predicted[static_cast<std::size_t>(number - 1)] = whole.predicted;
+    const Eigen::MatrixXd left = leftOfHeldOut(Data, whole, training);
+    After(Eigen::all, heldOut) = left(Eigen::all, heldOut);
+    Steps("checked on samples left out", 1.0);
+  }
+
+  // What the effects leave of samples held out shows the noise better.
+  void learnNoise()
+  {
+    if (Noise.unknown)
+    {
+      Data.variance = Data.variance.cwiseMin(unknownVariance(Data, After) + Integration);
+    }
+    Rest = shareOverAxes(Data, After);
+    const double unpredicted = std::fmin(After.squaredNorm(), Rest.heldOutResidual.squaredNorm());
+    Doubted = limitIntegration(Data, Integration, unpredicted);
+    if (Capture.noise && Noise.degrees == 0.0)
+    {
+      const Eigen::MatrixXd modelled = readingVariance(Data, Noise.reading);
+      Noise.excess = excessScatter(Data, After, modelled, Data.variance - modelled);
+      Noise.unrepeated = Noise.excess > 1.0;
+      Noise.reading.read *= Noise.excess;
+      Noise.reading.shot *= Noise.excess;
+      Data.variance += readingVariance(Data, Noise.reading) - modelled;
+    }
+    ReflectanceNoise = Options.reflectanceNoise.value_or(0.0);
+    if (!Options.reflectanceNoise && !Noise.unknown)
+    {
+      ReflectanceNoise = reflectanceScatter(Data, After, unpredicted);
+      addReflectanceNoise(ReflectanceNoise);
+    }
+  }
+
+  // Whether the causes found count, and what the report says of them.
+  void judge()
+  {
+    const EffectFit best = Observed->whole(*Found.best);
+    const ExcessNoise excess = excessNoise(Data, Noise, Capture.noise, Options.without);
+    Evidence evidence = evidenceOf(best);
+    const bool scatterAlone =
+      evidence.credited == 0.0 && !evidence.gap && excess.energy > 0.0 && excess.belief == 0.0;
+    evidence.gap = evidence.gap || scatterAlone;
+    const double ofNoise = partOf(excess, Report.gap);
+    evidence.explained = (1.0 - ofNoise) * evidence.explained + ofNoise * excess.belief;
+    Predicted.back() = best.predicted;
+    if (evidence.credited > 0.0)
+    {
+      Report.correction = found().simulated();
+      Report.whiteAfterEffects = found().whiteAfterEffects();
+    }
+    else
+    {
+      After = Before;
+      std::fill(Predicted.begin(), Predicted.end(), Data.simulated);
+    }
+    const std::vector<Explanation> explanations =
+      conclude(Report, *Observed, Found, evidence, Options.seed);
+    if (Report.verdict != GapVerdict::NoGap)
+    {
+      addRest(Report, Data, Predicted, Options, After);
+      Report.nextCaptures =
+        nextCaptures(*Observed, explanations, inQuestion(Report.causes), Options.seed);
+    }
+    if (scatterAlone)
+    {
+      Report.unexplained.where = whereOf(Noise);
+    }
+    addExcessNoise(Report, Data, Noise, excess);
+    Report.notes = notesOn(Data, Capture, Noise, ReflectanceNoise, Report);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    Report.gapBefore = Data.measured().select(Before, nan);
+    Report.gapAfter = Data.measured().select(After, nan);
+  }
+
+  Evidence evidenceOf(const EffectFit& best)
+  {
+    Evidence evidence;
+    if (best.set.size() > 0)
+    {
+      const double shrink = Report.gap.shrink;
+      evidence.noticed = shrink > 0.0 ? noticed(Data, Before, After, Integration) : 0.0;
+      if (shrink > 0.0 && (evidence.noticed > 1.0 || mostlyBesideSpectra()))
+      {
+        evidence.credited = evidence.explained = shrink;
+        evidence.rest = Rest.axes;
+        return evidence;
+      }
+      // All samples took part in the choice.
+      const double alone = shrinkOf(Observed->energies(best));
+      if (alone >= Decision::ExplainedShrink && inFewSamples(Data, best.predicted - Data.simulated))
+      {
+        Report.unconfirmed = true;
+        evidence.credited = Decision::Unconfirmed * alone;
+        evidence.explained = shrink;
+        evidence.rest = Where.axes;
+        return evidence;
+      }
+    }
+    // What the axes predict; or what nothing predicts, but that neither noise nor sums over wavelength make.
+    evidence.gap = (predictable(Data, Before, Where) &&
+                     Where.predictable > negligibleEnergy(Data, After, Integration)) ||
+      Report.gap.rmsBefore >
+        Decision::BeyondNoise * std::hypot(Report.gap.noiseFloor, std::sqrt(Doubted));
+    return evidence;
+  }
+
+  // Whether causes that errors of the sums over wavelength do not look like take most of the gap's energy alone.
+  bool mostlyBesideSpectra() const
+  {
+    std::size_t others = 0;
+    for (std::size_t p = 0; p < found().size(); ++p)
+    {
+      others |= actsOnSpectra(found().choices[p]) ? 0 : std::size_t(1) << p;
+    }
+    const EffectFit fit = Observed->whole(*Observed->reduced(*Found.best, others));
+    return measuredOnly(Data, Data.observed - fit.predicted).squaredNorm() <
+      0.5 * Before.squaredNorm();
+  }
+
+  const EffectSet& found() const { return static_cast<const SampleFit&>(*Found.best).effects; }
+
+  void addReflectanceNoise(double deviation)
+  {
+    Data.variance.colwise() += deviation * deviation * reflectanceErrorGain(Data.camera);
+  }
+
+  const GapCapture& Capture;
+  const GapOptions& Options;
+  GapData Data;
+  NoiseFinding Noise;
+  Eigen::MatrixXd Integration;   // variance of errors of the sums over wavelength
+  Eigen::MatrixXd Before, After; // real minus simulated; with the causes, of samples held out
+  std::vector<Eigen::MatrixXd> Predicted; // of each fold, and last by all samples
+  std::vector<EffectChoice> Choices;
+  std::optional<SampleObservation> Observed;
+  FoundSets Found;
+  AxisShares Where, Rest;
+  double Doubted = 0.0; // variance that sums over wavelength were taken to have and do not
+  double ReflectanceNoise = 0.0;
+  GapReport Report;
+  Progress Steps;
+};
 }
 
 void GapOptions::forAll(int count, const std::function<void(int)>& body) const
@@ -126,160 +329,7 @@ void GapOptions::forAll(int count, const std::function<void(int)>& body) const
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
 {
   requireKnown(options.without);
-  GapData data = prepareGapData(capture, options);
-  NoiseFinding noise = findNoise(data, capture.noise);
-  const Eigen::MatrixXd before = measuredOnly(data, data.observed - data.simulated);
-  data.variance =
-    noise.unknown ? unknownVariance(data, before) : readingVariance(data, noise.reading);
-  const Eigen::MatrixXd integration = integrationVariance(data, capture.wavelengths);
-  data.variance += integration;
-  if (options.reflectanceNoise)
-  {
-    data.variance.colwise() +=
-      *options.reflectanceNoise * *options.reflectanceNoise * reflectanceErrorGain(data.camera);
-  }
-  setWeights(data);
-
-  GapReport report;
-  Progress progress(options, data.folds + 4.0);
-  const std::vector<EffectChoice> choices = choicesFor(data.scene, options.without);
-  const SampleObservation observation(data, data.usable, choices, options.seed);
-  FoundSets found;
-  Eigen::MatrixXd after = before;
-  std::vector<Eigen::MatrixXd> predicted(static_cast<std::size_t>(data.folds) + 1);
-  const std::function<bool()> stop = [&progress] { return progress("searching for effects"); };
-  const auto job = [&](int number)
-  {
-    if (stop())
-    {
-      return;
-    }
-    SetSearchLimits limits;
-    limits.maximumEffects = options.maximumCauses;
-    if (number == 0)
-    {
-      found = searchSets(observation, limits, stop);
-      progress("effects found", 2.0);
-      return;
-    }
-    const SampleList training = samplesOf(data, number - 1, false);
-    const SampleList heldOut = samplesOf(data, number - 1, true);
-    const SampleObservation fold(
-      data, training, choices, options.seed + static_cast<std::uint64_t>(number));
-    limits.beamWidth = 1;
-    limits.optionsFitted = 5;
-    limits.exchange = false;
-    const FoundSets result = searchSets(fold, limits, stop);
-    const EffectFit whole = fold.whole(*result.best);
-    predicted[static_cast<std::size_t>(number - 1)] = whole.predicted;
-    const Eigen::MatrixXd left = leftOfHeldOut(data, whole, training);
-    after(Eigen::all, heldOut) = left(Eigen::all, heldOut);
-    progress("checked on samples left out", 1.0);
-  };
-  options.forAll(data.folds + 1, job);
-  if (progress.stopped())
-  {
-    return std::nullopt;
-  }
-
-  if (noise.unknown)
-  {
-    data.variance = data.variance.cwiseMin(unknownVariance(data, after) + integration);
-  }
-  const AxisShares rest = shareOverAxes(data, after);
-  const double unpredicted = std::fmin(after.squaredNorm(), rest.heldOutResidual.squaredNorm());
-  const double doubted = limitIntegration(data, integration, unpredicted);
-  if (capture.noise && noise.degrees == 0.0)
-  {
-    const Eigen::MatrixXd modelled = readingVariance(data, noise.reading);
-    noise.excess = excessScatter(data, after, modelled, data.variance - modelled);
-    noise.unrepeated = noise.excess > 1.0;
-    noise.reading.read *= noise.excess;
-    noise.reading.shot *= noise.excess;
-    data.variance += readingVariance(data, noise.reading) - modelled;
-  }
-  double reflectanceNoise = options.reflectanceNoise.value_or(0.0);
-  if (!options.reflectanceNoise && !noise.unknown)
-  {
-    reflectanceNoise = reflectanceScatter(data, after, unpredicted);
-    data.variance.colwise() +=
-      reflectanceNoise * reflectanceNoise * reflectanceErrorGain(data.camera);
-  }
-  report.gap = figuresOf(
-    energiesOf(data, data.usable, before, after), static_cast<double>(data.elements), options.seed);
-  const AxisShares where = shareOverAxes(data, before);
-  report.where = where.axes;
-  report.changePoints =
-    OrderBreaks::significant(observation.fitter(), data.simulated, MostChangePoints);
-  progress("axes shared", 1.0);
-
-  const bool causes = !found.best->set.empty();
-  const EffectFit best = observation.whole(*found.best);
-  const double alone = shrinkOf(observation.energies(best)); // all samples took part in the choice
-  const ExcessNoise excess = excessNoise(data, noise, capture.noise, options.without);
-  const double ofNoise = partOf(excess, report.gap);
-  Evidence evidence;
-  bool scatterAlone = false;
-  if (causes)
-  {
-    evidence.noticed = report.gap.shrink > 0.0 ? noticed(data, before, after, integration) : 0.0;
-  }
-  if (causes && report.gap.shrink > 0.0 &&
-    (evidence.noticed > 1.0 || mostlyBesideSpectra(observation, *found.best, before)))
-  {
-    evidence.credited = report.gap.shrink;
-    evidence.rest = rest.axes;
-  }
-  else if (causes && alone >= Decision::ExplainedShrink &&
-    inFewSamples(data, best.predicted - data.simulated))
-  {
-    report.unconfirmed = true;
-    evidence.credited = Decision::Unconfirmed * alone;
-    evidence.rest = where.axes;
-  }
-  else
-  {
-    // What the axes predict; or what nothing predicts, but that neither noise nor sums over wavelength make.
-    evidence.gap = (predictable(data, before, where) &&
-                     where.predictable > negligibleEnergy(data, after, integration)) ||
-      report.gap.rmsBefore >
-        Decision::BeyondNoise * std::hypot(report.gap.noiseFloor, std::sqrt(doubted));
-    scatterAlone = !evidence.gap && excess.energy > 0.0 && excess.belief == 0.0;
-    evidence.gap = evidence.gap || scatterAlone;
-  }
-  evidence.explained =
-    (1.0 - ofNoise) * (evidence.credited > 0.0 ? report.gap.shrink : 0.0) + ofNoise * excess.belief;
-  predicted.back() = best.predicted;
-  if (evidence.credited > 0.0)
-  {
-    const EffectSet& effects = static_cast<const SampleFit&>(*found.best).effects;
-    report.correction = effects.simulated();
-    report.whiteAfterEffects = effects.whiteAfterEffects();
-  }
-  else
-  {
-    after = before;
-    std::fill(predicted.begin(), predicted.end(), data.simulated);
-  }
-  const std::vector<Explanation> explanations =
-    conclude(report, observation, found, evidence, options.seed);
-  if (report.verdict != GapVerdict::NoGap)
-  {
-    addRest(report, data, predicted, options, after);
-    report.nextCaptures =
-      nextCaptures(observation, explanations, inQuestion(report.causes), options.seed);
-  }
-  if (scatterAlone)
-  {
-    report.unexplained.where = whereOf(noise);
-  }
-  addExcessNoise(report, data, noise, excess);
-  report.notes = notesOn(data, capture, noise, reflectanceNoise, report);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  report.gapBefore = data.measured().select(before, nan);
-  report.gapAfter = data.measured().select(after, nan);
-  progress("done", 10.0);
-  return report;
+  return TableDiagnosis(capture, options).run();
 }
 
 } // namespace msi

@@ -38,19 +38,6 @@ std::string joined(const std::vector<std::string>& words)
   return text;
 }
 
-// "sample 12" as the name of the 12th sample.
-std::string named(const std::string& cell, const std::vector<std::string>& names)
-{
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    if (cell == "sample " + std::to_string(i + 1))
-    {
-      return names[i];
-    }
-  }
-  return cell;
-}
-
 struct EffectTexts
 {
   std::string title, meaning, formula;
@@ -104,23 +91,6 @@ Eigen::VectorXd rmsOfSamples(const Eigen::MatrixXd& gap)
   }
   return rms;
 }
-}
-
-void nameSamples(GapReport& report, const std::vector<std::string>& names)
-{
-  for (GapAxis& axis : report.where)
-  {
-    for (GapCell& cell : axis.worst)
-    {
-      cell.cell = axis.axis == "sample" ? named(cell.cell, names) : cell.cell;
-    }
-  }
-  const std::string axis = "sample ";
-  std::string& rest = report.unexplained.where;
-  if (rest.compare(0, axis.size(), axis) == 0)
-  {
-    rest = axis + named(rest.substr(axis.size()), names);
-  }
 }
 
 void writeSummary(const GapReport& report, vtkTable* table)
@@ -275,22 +245,22 @@ void writeHeatMap(const GapReport& report, const GapCapture& capture, vtkTable* 
   }
 }
 
-void writeTrend(const GapReport& report, const NamedGapCapture& named, vtkTable* table)
+void writeTrend(const GapReport& report, const GapCapture& capture, vtkTable* table)
 {
   TableRows rows(table,
     { { "order", NumberColumn }, { "sample", TextColumn }, { "gap_before", NumberColumn },
       { "gap_after", NumberColumn }, { "level", NumberColumn } });
-  const GapTrend trend = trendOf(named.capture.samples, report, simulatedResponses(named.capture));
+  const GapTrend trend = trendOf(capture.samples, report, simulatedResponses(capture));
   for (std::size_t i = 0; i < trend.sample.size(); ++i)
   {
     const auto at = static_cast<Eigen::Index>(i);
-    rows.add({ trend.order[at], named.sampleNames[static_cast<std::size_t>(trend.sample[i])],
+    rows.add({ trend.order[at], capture.names[static_cast<std::size_t>(trend.sample[i])],
       trend.before[at], trend.after[at], trend.level[at] });
   }
 }
 
 void writeSamples(
-  const GapReport& report, const NamedGapCapture& named, vtkTable* samples, vtkTable* table)
+  const GapReport& report, const GapCapture& capture, vtkTable* samples, vtkTable* table)
 {
   std::set<std::string> spectral;
   for (const auto quantity : { SampleQuantity::Reflectance, SampleQuantity::Response })
@@ -308,12 +278,12 @@ void writeSamples(
       table->AddColumn(samples->GetColumn(i));
     }
   }
-  const Eigen::MatrixXd simulated = simulatedResponses(named.capture);
+  const Eigen::MatrixXd simulated = simulatedResponses(capture);
   setNumbers(table, "gap_before", relativeGap(report.gapBefore, simulated));
   setNumbers(table, "gap_after", relativeGap(report.gapAfter, simulated));
   setNumbers(table, "rms_before", rmsOfSamples(report.gapBefore));
   setNumbers(table, "rms_after", rmsOfSamples(report.gapAfter));
-  const auto& channels = named.capture.camera.channels();
+  const auto& channels = capture.camera.channels();
   for (std::size_t k = 0; k < channels.size(); ++k)
   {
     const auto row = static_cast<Eigen::Index>(k);

@@ -11,9 +11,6 @@ class vtkTable;
 namespace msi
 {
 
-// Cells of the axis `sample` are numbered by the diagnosis: their names from the samples table.
-void nameSamples(GapReport& report, const std::vector<std::string>& names);
-
 // One row; field data Report: the text of report.json.
 void writeSummary(const GapReport& report, vtkTable* table);
 // Field data Effects of a table: the correction as the text of an effect list, where there is one.
@@ -28,10 +25,10 @@ void writeNotes(const GapReport& report, vtkTable* table);
 
 // One row a channel and sample group.
 void writeHeatMap(const GapReport& report, const GapCapture& capture, vtkTable* table);
-void writeTrend(const GapReport& report, const NamedGapCapture& capture, vtkTable* table);
+void writeTrend(const GapReport& report, const GapCapture& capture, vtkTable* table);
 // The metadata of the samples, and the gap of each.
 void writeSamples(
-  const GapReport& report, const NamedGapCapture& capture, vtkTable* samples, vtkTable* table);
+  const GapReport& report, const GapCapture& capture, vtkTable* samples, vtkTable* table);
 void writeCorrectedCamera(const GapReport& report, vtkTable* camera, vtkTable* table);
 
 } // namespace msi

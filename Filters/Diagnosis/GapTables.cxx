@@ -176,7 +176,7 @@ void requireUsefulReadings(const Eigen::MatrixXd& readings, const std::vector<in
 }
 }
 
-NamedGapCapture gapCaptureOf(vtkTable* cameraTable, vtkTable* samples, vtkTable* responses)
+GapCapture gapCaptureOf(vtkTable* cameraTable, vtkTable* samples, vtkTable* responses)
 {
   const CameraTable camera = readCamera(cameraTable, CameraName);
   requireNoEffects(camera);
@@ -217,9 +217,8 @@ NamedGapCapture gapCaptureOf(vtkTable* cameraTable, vtkTable* samples, vtkTable*
     scene.x.resize(0);
     scene.y.resize(0);
   }
-  return { { camera.camera, *reflectance.axis.wavelengths, std::move(scene),
-             std::move(readings.values), std::move(sampleOf), camera.noise },
-    std::move(names) };
+  return { camera.camera, *reflectance.axis.wavelengths, std::move(scene),
+    std::move(readings.values), std::move(sampleOf), camera.noise, std::move(names) };
 }
 
 } // namespace msi

@@ -121,9 +121,8 @@ std::vector<Eigen::Index> spreadSamples(const GapCapture& capture, Eigen::Index 
   return result;
 }
 
-NamedGapCapture capturedSubset(const NamedGapCapture& all, const std::vector<Eigen::Index>& samples)
+GapCapture capturedSubset(const GapCapture& from, const std::vector<Eigen::Index>& samples)
 {
-  const GapCapture& from = all.capture;
   std::vector<int> place(static_cast<std::size_t>(from.samples.reflectance.cols()), -1);
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
@@ -144,9 +143,8 @@ NamedGapCapture capturedSubset(const NamedGapCapture& all, const std::vector<Eig
     chosenOf(from.samples.medium, samples), chosenOf(from.samples.scene, samples),
     chosenOf(from.samples.x, samples), chosenOf(from.samples.y, samples),
     chosenOf(from.samples.order, samples) };
-  return { { from.camera, from.wavelengths, std::move(scene), from.readings(Eigen::all, readings),
-             std::move(sampleOf), from.noise },
-    chosenOf(all.sampleNames, samples) };
+  return { from.camera, from.wavelengths, std::move(scene), from.readings(Eigen::all, readings),
+    std::move(sampleOf), from.noise, chosenOf(from.names, samples) };
 }
 
 } // namespace msi

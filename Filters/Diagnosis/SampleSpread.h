@@ -17,8 +17,7 @@ namespace msi
 std::vector<Eigen::Index> spreadSamples(const GapCapture& capture, Eigen::Index most);
 
 // The capture with these samples and their readings alone.
-NamedGapCapture capturedSubset(
-  const NamedGapCapture& all, const std::vector<Eigen::Index>& samples);
+GapCapture capturedSubset(const GapCapture& from, const std::vector<Eigen::Index>& samples);
 
 } // namespace msi
 

@@ -107,7 +107,7 @@ int vtkSimToRealGap::RequestData(
       auto* camera = vtkTable::GetData(inputs[0]);
       auto* samples = vtkTable::GetData(inputs[1]);
       auto* responses = vtkTable::GetData(inputs[2]);
-      msi::NamedGapCapture named = msi::gapCaptureOf(camera, samples, responses);
+      msi::GapCapture capture = msi::gapCaptureOf(camera, samples, responses);
 
       msi::GapOptions options;
       options.without = this->Without;
@@ -119,36 +119,35 @@ int vtkSimToRealGap::RequestData(
       {
         options.reflectanceNoise = this->ReflectanceNoise;
       }
-      const auto all = named.capture.samples.reflectance.cols();
+      const auto all = capture.samples.reflectance.cols();
       vtkNew<vtkTable> chosen;
       if (this->MaximumSamples > 0 && all > this->MaximumSamples)
       {
-        const auto rows = msi::spreadSamples(named.capture, this->MaximumSamples);
-        named = msi::capturedSubset(named, rows);
+        const auto rows = msi::spreadSamples(capture, this->MaximumSamples);
+        capture = msi::capturedSubset(capture, rows);
         msi::copyRows(samples, rows, chosen);
         samples = chosen;
-        if (named.capture.samples.x.size() > 0)
+        if (capture.samples.x.size() > 0)
         {
           leaveOutNeighbours(options.without);
         }
       }
-      msi::GapReport report = msi::runDiagnosis(this, named.capture, options);
-      const auto used = named.capture.samples.reflectance.cols();
+      msi::GapReport report = msi::runDiagnosis(this, capture, options);
+      const auto used = capture.samples.reflectance.cols();
       if (used < all)
       {
         report.notes.insert(
-          report.notes.begin(), noteOnSubset(used, all, named.capture.samples.x.size() > 0));
+          report.notes.begin(), noteOnSubset(used, all, capture.samples.x.size() > 0));
       }
-      msi::nameSamples(report, named.sampleNames);
 
       const auto output = [outputs](OutputPort port) { return vtkTable::GetData(outputs, port); };
       msi::writeSummary(report, output(SUMMARY));
       msi::writeWhere(report, output(WHERE));
       msi::writeCauses(report, output(CAUSES));
       msi::writeCandidates(report, output(CANDIDATES));
-      msi::writeHeatMap(report, named.capture, output(HEAT_MAP));
-      msi::writeTrend(report, named, output(TREND));
-      msi::writeSamples(report, named, samples, output(SAMPLES));
+      msi::writeHeatMap(report, capture, output(HEAT_MAP));
+      msi::writeTrend(report, capture, output(TREND));
+      msi::writeSamples(report, capture, samples, output(SAMPLES));
       msi::writeCorrectedCamera(report, camera, output(CORRECTED_CAMERA));
       msi::writeNotes(report, output(NOTES));
     });

@@ -29,6 +29,7 @@ struct GapCapture
   Eigen::MatrixXd readings;         // K x R, what the real camera answered; NaN: not measured
   std::vector<int> sampleOf;        // R, the sample of each reading; repeats name a sample again
   std::optional<CameraNoise> noise; // read and shot of a reading; empty: the repeats decide
+  std::vector<std::string> names{}; // S, of the samples; empty: "sample 1", ..
 };
 
 struct GapOptions

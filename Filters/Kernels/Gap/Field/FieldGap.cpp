@@ -5,6 +5,7 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldObservation.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
+#include "Kernels/Gap/MixUps.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
@@ -21,6 +22,7 @@ namespace msi
 namespace
 {
 constexpr double FewUsable = 0.5;
+constexpr int RasterSide = 32; // on which an image is looked at as a whole
 
 // Sets of an image pair that are kept on the way, and options fitted in full for each: previews are cross-validated and good.
 constexpr int PairBeamWidth = 2;
@@ -175,10 +177,42 @@ std::vector<std::string> indistinctEffects(
   return found;
 }
 
+// Means over a raster, K x cells, row after row; NaN where a cell has no value.
+Eigen::MatrixXd rasterOf(const FieldPair& pair, const float* image, int width, int height)
+{
+  const auto K = static_cast<Eigen::Index>(pair.channels.size());
+  Eigen::ArrayXXd sum = Eigen::ArrayXXd::Zero(K, Eigen::Index{ width } * height);
+  Eigen::ArrayXXd count = sum;
+  for (int y = 0; y < pair.extent.height; ++y)
+  {
+    for (int x = 0; x < pair.extent.width; ++x)
+    {
+      const float* values = image + pair.index(x, y) * static_cast<std::size_t>(K);
+      const Eigen::Index cell = Eigen::Index{ y } * height / pair.extent.height * width +
+        Eigen::Index{ x } * width / pair.extent.width;
+      for (Eigen::Index k = 0; k < K; ++k)
+      {
+        const bool known = std::isfinite(values[k]);
+        sum(k, cell) += known ? static_cast<double>(values[k]) : 0.0;
+        count(k, cell) += known ? 1.0 : 0.0;
+      }
+    }
+  }
+  return sum / count;
+}
+
+std::vector<std::string> mixUpsOf(const FieldPair& pair)
+{
+  const int width = std::min(RasterSide, pair.extent.width);
+  const int height = std::min(RasterSide, pair.extent.height);
+  return mixUps(rasterOf(pair, pair.real, width, height),
+    rasterOf(pair, pair.simulated, width, height), arrangementsOf(width, height), pair.channels);
+}
+
 std::vector<std::string> notesOn(
   const FieldData& data, const FieldFinding& finding, const std::vector<FieldChoice>& choices)
 {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = mixUpsOf(data.pair);
   const FieldSet& set = finding.set();
   for (const std::string& effect : indistinctEffects(data, finding.before(), choices))
   {

@@ -274,7 +274,7 @@ std::string sampleCell(const GapData& data, const std::string& axis, Eigen::Inde
     : axis == "scene"     ? scene.scenes()[static_cast<std::size_t>(scene.scene()[sample])]
     : axis == "position"  ? part("x", scene.samples().x, 3) + ", " + part("y", scene.samples().y, 3)
     : axis == "order"     ? part("order", scene.samples().order, 5)
-                          : "sample " + std::to_string(i + 1);
+                          : data.names[sample];
 }
 
 // The cells of an axis with the largest shares of the gap's energy: those of samples, channels, fifths of the level.

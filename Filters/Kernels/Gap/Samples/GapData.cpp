@@ -40,6 +40,10 @@ void validate(const GapCapture& capture)
         " but there are only ", samples, " samples, counted from 0");
     }
   }
+  if (!capture.names.empty() && static_cast<Eigen::Index>(capture.names.size()) != samples)
+  {
+    reject("there are ", samples, " samples but ", capture.names.size(), " names for them");
+  }
   if (capture.samples.reflectance.rows() != capture.wavelengths.size())
   {
     reject("the samples' reflectances have ", capture.samples.reflectance.rows(),
@@ -131,7 +135,12 @@ void fillInUnknown(SceneSamples& samples)
 GapData prepareGapData(const GapCapture& capture, const GapOptions& options)
 {
   validate(capture);
-  GapData data{ capture.camera, alignedScene(capture), {}, {}, {}, {}, {}, {}, {}, {}, 0, 0 };
+  GapData data{ capture.camera, alignedScene(capture), capture.names, {}, {}, {}, {}, {}, {}, {},
+    {}, 0, 0 };
+  for (Eigen::Index i = static_cast<Eigen::Index>(data.names.size()); i < data.scene.size(); ++i)
+  {
+    data.names.push_back("sample " + std::to_string(i + 1));
+  }
   averageReadings(capture, data);
   data.simulated = cameraResponse(data.camera)(data.scene.reflectance());
   for (Eigen::Index j = 0; j < data.samples(); ++j)

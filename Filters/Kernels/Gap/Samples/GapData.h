@@ -17,7 +17,8 @@ using SampleList = std::vector<Eigen::Index>; // numbers of samples, ascending
 struct GapData
 {
   CameraModel camera;
-  SampleScene scene; // on the camera's grid
+  SampleScene scene;              // on the camera's grid
+  std::vector<std::string> names; // of the samples
   Eigen::MatrixXd observed;
   Eigen::MatrixXd count;     // readings behind each element
   Eigen::MatrixXd scatter;   // sum of squared deviations of the readings from their mean

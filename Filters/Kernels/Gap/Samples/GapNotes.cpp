@@ -1,11 +1,13 @@
 #include "Kernels/Gap/Samples/GapNotes.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/MixUps.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/GapEvidence.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace msi
 {
@@ -153,6 +155,13 @@ void noteWhite(std::vector<std::string>& notes, const CameraModel& camera)
   }
 }
 
+std::vector<std::string> noteMixUps(const GapData& data)
+{
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return mixUps(data.measured().select(data.observed, none), data.simulated,
+    arrangementsOf(data.scene), data.camera.channels(), data.names);
+}
+
 void noteSaturation(std::vector<std::string>& notes, const GapData& data)
 {
   const double top = data.observed.maxCoeff();
@@ -264,7 +273,7 @@ void addExcessNoise(
 std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise, const GapReport& report)
 {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = noteMixUps(data);
   noteNoise(notes, capture, noise, reflectanceNoise);
   noteScene(notes, data, capture.samples);
   noteSamples(notes, data, report);

@@ -1,0 +1,32 @@
+// Readings that seem to belong to other samples, places or channels than they are said to: a chart the other way round, filters in
+// another order.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace msi
+{
+
+class SampleScene;
+
+// Another order of samples or places. instead: of each column the one that it is taken for.
+struct Arrangement
+{
+  std::string what; // "in reverse order"
+  std::vector<Eigen::Index> instead;
+};
+// In reverse order, shifted by one; where there are positions, mirrored and turned by 180 degrees.
+std::vector<Arrangement> arrangementsOf(const SampleScene& scene);
+// Of the cells of a raster, row after row.
+std::vector<Arrangement> arrangementsOf(Eigen::Index width, Eigen::Index height);
+
+// In words, what fits much better than as told: a quarter of the squares left, after a gain of each channel. Empty: nothing.
+// observed, simulated: K x S, NaN: not measured. channels, columns: K and S names; without columns no single ones are looked at.
+std::vector<std::string> mixUps(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+  const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
+  const std::vector<std::string>& columns = {});
+
+} // namespace msi

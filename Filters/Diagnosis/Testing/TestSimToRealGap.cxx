@@ -4,6 +4,7 @@
 #include "Support/vtk/Runs.h"
 
 #include "vtkFieldData.h"
+#include "vtkStringArray.h"
 
 #include "Formats/EffectList.h"
 
@@ -118,6 +119,21 @@ TEST_F(SimToRealGap, TrendFollowsTheOrder)
     EXPECT_NEAR(cell(trend, row, "level"), Gain - 1.0, 0.01); // no change point
   }
   EXPECT_EQ(textCell(trend, 0, "sample"), "s39");
+}
+
+TEST_F(SimToRealGap, SamplesThatWereExchangedAreNamed)
+{
+  auto* names = vtkStringArray::SafeDownCast(Tables.responses->GetColumnByName("sample"));
+  names->SetValue(3, "s18");
+  names->SetValue(18, "s3");
+  Gap->Update();
+  auto* summary = output(vtkSimToRealGap::SUMMARY);
+  EXPECT_EQ(textCell(summary, 0, "verdict"), "unexplained");
+  const std::string where = textCell(summary, 0, "unexplained_where");
+  EXPECT_TRUE(where == "sample s3" || where == "sample s18") << where;
+  EXPECT_EQ(texts(vtkSimToRealGap::NOTES, "note")
+              .count("Mixed up? Samples s3 and s18 fit much better when they are exchanged."),
+    1u);
 }
 
 TEST_F(SimToRealGap, HeatMapHasEveryChannelOfEveryGroup)

@@ -69,7 +69,7 @@ using Pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
 std::string exchanged(const char* what, const Pairs& pairs, const std::vector<std::string>& names)
 {
-  std::string text = std::string(what);
+  std::string text = what;
   for (std::size_t p = 0; p < std::min(pairs.size(), PairsNamed); ++p)
   {
     text += (p == 0 ? " " : ", ") + names[static_cast<std::size_t>(pairs[p].first)] + " and " +
@@ -107,11 +107,11 @@ void lookAtChannels(std::vector<std::string>& found, const Eigen::MatrixXd& obse
   if (K > 3 && 2 * static_cast<Eigen::Index>(pairs.size()) >= K - 1 &&
     std::all_of(pairs.begin(), pairs.end(), isReversed))
   {
-    found.emplace_back("Mixed up? The readings fit the channels much better in reverse order.");
+    found.emplace_back("Mixed up? The channels fit much better in reverse order.");
   }
   else if (!pairs.empty())
   {
-    found.push_back(exchanged("Mixed up? The readings of", pairs, channels));
+    found.push_back(exchanged("Mixed up? Channels", pairs, channels));
   }
 }
 
@@ -141,11 +141,10 @@ void lookAtColumns(std::vector<std::string>& found, const Eigen::MatrixXd& obser
   {
     for (Eigen::Index b = a + 1; b < observed.cols(); ++b)
     {
-      const double asTold = own[static_cast<std::size_t>(a)] + own[static_cast<std::size_t>(b)];
-      const bool far =
-        std::fmin(own[static_cast<std::size_t>(a)], own[static_cast<std::size_t>(b)]) > outlier;
-      if (far && taken.count(a) + taken.count(b) == 0 &&
-        off(a, b) + off(b, a) < MuchBetter * asTold)
+      const double asTold =
+        std::fmin(own[static_cast<std::size_t>(a)], own[static_cast<std::size_t>(b)]);
+      if (asTold > outlier && taken.count(a) + taken.count(b) == 0 &&
+        std::fmax(off(a, b), off(b, a)) < std::fmin(MuchBetter * asTold, outlier))
       {
         pairs.emplace_back(a, b);
         taken.insert({ a, b });
@@ -154,7 +153,7 @@ void lookAtColumns(std::vector<std::string>& found, const Eigen::MatrixXd& obser
   }
   if (!pairs.empty())
   {
-    found.push_back(exchanged("Mixed up? The readings of", pairs, columns));
+    found.push_back(exchanged("Mixed up? Samples", pairs, columns));
   }
 }
 }
@@ -232,7 +231,9 @@ std::vector<std::string> mixUps(const Eigen::MatrixXd& observed, const Eigen::Ma
     if (left < least)
     {
       least = left;
-      found = { "Mixed up? The readings fit much better " + arrangement.what + "." };
+      found = { (columns.empty() ? "Mixed up? The real image fits much better "
+                                 : "Mixed up? The samples fit much better ") +
+        arrangement.what + "." };
     }
   }
   if (!found.empty())
@@ -248,8 +249,12 @@ std::vector<std::string> mixUps(const Eigen::MatrixXd& observed, const Eigen::Ma
   }
   if (found.empty() && together < HardlyTogether)
   {
-    found.emplace_back("Mixed up? The readings hardly go with what is simulated: do they belong to "
-                       "these samples and channels, in this order?");
+    found.emplace_back(columns.empty()
+        ? "Mixed up? The real image hardly goes with the simulated one: is it the same scene, in "
+          "the "
+          "same place?"
+        : "Mixed up? The readings hardly go with the samples: do they belong to these, in this "
+          "order?");
   }
   else if (found.empty() && !columns.empty())
   {

@@ -94,6 +94,26 @@ TEST(FieldGap, SeveralEffectsAtOnce)
   expectParameter(report, "defocus", "blur", 1.0, 0.03);
 }
 
+TEST(FieldGap, AnImageUpsideDownIsSaidToBe)
+{
+  const TestScene scene(14);
+  TestPair pair = changed(scene, 25, [](double u, int, int, int, double) { return u; });
+  const auto said = [&pair]
+  {
+    const std::vector<std::string> notes = diagnose(pair).notes;
+    return std::count(notes.begin(), notes.end(),
+      "Mixed up? The real image fits much better upside down.");
+  };
+  EXPECT_EQ(said(), 0);
+  const auto row = static_cast<std::ptrdiff_t>(pair.extent.width * scene.channels());
+  for (std::ptrdiff_t y = 0; y < pair.extent.height / 2; ++y)
+  {
+    std::swap_ranges(pair.real.begin() + y * row, pair.real.begin() + (y + 1) * row,
+      pair.real.end() - (y + 1) * row);
+  }
+  EXPECT_EQ(said(), 1);
+}
+
 TEST(FieldGap, QuietWithoutEffect)
 {
   // Twelve scenes tell a false-alarm rate; under the sanitizers three are enough to run every path.

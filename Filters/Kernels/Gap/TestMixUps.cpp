@@ -1,0 +1,137 @@
+#include "Kernels/Gap/MixUps.h"
+
+#include "Kernels/Gap/Samples/GapTestData.h"
+#include "Kernels/Numerics/CounterRandom.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace
+{
+
+using namespace msi::test;
+
+// 4 channels of 60 drawn samples; each channel is seen with a gain of its own and a little noise.
+class MixUps : public ::testing::Test
+{
+protected:
+  MixUps()
+    : Simulated(Eigen::MatrixXd::NullaryExpr(4, Count,
+        [](Eigen::Index k, Eigen::Index i)
+        {
+          const msi::CounterRandom random(3);
+          // Channels go together, as those of a camera do.
+          return 0.2 + 0.5 * random.uniform(static_cast<std::uint64_t>(i)) +
+            0.2 * random.uniform(static_cast<std::uint64_t>(1000 + 100 * k + i));
+        }))
+    , Observed(Simulated)
+  {
+    const msi::CounterRandom random(4);
+    for (Eigen::Index j = 0; j < Observed.size(); ++j)
+    {
+      Observed(j) += 0.002 * random.normal(static_cast<std::uint64_t>(j));
+    }
+    Observed.array().colwise() *= Eigen::Array4d(0.8, 1.0, 1.3, 0.9);
+    for (Eigen::Index i = 0; i < Count; ++i)
+    {
+      Names.push_back("s" + std::to_string(i));
+    }
+  }
+  std::vector<std::string> found() const
+  {
+    std::vector<msi::Arrangement> arrangements{ { "in reverse order", {} } };
+    for (Eigen::Index i = 0; i < Count; ++i)
+    {
+      arrangements.front().instead.push_back(Count - 1 - i);
+    }
+    return mixUps(Observed, Simulated, arrangements, { "A", "B", "C", "D" }, Names);
+  }
+
+  static constexpr Eigen::Index Count = 60;
+  Eigen::MatrixXd Simulated, Observed;
+  std::vector<std::string> Names;
+};
+
+using Texts = std::vector<std::string>;
+
+TEST_F(MixUps, GainsAndMissingReadingsAreNone)
+{
+  EXPECT_EQ(found(), Texts());
+  Observed.col(7).setConstant(std::numeric_limits<double>::quiet_NaN());
+  Observed(2, 20) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(found(), Texts());
+}
+
+TEST_F(MixUps, SamplesInReverseOrder)
+{
+  Observed.rowwise().reverseInPlace();
+  EXPECT_EQ(found(), Texts{ "Mixed up? The samples fit much better in reverse order." });
+}
+
+TEST_F(MixUps, TwoSamplesExchanged)
+{
+  Eigen::Index darkest = 0;
+  Eigen::Index brightest = 0;
+  Simulated.row(0).minCoeff(&darkest);
+  Simulated.row(0).maxCoeff(&brightest);
+  Observed.col(darkest).swap(Observed.col(brightest));
+  const auto [first, second] = std::minmax(darkest, brightest);
+  EXPECT_EQ(found(),
+    Texts{ "Mixed up? Samples s" + std::to_string(first) + " and s" + std::to_string(second) +
+      " fit much better when they are exchanged." });
+}
+
+TEST_F(MixUps, ChannelsExchangedAndReversed)
+{
+  Observed.row(1).swap(Observed.row(2));
+  EXPECT_EQ(
+    found(), Texts{ "Mixed up? Channels B and C fit much better when they are exchanged." });
+  Observed.row(0).swap(Observed.row(3));
+  EXPECT_EQ(found(), Texts{ "Mixed up? The channels fit much better in reverse order." });
+}
+
+TEST_F(MixUps, ReadingsOfOtherSamples)
+{
+  for (Eigen::Index i = 0; i + 7 < Count; ++i) // a shift that is not looked for
+  {
+    Observed.col(i).swap(Observed.col(i + 7));
+  }
+  ASSERT_EQ(found().size(), 1U);
+  EXPECT_NE(found().front().find("hardly go with the samples"), std::string::npos);
+}
+
+// A flat field has nothing to go together with.
+TEST_F(MixUps, AFlatFieldHasNone)
+{
+  Simulated.setConstant(0.9);
+  Observed.setConstant(0.8);
+  Observed.leftCols(30).setConstant(0.85);
+  EXPECT_EQ(found(), Texts());
+}
+
+TEST(MixUpsOfPlaces, AChartTurnedByHalfATurn)
+{
+  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 0.9 } } });
+  EXPECT_FALSE(says(diagnosisOf(capture).notes, "Mixed up?"));
+  // rasterSamples() has a row after the other, so that turned is in reverse order, too.
+  std::vector<std::string> turned;
+  for (const msi::Arrangement& one : msi::arrangementsOf(dataOf(capture).scene))
+  {
+    if (one.instead.front() == 95)
+    {
+      turned.push_back(one.what);
+    }
+  }
+  EXPECT_EQ(turned,
+    (Texts{ "in reverse order", "shifted by one, each taken for the one before it",
+      "turned by 180 degrees" }));
+  for (int& sample : capture.sampleOf)
+  {
+    sample = 95 - sample;
+  }
+  EXPECT_TRUE(says(diagnosisOf(capture).notes, "Mixed up? The samples fit much better in reverse"));
+}
+
+} // namespace

@@ -19,6 +19,7 @@ namespace msi
 
 namespace
 {
+constexpr double HardlyPredicted = 0.7; // of the deviation of the responses
 constexpr Eigen::Index FewestSamples = 10;
 constexpr double DeterminedShare =
   0.5; // of a typical row, for one standard error along a direction
@@ -350,12 +351,18 @@ void addDetermination(CameraModelFit& fit, const Eigen::MatrixXd& reflectance)
   fit.summary.condition = determined > 0 ? singular[0] / singular[determined - 1] : 0.0;
 }
 
-std::string statusOf(
-  const CameraModelFit& fit, bool nominal, Eigen::Index leftOut, bool converged, bool straight)
+std::string statusOf(const CameraModelFit& fit, double deviation, bool nominal,
+  Eigen::Index leftOut, bool converged, bool straight)
 {
   const Eigen::Index bands = fit.camera.wavelengths().size();
   const double range = fit.camera.wavelengths().back() - fit.camera.wavelengths().front();
   std::ostringstream status;
+  if (fit.heldOutRms > HardlyPredicted * deviation)
+  {
+    status << "samples left out are hardly predicted better than by the mean response (rms "
+           << fit.heldOutRms << " instead of " << deviation
+           << "): do the responses belong to these samples?; ";
+  }
   if (fit.determined < bands)
   {
     status << "the chart determines " << fit.determined << " of " << bands
@@ -451,8 +458,11 @@ CameraModelFit fitCameraModel(const WavelengthGrid& wavelengths,
   }
   addDetermination(fit, reflectance);
   fit.summary.complete = fit.determined == wavelengths.size() && linear.converged;
-  fit.summary.status = statusOf(
-    fit, options.nominal.has_value(), allResponse.cols() - samples, linear.converged, straight);
+  const Eigen::MatrixXd aboutMean = response.colwise() - response.rowwise().mean();
+  const double deviation =
+    std::sqrt(aboutMean.squaredNorm() / static_cast<double>(response.size()));
+  fit.summary.status = statusOf(fit, deviation, options.nominal.has_value(),
+    allResponse.cols() - samples, linear.converged, straight);
   return fit;
 }
 

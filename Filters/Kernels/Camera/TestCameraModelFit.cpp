@@ -183,6 +183,21 @@ TEST(CameraModelFit, SaysWhatTheChartCannotDetermine)
   EXPECT_GT(fit.resolution.minCoeff(), 10.0);
 }
 
+TEST(CameraModelFit, ResponsesOfOtherSamplesAreNoticed)
+{
+  const Eigen::MatrixXd reflectance = chart(visibleGrid(), 60, 1);
+  Eigen::MatrixXd response = measured(sevenChannels(), reflectance);
+  const auto asked = [&]
+  {
+    const std::string status =
+      msi::fitCameraModel(visibleGrid(), reflectance, response).summary.status;
+    return status.find("do the responses belong to these samples?") != std::string::npos;
+  };
+  EXPECT_FALSE(asked());
+  response.rowwise().reverseInPlace();
+  EXPECT_TRUE(asked());
+}
+
 TEST(CameraModelFit, ResponsesInOtherUnitsGiveTheSameCameraInThoseUnits)
 {
   const Eigen::MatrixXd reflectance = chart(visibleGrid(), 60, 1);

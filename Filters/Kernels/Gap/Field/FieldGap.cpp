@@ -23,6 +23,8 @@ namespace
 {
 constexpr double FewUsable = 0.5;
 constexpr int RasterSide = 32; // on which an image is looked at as a whole
+constexpr double RasterPixels =
+  1 << 20; // of larger images every second pixel of a row and a line, or fewer
 
 // Sets of an image pair that are kept on the way, and options fitted in full for each: previews are cross-validated and good.
 constexpr int PairBeamWidth = 2;
@@ -183,9 +185,11 @@ Eigen::MatrixXd rasterOf(const FieldPair& pair, const float* image, int width, i
   const auto K = static_cast<Eigen::Index>(pair.channels.size());
   Eigen::ArrayXXd sum = Eigen::ArrayXXd::Zero(K, Eigen::Index{ width } * height);
   Eigen::ArrayXXd count = sum;
-  for (int y = 0; y < pair.extent.height; ++y)
+  const int step =
+    1 + static_cast<int>(std::sqrt(static_cast<double>(pair.pixels()) / RasterPixels));
+  for (int y = 0; y < pair.extent.height; y += step)
   {
-    for (int x = 0; x < pair.extent.width; ++x)
+    for (int x = 0; x < pair.extent.width; x += step)
     {
       const float* values = image + pair.index(x, y) * static_cast<std::size_t>(K);
       const Eigen::Index cell = Eigen::Index{ y } * height / pair.extent.height * width +

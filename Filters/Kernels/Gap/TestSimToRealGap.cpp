@@ -213,6 +213,21 @@ TEST(SimToRealGap, TwoEffectsShareTheGap)
   EXPECT_NEAR(sum + report.unexplained.share, 1.0, 1e-9);
 }
 
+// Responses in another unit, or another exposure: a gradient of 5 % is a fiftieth of that gap.
+TEST(SimToRealGap, ALargeGainHidesNothing)
+{
+  const msi::GapReport report = diagnosisOf(captureWith(
+    { { "exposure_gain", "", "", { 0.4 } }, { "illumination_gradient", "", "", { 0.05, 0.0 } } }));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_EQ(report.correction.size(), 2U);
+  EXPECT_EQ(report.causes.front().effect, "exposure_gain");
+  for (const msi::CameraEffect& effect : report.correction)
+  {
+    const double planted = effect.name == "exposure_gain" ? 0.4 : 0.05;
+    EXPECT_NEAR(effect.parameters.front(), planted, 0.002) << effect.name;
+  }
+}
+
 // A Gaussian passband times an exponential of the wavelength is the passband moved: with white balanced again a tilt of the
 // lamp and a shift of the filters do the same.
 TEST(SimToRealGap, WhatIsTheSameForGaussianPassbandsIsSaidToBe)

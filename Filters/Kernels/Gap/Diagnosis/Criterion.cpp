@@ -33,7 +33,9 @@ Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double
   : Data(data)
   , Gap(std::fmax(nominal.energy - data.noiseEnergy(), 0.0))
   , Noise(std::fmin(data.noiseEnergy(), nominal.energy))
-  , Floor(std::fmax(Decision::FormPart * Gap, std::numeric_limits<double>::min()))
+  , Floor(
+      std::fmax(Decision::FormPart * std::fmin(std::fmax(data.inexactEnergy() - Noise, 0.0), Gap),
+        std::numeric_limits<double>::min()))
   , Discrepancy(std::clamp(static_cast<double>(data.energies(nominal).before.size()), 1.0, numbers))
   , Reference(std::numeric_limits<double>::infinity())
 {

@@ -68,6 +68,8 @@ public:
   virtual const std::vector<GapOption>& options() const = 0;
   virtual double elements() const = 0;    // residuals with weight
   virtual double noiseEnergy() const = 0; // what noise alone leaves of the energy
+  // Of the nominal fit, but for what effects with exact forms take away.
+  virtual double inexactEnergy() const { return nominal()->energy; }
 
   virtual FitPointer nominal() const = 0;
   // Options whose effect the fit does not have.

@@ -167,10 +167,22 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options)
   return data;
 }
 
+double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight)
+{
+  const auto sum = [&weight](const Eigen::ArrayXXd& values)
+  { return (weight.array() > 0.0).select(weight.array() * values, 0.0).sum(); };
+  const Eigen::ArrayXXd u = data.simulated.array();
+  const double square = sum(u.square());
+  const double gain = square > 0.0 ? sum(u * data.observed.array()) / square : 1.0;
+  const double large =
+    gain - std::clamp(gain, 1.0 - Decision::SmallPart, 1.0 + Decision::SmallPart);
+  return sum((data.observed.array() - (1.0 + large) * u).square());
+}
+
 void setWeights(GapData& data)
 {
-  const Eigen::MatrixXd gap = data.measured().select(data.observed - data.simulated, 0.0);
-  const double energy = gap.squaredNorm() / static_cast<double>(data.elements);
+  const double energy =
+    energyBesideGain(data, data.measured().cast<double>()) / static_cast<double>(data.elements);
   const double tolerance = Decision::FormPart * energy + 1e-14;
   data.weight = data.measured().cast<double>() / (data.variance.array() + tolerance);
 }

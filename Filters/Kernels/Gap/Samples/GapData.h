@@ -43,7 +43,10 @@ void fillInUnknown(SceneSamples& samples);
 // Errors: as diagnoseGap.
 GapData prepareGapData(const GapCapture& capture, const GapOptions& options);
 
-// Weights 1 / (variance + Decision::FormPart x mean square of the gap): the library's forms are approximations of the
+// Of the weighted gap, where of a gain of all readings no more than Decision::SmallPart counts: it has an exact form, and other
+// units or another exposure do not make the forms of other effects worse.
+double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight);
+// Weights 1 / (variance + Decision::FormPart x mean square of that): the library's forms are approximations of the
 // physics, and below that part of the gap no element is trusted more than another.
 void setWeights(GapData& data);
 

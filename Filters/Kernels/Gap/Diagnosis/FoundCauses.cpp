@@ -231,10 +231,10 @@ int standInsOf(const Observation& data, const ObservedFit& fit)
 }
 
 // An effect that is not in the library is e times less likely than one that is.
-double unknownProbability(double shrink, double chanceOfCurve, int standIns)
+double unknownProbability(double explained, double chanceOfCurve, int standIns)
 {
   double odds =
-    (1.0 - std::clamp(shrink, 0.0, 1.0)) / Decision::UnknownRest + std::exp(-1.0) * standIns;
+    (1.0 - std::clamp(explained, 0.0, 1.0)) / Decision::UnknownRest + std::exp(-1.0) * standIns;
   const double chance = std::fmax(chanceOfCurve, std::numeric_limits<double>::epsilon());
   if (chance < std::exp(-1.0))
   {

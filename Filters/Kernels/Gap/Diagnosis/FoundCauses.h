@@ -26,14 +26,14 @@ std::vector<double> sharesUnderPrecedence(
 std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink);
 
 // Probability that something that the library does not have is behind the gap.
-//   shrink: held out, of all that was found; after the right causes little is left.
+//   explained: part of the size of the gap, on samples held out; after the right causes little is left.
 //   chanceOfCurve: numbers of single channels that follow a curve look like one effect with one number. Where chance has p
 //     for it, that multiplies the odds by at most 1 / (-e p ln p) (Sellke, Bayarri and Berger 2001,
 //     doi:10.1198/000313001300339950).
 //   standIns: signs that effects stand for another: two causes of one medium, an effect of a medium that all media have, a gain
 //     in disguise, a parameter at the end of its range.
 //     Each is e times likelier than one unknown effect in the place of all.
-double unknownProbability(double shrink, double chanceOfCurve = 1.0, int standIns = 0);
+double unknownProbability(double explained, double chanceOfCurve = 1.0, int standIns = 0);
 
 // The likeliest fit of each set of effects, whatever their forms and media; their probabilities sum to 1, the largest first.
 struct Explanation

@@ -101,8 +101,8 @@ TEST(FieldGap, AnImageUpsideDownIsSaidToBe)
   const auto said = [&pair]
   {
     const std::vector<std::string> notes = diagnose(pair).notes;
-    return std::count(notes.begin(), notes.end(),
-      "Mixed up? The real image fits much better upside down.");
+    return std::count(
+      notes.begin(), notes.end(), "Mixed up? The real image fits much better upside down.");
   };
   EXPECT_EQ(said(), 0);
   const auto row = static_cast<std::ptrdiff_t>(pair.extent.width * scene.channels());

@@ -28,7 +28,8 @@ std::optional<bool> toldByNext(const msi::SceneSamples& samples, const msi::Came
   const std::vector<msi::CaptureCandidate> candidates =
     msi::captureCandidates(dataOf(first), next.separates);
   const auto taken = std::find_if(candidates.begin(), candidates.end(),
-    [&next](const msi::CaptureCandidate& candidate) { return candidate.kind.name == next.capture; });
+    [&next](const msi::CaptureCandidate& candidate)
+    { return candidate.kind.name == next.capture; });
   EXPECT_NE(taken, candidates.end()) << next.capture;
   // What is known is taken into the simulated camera: where it was the cause, no gap is left.
   if (taken->known && taken->known(msi::requireEffect(planted.name)))

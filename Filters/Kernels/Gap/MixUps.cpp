@@ -2,10 +2,12 @@
 
 #include "Kernels/Camera/SampleScene.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/PairSums.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 namespace msi
@@ -16,60 +18,56 @@ namespace
 constexpr double MuchBetter = 0.25;    // of the squares left
 constexpr double HardlyTogether = 0.5; // squared correlation
 constexpr double Flat = 0.05;          // deviation of what is simulated over its mean
-constexpr double SamePlace = 1e-3;     // squared, of half the field
+constexpr double SamePlace = 1e-3;     // squared distance
 constexpr std::size_t PairsNamed = 3;
 
-using Row = Eigen::ArrayXd;
-
-// Sums over the elements that both have.
-struct RowSums
+PairSums sumsOf(const Eigen::VectorXd& observed, const Eigen::VectorXd& simulated)
 {
-  RowSums(const Row& observed, const Row& simulated)
+  PairSums sums;
+  for (Eigen::Index i = 0; i < observed.size(); ++i)
   {
-    for (Eigen::Index i = 0; i < observed.size(); ++i)
-    {
-      const double o = observed[i];
-      const double u = simulated[i];
-      if (std::isfinite(o) && std::isfinite(u))
-      {
-        n += 1.0;
-        so += o;
-        su += u;
-        oo += o * o;
-        ou += o * u;
-        uu += u * u;
-      }
-    }
+    sums.add(observed[i], simulated[i]);
   }
-  double gain() const { return uu > 0.0 ? ou / uu : 0.0; }
-  double left() const { return oo - gain() * ou; }
-  double correlation() const // squared; 1 where what is simulated is flat
-  {
-    const double spread = uu - su * su / n;
-    const double both = ou - so * su / n;
-    return n < 3.0 || spread <= Flat * Flat * uu
-      ? 1.0
-      : both * std::fabs(both) / (spread * std::fmax(oo - so * so / n, 1e-300));
-  }
-  double n = 0.0, so = 0.0, su = 0.0, oo = 0.0, ou = 0.0, uu = 0.0;
-};
+  return sums;
+}
 
-double leftBy(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated)
+// Of each channel.
+std::vector<PairSums> sumsOfChannels(
+  const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated)
 {
-  double left = 0.0;
+  std::vector<PairSums> sums;
   for (Eigen::Index k = 0; k < observed.rows(); ++k)
   {
-    left += RowSums(observed.row(k), simulated.row(k)).left();
+    sums.push_back(sumsOf(observed.row(k), simulated.row(k)));
   }
-  return left;
+  return sums;
+}
+
+double leftOf(const std::vector<PairSums>& channels)
+{
+  return std::accumulate(channels.begin(), channels.end(), 0.0,
+    [](double sum, const PairSums& channel) { return sum + channel.left(); });
+}
+
+// Squared and with its sign; 1 where what is simulated is flat.
+double correlationOf(const PairSums& sums)
+{
+  const double both = sums.ofBoth();
+  return sums.n < 3.0 || sums.ofSimulated() <= Flat * Flat * sums.simulatedSquares
+    ? 1.0
+    : both * std::fabs(both) / (sums.ofSimulated() * std::fmax(sums.ofReal(), 1e-300));
 }
 
 // Two that are each other's best match.
 using Pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
-std::string exchanged(const char* what, const Pairs& pairs, const std::vector<std::string>& names)
+// Empty without pairs.
+std::string exchanged(std::string text, const Pairs& pairs, const std::vector<std::string>& names)
 {
-  std::string text = what;
+  if (pairs.empty())
+  {
+    return {};
+  }
   for (std::size_t p = 0; p < std::min(pairs.size(), PairsNamed); ++p)
   {
     text += (p == 0 ? " " : ", ") + names[static_cast<std::size_t>(pairs[p].first)] + " and " +
@@ -79,8 +77,8 @@ std::string exchanged(const char* what, const Pairs& pairs, const std::vector<st
     " fit much better when they are exchanged.";
 }
 
-void lookAtChannels(std::vector<std::string>& found, const Eigen::MatrixXd& observed,
-  const Eigen::MatrixXd& simulated, const std::vector<std::string>& channels)
+std::string exchangedChannels(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+  const std::vector<std::string>& channels)
 {
   const Eigen::Index K = observed.rows();
   Eigen::MatrixXd left(K, K);
@@ -89,7 +87,7 @@ void lookAtChannels(std::vector<std::string>& found, const Eigen::MatrixXd& obse
   {
     for (Eigen::Index b = 0; b < K; ++b)
     {
-      left(a, b) = RowSums(observed.row(a), simulated.row(b)).left();
+      left(a, b) = sumsOf(observed.row(a), simulated.row(b)).left();
     }
     left.row(a).minCoeff(&best[static_cast<std::size_t>(a)]);
   }
@@ -104,24 +102,19 @@ void lookAtChannels(std::vector<std::string>& found, const Eigen::MatrixXd& obse
     }
   }
   const auto isReversed = [K](const auto& pair) { return pair.first + pair.second == K - 1; };
-  if (K > 3 && 2 * static_cast<Eigen::Index>(pairs.size()) >= K - 1 &&
-    std::all_of(pairs.begin(), pairs.end(), isReversed))
-  {
-    found.emplace_back("Mixed up? The channels fit much better in reverse order.");
-  }
-  else if (!pairs.empty())
-  {
-    found.push_back(exchanged("Mixed up? Channels", pairs, channels));
-  }
+  return K > 3 && 2 * static_cast<Eigen::Index>(pairs.size()) >= K - 1 &&
+      std::all_of(pairs.begin(), pairs.end(), isReversed)
+    ? "The channels fit much better in reverse order."
+    : exchanged("Channels", pairs, channels);
 }
 
-void lookAtColumns(std::vector<std::string>& found, const Eigen::MatrixXd& observed,
-  const Eigen::MatrixXd& simulated, const std::vector<std::string>& columns)
+std::string exchangedSamples(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+  const std::vector<PairSums>& asTold, const std::vector<std::string>& names)
 {
   Eigen::MatrixXd scaled = observed;
   for (Eigen::Index k = 0; k < observed.rows(); ++k)
   {
-    scaled.row(k) /= RowSums(observed.row(k), simulated.row(k)).gain();
+    scaled.row(k) /= asTold[static_cast<std::size_t>(k)].gain();
   }
   const auto off = [&](Eigen::Index reading, Eigen::Index sample)
   {
@@ -141,21 +134,91 @@ void lookAtColumns(std::vector<std::string>& found, const Eigen::MatrixXd& obser
   {
     for (Eigen::Index b = a + 1; b < observed.cols(); ++b)
     {
-      const double asTold =
+      const double both =
         std::fmin(own[static_cast<std::size_t>(a)], own[static_cast<std::size_t>(b)]);
-      if (asTold > outlier && taken.count(a) + taken.count(b) == 0 &&
-        std::fmax(off(a, b), off(b, a)) < std::fmin(MuchBetter * asTold, outlier))
+      if (both > outlier && taken.count(a) + taken.count(b) == 0 &&
+        std::fmax(off(a, b), off(b, a)) < std::fmin(MuchBetter * both, outlier))
       {
         pairs.emplace_back(a, b);
         taken.insert({ a, b });
       }
     }
   }
-  if (!pairs.empty())
-  {
-    found.push_back(exchanged("Mixed up? Samples", pairs, columns));
-  }
+  return exchanged("Samples", pairs, names);
 }
+
+// As mixUp(), without the question.
+std::string betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+  const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
+  const std::vector<std::string>& columns)
+{
+  const bool images = columns.empty();
+  const std::vector<PairSums> asTold = sumsOfChannels(observed, simulated);
+  double least = MuchBetter * leftOf(asTold);
+  std::string found;
+  for (const Arrangement& arrangement : arrangements)
+  {
+    const double left =
+      leftOf(sumsOfChannels(observed, simulated(Eigen::all, arrangement.instead)));
+    if (left < least)
+    {
+      least = left;
+      found = (images ? "The real image fits" : "The samples fit") + std::string(" much better ") +
+        arrangement.what + ".";
+    }
+  }
+  if (found.empty())
+  {
+    found = exchangedChannels(observed, simulated, channels);
+  }
+  if (!found.empty())
+  {
+    return found;
+  }
+  double together = 0.0;
+  for (const PairSums& channel : asTold)
+  {
+    together += correlationOf(channel) / static_cast<double>(asTold.size());
+  }
+  if (together < HardlyTogether)
+  {
+    return images ? "The real image hardly goes with the simulated one: is it the same scene, in "
+                    "the same place?"
+                  : "The readings hardly go with the samples: do they belong to these, in this "
+                    "order?";
+  }
+  return images ? std::string() : exchangedSamples(observed, simulated, asTold, columns);
+}
+}
+
+std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y)
+{
+  const Eigen::ArrayXd mirroredX = x.minCoeff() + x.maxCoeff() - x;
+  const Eigen::ArrayXd mirroredY = y.minCoeff() + y.maxCoeff() - y;
+  std::vector<Arrangement> all;
+  const auto add = [&](const char* what, const Eigen::ArrayXd& toX, const Eigen::ArrayXd& toY)
+  {
+    Arrangement arrangement{ what, {} };
+    std::set<Eigen::Index> reached;
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+    {
+      Eigen::Index nearest = 0;
+      const double distance = ((x - toX[i]).square() + (y - toY[i]).square()).minCoeff(&nearest);
+      if (distance < SamePlace)
+      {
+        arrangement.instead.push_back(nearest);
+        reached.insert(nearest);
+      }
+    }
+    if (static_cast<Eigen::Index>(reached.size()) == x.size())
+    {
+      all.push_back(std::move(arrangement));
+    }
+  };
+  add("mirrored left to right", mirroredX, y);
+  add("upside down", x, mirroredY);
+  add("turned by 180 degrees", mirroredX, mirroredY);
+  return all;
 }
 
 std::vector<Arrangement> arrangementsOf(const SampleScene& scene)
@@ -170,97 +233,20 @@ std::vector<Arrangement> arrangementsOf(const SampleScene& scene)
     all[1].instead.push_back((i + 1) % S);
     all[2].instead.push_back((i + S - 1) % S);
   }
-  if (!scene.hasPositions())
+  if (scene.hasPositions())
   {
-    return all;
-  }
-  const Eigen::ArrayXd x = scene.fieldX();
-  const Eigen::ArrayXd y = scene.fieldY();
-  const auto mirrored = [](const Eigen::ArrayXd& v) -> Eigen::ArrayXd
-  { return v.minCoeff() + v.maxCoeff() - v; };
-  const auto add = [&](const char* what, const Eigen::ArrayXd& toX, const Eigen::ArrayXd& toY)
-  {
-    Arrangement arrangement{ what, {} };
-    std::set<Eigen::Index> reached;
-    for (Eigen::Index i = 0; i < S; ++i)
-    {
-      Eigen::Index nearest = 0;
-      const double distance = ((x - toX[i]).square() + (y - toY[i]).square()).minCoeff(&nearest);
-      if (distance < SamePlace)
-      {
-        arrangement.instead.push_back(nearest);
-        reached.insert(nearest);
-      }
-    }
-    if (static_cast<Eigen::Index>(reached.size()) == S)
-    {
-      all.push_back(std::move(arrangement));
-    }
-  };
-  add("mirrored left to right", mirrored(x), y);
-  add("upside down", x, mirrored(y));
-  add("turned by 180 degrees", mirrored(x), mirrored(y));
-  return all;
-}
-
-std::vector<Arrangement> arrangementsOf(Eigen::Index width, Eigen::Index height)
-{
-  std::vector<Arrangement> all{ { "mirrored left to right", {} }, { "upside down", {} },
-    { "turned by 180 degrees", {} } };
-  for (Eigen::Index y = 0; y < height; ++y)
-  {
-    for (Eigen::Index x = 0; x < width; ++x)
-    {
-      all[0].instead.push_back(y * width + width - 1 - x);
-      all[1].instead.push_back((height - 1 - y) * width + x);
-      all[2].instead.push_back((height - 1 - y) * width + width - 1 - x);
-    }
+    const std::vector<Arrangement> turned = turnedPlaces(scene.fieldX(), scene.fieldY());
+    all.insert(all.end(), turned.begin(), turned.end());
   }
   return all;
 }
 
-std::vector<std::string> mixUps(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
   const std::vector<std::string>& columns)
 {
-  std::vector<std::string> found;
-  double least = MuchBetter * leftBy(observed, simulated);
-  for (const Arrangement& arrangement : arrangements)
-  {
-    const double left = leftBy(observed, simulated(Eigen::all, arrangement.instead));
-    if (left < least)
-    {
-      least = left;
-      found = { (columns.empty() ? "Mixed up? The real image fits much better "
-                                 : "Mixed up? The samples fit much better ") +
-        arrangement.what + "." };
-    }
-  }
-  if (!found.empty())
-  {
-    return found;
-  }
-  lookAtChannels(found, observed, simulated, channels);
-  double together = 0.0;
-  for (Eigen::Index k = 0; k < observed.rows(); ++k)
-  {
-    together += RowSums(observed.row(k), simulated.row(k)).correlation() /
-      static_cast<double>(observed.rows());
-  }
-  if (found.empty() && together < HardlyTogether)
-  {
-    found.emplace_back(columns.empty()
-        ? "Mixed up? The real image hardly goes with the simulated one: is it the same scene, in "
-          "the "
-          "same place?"
-        : "Mixed up? The readings hardly go with the samples: do they belong to these, in this "
-          "order?");
-  }
-  else if (found.empty() && !columns.empty())
-  {
-    lookAtColumns(found, observed, simulated, columns);
-  }
-  return found;
+  const std::string found = betterThanTold(observed, simulated, arrangements, channels, columns);
+  return found.empty() ? found : "Mixed up? " + found;
 }
 
 } // namespace msi

@@ -18,14 +18,15 @@ struct Arrangement
   std::string what; // "in reverse order"
   std::vector<Eigen::Index> instead;
 };
-// In reverse order, shifted by one; where there are positions, mirrored and turned by 180 degrees.
+// In reverse order, shifted by one; where there are positions, turnedPlaces().
 std::vector<Arrangement> arrangementsOf(const SampleScene& scene);
-// Of the cells of a raster, row after row.
-std::vector<Arrangement> arrangementsOf(Eigen::Index width, Eigen::Index height);
+// Mirrored, upside down, turned by 180 degrees; those alone that take every place to another one. x, y: in any unit in which
+// places are at least 0.04 apart.
+std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);
 
 // In words, what fits much better than as told: a quarter of the squares left, after a gain of each channel. Empty: nothing.
 // observed, simulated: K x S, NaN: not measured. channels, columns: K and S names; without columns no single ones are looked at.
-std::vector<std::string> mixUps(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
   const std::vector<std::string>& columns = {});
 

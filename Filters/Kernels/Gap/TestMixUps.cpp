@@ -46,7 +46,9 @@ protected:
     {
       arrangements.front().instead.push_back(Count - 1 - i);
     }
-    return mixUps(Observed, Simulated, arrangements, { "A", "B", "C", "D" }, Names);
+    const std::string text =
+      mixUp(Observed, Simulated, arrangements, { "A", "B", "C", "D" }, Names);
+    return text.empty() ? std::vector<std::string>() : std::vector<std::string>{ text };
   }
 
   static constexpr Eigen::Index Count = 60;

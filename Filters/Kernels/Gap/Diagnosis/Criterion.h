@@ -14,7 +14,8 @@ int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std
 //
 //   -m/2 log (Q + f G)  -  1/2 sum_i log(1 + information_i / phi)  -  surprise  -  sum of the options' improbabilities
 //
-// Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera; f: Decision::FormPart.
+// Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera, but for what effects with exact forms take
+// away (Observation::inexactEnergy); f: Decision::FormPart.
 // phi, the dispersion, is what one independent number of the best residual known has of energy: noise, as far as
 //   it is coherent within groups, and what is left beyond noise, which counts as `numbers` numbers,
 //   or as one per group where there are fewer groups.

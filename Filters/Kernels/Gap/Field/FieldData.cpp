@@ -1,4 +1,5 @@
 #include "Kernels/Gap/Field/FieldData.h"
+#include "Kernels/Gap/PairSums.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Numerics/OrderStatistic.h"
@@ -44,32 +45,22 @@ SceneCells::SceneCells(const FieldPair& pair)
   const auto K = static_cast<Eigen::Index>(pair.channels.size());
   Part = X = Y = Eigen::ArrayXXd::Zero(Eigen::Index{ CellsPerSide } * CellsPerSide, K);
   Eigen::ArrayXd count = Eigen::ArrayXd::Zero(K);
-  int step = 1;
-  while (pair.pixels() / static_cast<std::size_t>(step * step) > MeanPixels)
+  const auto visit = [&](int x, int y, Eigen::Index cell)
   {
-    ++step;
-  }
-  for (int y = 0; y < pair.extent.height; y += step)
-  {
-    const Eigen::Index row = Eigen::Index{ y } * CellsPerSide / pair.extent.height;
-    for (int x = 0; x < pair.extent.width; x += step)
+    const float* values = pair.simulated + pair.index(x, y) * static_cast<std::size_t>(K);
+    for (Eigen::Index k = 0; k < K; ++k)
     {
-      const Eigen::Index cell =
-        row * CellsPerSide + Eigen::Index{ x } * CellsPerSide / pair.extent.width;
-      const float* values = pair.simulated + pair.index(x, y) * static_cast<std::size_t>(K);
-      for (Eigen::Index k = 0; k < K; ++k)
+      if (std::isfinite(values[k]))
       {
-        if (std::isfinite(values[k]))
-        {
-          const auto u = static_cast<double>(values[k]);
-          Part(cell, k) += u;
-          X(cell, k) += u * pair.fieldX(x);
-          Y(cell, k) += u * pair.fieldY(y);
-          count[k] += 1.0;
-        }
+        const auto u = static_cast<double>(values[k]);
+        Part(cell, k) += u;
+        X(cell, k) += u * pair.fieldX(x);
+        Y(cell, k) += u * pair.fieldY(y);
+        count[k] += 1.0;
       }
     }
-  }
+  };
+  forPixels(pair, CellsPerSide, CellsPerSide, visit);
   const auto light = Part.abs() > 1e-12;
   X = light.select(X / Part, 0.0);
   Y = light.select(Y / Part, 0.0);
@@ -169,9 +160,8 @@ Eigen::ArrayXd fieldUnits(const std::vector<PairSums>& sums)
     const double both = sum.ofBoth();
     // A straight line where the images go together, else through the origin.
     const bool line = both > 0.0 && both * both > Correlated * sum.ofReal() * sum.ofSimulated();
-    ratio[static_cast<Eigen::Index>(k)] = line
-      ? both / std::fmax(sum.ofSimulated(), 1e-30)
-      : sum.products / std::fmax(sum.simulatedSquares, 1e-30);
+    ratio[static_cast<Eigen::Index>(k)] =
+      line ? both / std::fmax(sum.ofSimulated(), 1e-30) : sum.gain();
   }
   const auto alike = [](const Eigen::ArrayXd& values)
   { return (values >= 1.0 / OtherUnit).all() && (values <= OtherUnit).all(); };

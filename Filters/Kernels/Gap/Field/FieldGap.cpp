@@ -23,8 +23,6 @@ namespace
 {
 constexpr double FewUsable = 0.5;
 constexpr int RasterSide = 32; // on which an image is looked at as a whole
-constexpr double RasterPixels =
-  1 << 20; // of larger images every second pixel of a row and a line, or fewer
 
 // Sets of an image pair that are kept on the way, and options fitted in full for each: previews are cross-validated and good.
 constexpr int PairBeamWidth = 2;
@@ -185,38 +183,40 @@ Eigen::MatrixXd rasterOf(const FieldPair& pair, const float* image, int width, i
   const auto K = static_cast<Eigen::Index>(pair.channels.size());
   Eigen::ArrayXXd sum = Eigen::ArrayXXd::Zero(K, Eigen::Index{ width } * height);
   Eigen::ArrayXXd count = sum;
-  const int step =
-    1 + static_cast<int>(std::sqrt(static_cast<double>(pair.pixels()) / RasterPixels));
-  for (int y = 0; y < pair.extent.height; y += step)
+  const auto visit = [&](int x, int y, Eigen::Index cell)
   {
-    for (int x = 0; x < pair.extent.width; x += step)
+    const float* values = image + pair.index(x, y) * static_cast<std::size_t>(K);
+    for (Eigen::Index k = 0; k < K; ++k)
     {
-      const float* values = image + pair.index(x, y) * static_cast<std::size_t>(K);
-      const Eigen::Index cell = Eigen::Index{ y } * height / pair.extent.height * width +
-        Eigen::Index{ x } * width / pair.extent.width;
-      for (Eigen::Index k = 0; k < K; ++k)
-      {
-        const bool known = std::isfinite(values[k]);
-        sum(k, cell) += known ? static_cast<double>(values[k]) : 0.0;
-        count(k, cell) += known ? 1.0 : 0.0;
-      }
+      const bool known = std::isfinite(values[k]);
+      sum(k, cell) += known ? static_cast<double>(values[k]) : 0.0;
+      count(k, cell) += known ? 1.0 : 0.0;
     }
-  }
+  };
+  forPixels(pair, width, height, visit);
   return sum / count;
 }
 
-std::vector<std::string> mixUpsOf(const FieldPair& pair)
+std::string mixUpOf(const FieldPair& pair)
 {
   const int width = std::min(RasterSide, pair.extent.width);
   const int height = std::min(RasterSide, pair.extent.height);
-  return mixUps(rasterOf(pair, pair.real, width, height),
-    rasterOf(pair, pair.simulated, width, height), arrangementsOf(width, height), pair.channels);
+  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(width, 0.0, width - 1.0);
+  const Eigen::ArrayXd y = Eigen::ArrayXd::LinSpaced(height, 0.0, height - 1.0);
+  const std::vector<Arrangement> arrangements =
+    turnedPlaces(x.replicate(height, 1), y.transpose().replicate(width, 1).reshaped());
+  return mixUp(rasterOf(pair, pair.real, width, height),
+    rasterOf(pair, pair.simulated, width, height), arrangements, pair.channels);
 }
 
 std::vector<std::string> notesOn(
   const FieldData& data, const FieldFinding& finding, const std::vector<FieldChoice>& choices)
 {
-  std::vector<std::string> notes = mixUpsOf(data.pair);
+  std::vector<std::string> notes;
+  if (std::string note = mixUpOf(data.pair); !note.empty())
+  {
+    notes.push_back(std::move(note));
+  }
   const FieldSet& set = finding.set();
   for (const std::string& effect : indistinctEffects(data, finding.before(), choices))
   {

@@ -3,8 +3,9 @@
 
 #include "Kernels/Camera/Imaging/ImageWindow.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -42,33 +43,27 @@ private:
   }
 };
 
-// Sums over pixels that have a value in both images.
-struct PairSums
+// Every pixel, or every few of an image of more than 2^20, with the cell in which it lies of a raster of width x height:
+// visit(x, y, cell), row after row.
+template <typename Visit>
+void forPixels(const FieldPair& pair, int width, int height, const Visit& visit)
 {
-  double n = 0.0, real = 0.0, simulated = 0.0;
-  double realSquares = 0.0, simulatedSquares = 0.0, products = 0.0;
-
-  void add(float realValue, float simulatedValue) noexcept
+  constexpr std::size_t Most = std::size_t(1) << 20;
+  int step = 1;
+  while (pair.pixels() / static_cast<std::size_t>(step * step) > Most)
   {
-    const auto r = static_cast<double>(realValue);
-    const auto s = static_cast<double>(simulatedValue);
-    if (std::isfinite(r) && std::isfinite(s))
+    ++step;
+  }
+  const auto part = [](int place, int parts, int all)
+  { return Eigen::Index{ place } * parts / all; };
+  for (int y = 0; y < pair.extent.height; y += step)
+  {
+    const Eigen::Index row = part(y, height, pair.extent.height) * width;
+    for (int x = 0; x < pair.extent.width; x += step)
     {
-      n += 1.0;
-      real += r;
-      simulated += s;
-      realSquares += r * r;
-      simulatedSquares += s * s;
-      products += r * s;
+      visit(x, y, row + part(x, width, pair.extent.width));
     }
   }
-  // About the means.
-  double ofReal() const noexcept { return realSquares - real * real / count(); }
-  double ofSimulated() const noexcept { return simulatedSquares - simulated * simulated / count(); }
-  double ofBoth() const noexcept { return products - real * simulated / count(); }
-
-private:
-  double count() const noexcept { return std::fmax(n, 1.0); }
-};
+}
 
 } // namespace msi

@@ -1,4 +1,5 @@
 #include "Kernels/Gap/Field/FieldStarts.h"
+#include "Kernels/Gap/PairSums.h"
 
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Numerics/Angle.h"

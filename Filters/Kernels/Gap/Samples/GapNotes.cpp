@@ -155,11 +155,15 @@ void noteWhite(std::vector<std::string>& notes, const CameraModel& camera)
   }
 }
 
-std::vector<std::string> noteMixUps(const GapData& data)
+void noteMixUp(std::vector<std::string>& notes, const GapData& data)
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  return mixUps(data.measured().select(data.observed, none), data.simulated,
+  std::string note = mixUp(data.measured().select(data.observed, none), data.simulated,
     arrangementsOf(data.scene), data.camera.channels(), data.names);
+  if (!note.empty())
+  {
+    notes.push_back(std::move(note));
+  }
 }
 
 void noteSaturation(std::vector<std::string>& notes, const GapData& data)
@@ -273,7 +277,8 @@ void addExcessNoise(
 std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise, const GapReport& report)
 {
-  std::vector<std::string> notes = noteMixUps(data);
+  std::vector<std::string> notes;
+  noteMixUp(notes, data);
   noteNoise(notes, capture, noise, reflectanceNoise);
   noteScene(notes, data, capture.samples);
   noteSamples(notes, data, report);

@@ -1,0 +1,42 @@
+// What a real and a simulated series of values have in common.
+#pragma once
+
+#include <cmath>
+
+namespace msi
+{
+
+// Sums over the places at which both have a value.
+struct PairSums
+{
+  double n = 0.0, real = 0.0, simulated = 0.0;
+  double realSquares = 0.0, simulatedSquares = 0.0, products = 0.0;
+
+  template <typename Scalar>
+  void add(Scalar realValue, Scalar simulatedValue) noexcept
+  {
+    const auto r = static_cast<double>(realValue);
+    const auto s = static_cast<double>(simulatedValue);
+    if (std::isfinite(r) && std::isfinite(s))
+    {
+      n += 1.0;
+      real += r;
+      simulated += s;
+      realSquares += r * r;
+      simulatedSquares += s * s;
+      products += r * s;
+    }
+  }
+  // About the means.
+  double ofReal() const noexcept { return realSquares - real * real / count(); }
+  double ofSimulated() const noexcept { return simulatedSquares - simulated * simulated / count(); }
+  double ofBoth() const noexcept { return products - real * simulated / count(); }
+  // Of the straight line through the origin: its slope, and the squares that it leaves.
+  double gain() const noexcept { return products / std::fmax(simulatedSquares, 1e-30); }
+  double left() const noexcept { return realSquares - gain() * products; }
+
+private:
+  double count() const noexcept { return std::fmax(n, 1.0); }
+};
+
+} // namespace msi

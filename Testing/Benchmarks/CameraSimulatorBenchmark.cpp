@@ -84,7 +84,7 @@ std::vector<msi::CameraEffect> pixelEffects()
     { "fluorescence", "", "paper", { 0.05, 440.0, 18.0 } },
     { "interreflection", "", "fabric", { 0.2 } }, { "medium_gain", "", "fabric", { 0.9 } },
     { "filter_shift", "", "", { 2.0 } }, { "filter_bandwidth", "", "", { 1.2 } },
-    { "filter_leak", "", "", { 0.01, 0.2 } }, { "illuminant_drift", "", "", { 0.05 } },
+    { "filter_leak", "", "", { 0.01, 0.2, 0.0, 0.0 } }, { "illuminant_drift", "", "", { 0.05 } },
     { "illumination_gradient", "", "", { 0.05, -0.02 } },
     { "vignetting", "", "", { 0.1, 0.0, 0.0 } }, { "exposure_gain", "", "", { 1.02 } },
     perChannel("channel_gain", "", 0.98, 0.002), { "channel_crosstalk", "", "", { 0.01, 0.0 } },

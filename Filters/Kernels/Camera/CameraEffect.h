@@ -46,6 +46,9 @@ struct EffectParameter
     false; // shapes an effect that another parameter turns on; a fit may hold it at neutral
   bool searched = false; // has no useful derivative: a fit tries places instead
   bool given = false;    // follows from the data; not fitted
+  // Of numbers of single channels: it is the light that makes them differ, so they are one cause and may follow a curve over the
+  // channels.
+  bool followsLight = false;
 };
 
 // What the diagnosis asks of a form. Bits of EffectForm::traits.

@@ -8,6 +8,7 @@ namespace msi
 namespace
 {
 constexpr double LeastFactor = 0.2; // of a width that changes from channel to channel
+constexpr const char* OwnMiddles = "own_middles";
 
 class FilterBandwidth : public ResponsivityOperator
 {
@@ -17,8 +18,20 @@ public:
     , Moved(Grid)
     , Factor(effect.perChannel("factor"))
     , Center(passbandCentroids(effect.camera()))
-    , FixedPeak(effect.form().name == "fixed_peak")
+    , Gain(Eigen::ArrayXd::Ones(Factor.size()))
   {
+    if (effect.form().name == "fixed_peak")
+    {
+      Gain = Factor;
+    }
+    if (effect.form().name == OwnMiddles)
+    {
+      const Eigen::ArrayXd variance = passbandVariances(effect.camera(), Center);
+      Factor = (Factor.square() + effect.value("added_variance") / variance)
+                 .max(LeastFactor * LeastFactor)
+                 .sqrt();
+      Center += effect.perChannel("middle");
+    }
   }
   void apply(Eigen::MatrixXd& responsivity) const override
   {
@@ -26,8 +39,7 @@ public:
     for (Eigen::Index k = 0; k < responsivity.rows(); ++k)
     {
       const Eigen::ArrayXd at = Center[k] + Factor[k] * (wavelength - Center[k]);
-      const double gain = FixedPeak ? Factor[k] : 1.0;
-      responsivity.row(k) = Moved.weighted(gain * responsivity.row(k).transpose().array(), at);
+      responsivity.row(k) = Moved.weighted(Gain[k] * responsivity.row(k).transpose().array(), at);
     }
   }
 
@@ -36,7 +48,7 @@ private:
   MovedSpectrum Moved;
   Eigen::ArrayXd Factor;
   Eigen::ArrayXd Center;
-  bool FixedPeak;
+  Eigen::ArrayXd Gain;
 };
 
 std::unique_ptr<ResponsivityOperator> makeBandwidth(const BoundEffect& effect)
@@ -81,7 +93,16 @@ Effect filterBandwidth()
       inLightForm(
         "light x passband(c + (wavelength - c) / factor), c the passband's middle; the light "
         "stays, ln(light) = slope P1(x) + bend P2(x) + twist P3(x), none beyond the grid",
-        factor(false), 1.1, FormTrait::Brightens) },
+        factor(false), 1.1, FormTrait::Brightens),
+      { OwnMiddles,
+        "M(m + (wavelength - m) / factor), response to white kept, m a middle of its own of each "
+        "passband: a light with lines moves the centroid away from it",
+        { factor(false),
+          { "middle", "nm", 0.0, -60.0, 60.0, 10.0,
+            "from the centroid to the middle of the passband", true, false, false, false, true },
+          { "added_variance", "nm^2", 0.0, -200.0, 800.0, 30.0,
+            "the same for all passbands, beyond what the factor does", false, true } },
+        { { 1.15, 0.0, 0.0 }, { 0.85, 0.0, 0.0 } }, FormTrait::KeepsWhite } },
     Captures::Monochromator };
   effect.makeResponsivity = makeBandwidth;
   return effect;

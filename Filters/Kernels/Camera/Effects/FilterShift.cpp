@@ -7,6 +7,8 @@ namespace msi
 
 namespace
 {
+constexpr const char* OwnLevels = "own_levels";
+
 // A passband that moves over a smooth reflectance is a reflectance that moves under the passband. That side
 // can be interpolated; passbands and lamp lines are too narrow for it.
 class FilterShift : public ResponsivityOperator
@@ -23,6 +25,11 @@ public:
       Shift +=
         effect.value("slope") * (passbandCentroids(effect.camera()) - MiddleWavelength) / 100.0;
     }
+    if (effect.form().name == OwnLevels)
+    {
+      Shift *= growthOf(effect);
+      Level = (Shift * effect.perChannel("level")).exp();
+    }
   }
   void apply(Eigen::MatrixXd& responsivity) const override
   {
@@ -34,6 +41,10 @@ public:
       }
       const Eigen::Index count = rowsAlike(k);
       auto rows = responsivity.middleRows(k, count);
+      if (Level.size() > 0)
+      {
+        rows.array().colwise() *= Level.segment(k, count);
+      }
       if (Sampled)
       {
         const Eigen::MatrixXd moved = Moved.operation(Grid.vector().array() - Shift[k]);
@@ -64,6 +75,7 @@ private:
   WavelengthGrid Grid;
   MovedSpectrum Moved;
   Eigen::ArrayXd Shift;
+  Eigen::ArrayXd Level; // of each channel; empty: none changes
   bool Sampled;
 };
 
@@ -112,6 +124,15 @@ Effect filterShift()
         "light x passband(wavelength - shift); the light stays, ln(light) = slope P1(x) + bend "
         "P2(x) + twist P3(x), none beyond the grid",
         shift(false), 1.0),
+      { OwnLevels,
+        "M(wavelength - shift) exp(shift level): in a light with lines each channel becomes "
+        "brighter or darker as its passband moves",
+        { shift(false),
+          { "level", "1 per nm", 0.0, -0.1, 0.1, 0.01,
+            "change of the channel's response to white, natural logarithm", true, false, false,
+            false, true },
+          growthParameter() },
+        { { 1.0, 0.0, 0.0 }, { -1.0, 0.0, 0.0 } } },
       { "per_channel", "a shift of its own for each channel", { shift(true) }, {},
         FormTrait::KeepsWhite } },
     { "chart at several field positions, lamp spectrum" } };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -178,6 +179,19 @@ Eigen::ArrayXd passbandCentroids(const CameraModel& camera)
     });
 }
 
+Eigen::ArrayXd passbandVariances(const CameraModel& camera, const Eigen::ArrayXd& middles)
+{
+  const Eigen::RowVectorXd wavelength = camera.wavelengths().vector().transpose();
+  const Eigen::ArrayXXd weight = camera.responsivity().array().square();
+  const Eigen::ArrayXXd distance =
+    wavelength.replicate(weight.rows(), 1).array().colwise() - middles;
+  const double step = (camera.wavelengths().back() - camera.wavelengths().front()) /
+    static_cast<double>(std::max<Eigen::Index>(wavelength.size() - 1, 1));
+  return (2.0 * (weight * distance.square()).rowwise().sum() /
+    weight.rowwise().sum().max(std::numeric_limits<double>::min()))
+    .max(step * step / 12.0);
+}
+
 std::unique_ptr<ResponsivityOperator> makePassbandsInLight(
   const BoundEffect& effect, const Eigen::ArrayXd& shift, const Eigen::ArrayXd& factor)
 {
@@ -195,6 +209,12 @@ Eigen::ArrayXd growthOf(const BoundEffect& effect)
     effect.value("growth") * (passbandCentroids(effect.camera()) - MiddleWavelength) / 100.0;
 }
 
+EffectParameter growthParameter()
+{
+  return { "growth", "1 per 100 nm", 0.0, -2.0, 2.0, 0.2,
+    "relative growth of the change with the distance of the centroid from 550 nm", false, true };
+}
+
 EffectForm inLightForm(
   const char* meaning, const EffectParameter& primary, double size, unsigned traits)
 {
@@ -206,9 +226,7 @@ EffectForm inLightForm(
     "curvature of the light's logarithm: weight of P2", false, true };
   const EffectParameter twist{ "twist", "1", 0.0, -4.0, 4.0, 0.5,
     "further curvature of the light's logarithm: weight of P3", false, true };
-  const EffectParameter growth{ "growth", "1 per 100 nm", 0.0, -2.0, 2.0, 0.2,
-    "relative growth of the change with the distance of the centroid from 550 nm", false, true };
-  return { "in_light", meaning, { primary, growth, slope, bend, twist },
+  return { "in_light", meaning, { primary, growthParameter(), slope, bend, twist },
     { { size, 0.0, 0.0, 0.0, 0.0 }, { size, 0.0, 1.0, 0.0, 0.0 }, { size, 0.0, -1.0, 0.0, 0.0 } },
     traits };
 }

@@ -23,11 +23,16 @@ Eigen::ArrayXd legendre(const Eigen::ArrayXd& x, double first, double second, do
 // Channel centroids; the middle of the grid where a row has no weight.
 Eigen::ArrayXd passbandCentroids(const CameraModel& camera);
 
+// Of Gaussians, by their squares, so that little far from the passband counts for nothing; nm^2. middles: K, nm. No less than that of
+// a passband of one step.
+Eigen::ArrayXd passbandVariances(const CameraModel& camera, const Eigen::ArrayXd& middles);
+
 // The operator of the form in_light, of filter_shift and filter_bandwidth: shift (nm) and factor of each channel.
 std::unique_ptr<ResponsivityOperator> makePassbandsInLight(
   const BoundEffect& effect, const Eigen::ArrayXd& shift, const Eigen::ArrayXd& factor);
 bool movesInLight(const BoundEffect& effect);
-// 1 at 550 nm, more or less beyond: how the change grows over the channels.
+// 1 at 550 nm, more or less beyond: how the change grows over the channels. Of the effect's secondary parameter `growth`.
+EffectParameter growthParameter();
 Eigen::ArrayXd growthOf(const BoundEffect& effect);
 
 // The form in_light; `primary` is what moves or widens, `size` where a fit starts.

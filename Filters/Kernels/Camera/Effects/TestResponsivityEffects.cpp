@@ -104,6 +104,31 @@ TEST(FilterBandwidth, WidensAGaussianPassband)
   }
 }
 
+// Under the light exp(rate wavelength) a Gaussian filter at c of deviation d is a passband at c + rate d^2, and one of deviation f d at
+// c + rate f^2 d^2: the stretched passband about c - rate f d^2.
+TEST(FilterBandwidth, StretchesAboutMiddlesThatAreNotTheCentroids)
+{
+  constexpr double Rate = 0.02;
+  constexpr double Variance = FilterDeviation * FilterDeviation;
+  const Eigen::VectorXd band = gaussian(fineGrid(), 550.0, BandDeviation);
+  for (const double factor : { 0.6, 0.9, 1.3, 1.8 })
+  {
+    // Of the camera's second channel the centroid is 550 nm.
+    const double middle = -Rate * Variance * (1.0 + factor);
+    const double moved = Rate * Variance * (factor * factor - 1.0);
+    const double expected = overlap(factor * FilterDeviation, BandDeviation, moved);
+    const double added = (factor * factor - 1.0) * Variance;
+    EXPECT_NEAR(responseTo(band,
+                  { "filter_bandwidth", "own_middles", "", { factor, 0.0, middle, 0.0, 0.0 } })[1],
+      expected, 2e-5)
+      << factor;
+    EXPECT_NEAR(responseTo(band,
+                  { "filter_bandwidth", "own_middles", "", { 1.0, 0.0, middle, 0.0, added } })[1],
+      expected, 2e-5)
+      << factor;
+  }
+}
+
 // Passbands of one shape at uneven places, of different brightness. Over such channels the response to a spectrum that is linear in
 // the wavelength, relative to that to white, is a line through the centers, and to one that is quadratic a parabola: exact between
 // three neighbours.
@@ -328,12 +353,32 @@ TEST(FilterLeak, LetsALongPassTileThroughABlueChannel)
 {
   const Eigen::VectorXd longPass = (fineGrid().vector().array() > 600.0).cast<double>();
   const double above = longPass.mean();
-  EXPECT_NEAR(
-    responseTo(longPass, { "filter_leak", "", "", { 0.04, 0.0 } })[0], 0.04 * above, 1e-12);
+  EXPECT_NEAR(responseTo(longPass, { "filter_leak", "", "", { 0.04, 0.0, 0.0, 0.0 } })[0],
+    0.04 * above, 1e-12);
   // Tilted to the long waves: mean of 1 + x over 602..700 nm, where x is the position from -1 to 1.
   const double x = (651.0 - 550.0) / 150.0;
-  EXPECT_NEAR(responseTo(longPass, { "filter_leak", "", "", { 0.04, 1.0 } })[0],
+  EXPECT_NEAR(responseTo(longPass, { "filter_leak", "", "", { 0.04, 1.0, 0.0, 0.0 } })[0],
     0.04 * above * (1.0 + x), 1e-12);
+}
+
+// Of the part of the response to white that is leaked, what falls on the middle 40 nm of the grid.
+TEST(FilterLeak, LeaksAtTheEndsOfTheGridWhereItIsBent)
+{
+  const WavelengthGrid grid = fineGrid();
+  const Eigen::VectorXd middle = ((grid.vector().array() - 550.0).abs() < 21.0).cast<double>();
+  const Eigen::ArrayXd x = (grid.vector().array() - 550.0) / 150.0;
+  const auto leaked = [](const Eigen::VectorXd& reflectance, double bend) -> Eigen::VectorXd
+  {
+    return responseTo(reflectance, { "filter_leak", "", "", { 0.04, 0.0, bend, 0.0 } }) -
+      responseTo(reflectance, { "filter_leak", "", "", { 0.0, 0.0, 0.0, 0.0 } });
+  };
+  for (const double bend : { -2.0, 1.0, 4.0 })
+  {
+    const Eigen::ArrayXd spectrum = (bend * (1.5 * x.square() - 0.5)).exp();
+    const double expected = 0.04 * (spectrum * middle.array()).sum() / spectrum.sum();
+    EXPECT_NEAR(leaked(middle, bend)[0], expected, 1e-12) << bend;
+    EXPECT_NEAR(leaked(Eigen::VectorXd::Ones(grid.size()), bend)[0], 0.04, 1e-12) << bend;
+  }
 }
 
 // The effect is the same as designing the camera under the lamp times `change`.

@@ -118,7 +118,7 @@ std::vector<CameraEffect> everything()
     { "interreflection", "", "fabric", { 0.2 } }, { "translucency", "", "fabric", { 0.1, 2.0 } },
     { "fluorescence", "", "paper", { 0.05, 440.0, 18.0 } },
     { "medium_gain", "", "fabric", { 0.9 } }, { "filter_shift", "", "", { 2.0 } },
-    { "filter_bandwidth", "", "", { 1.2 } }, { "filter_leak", "", "", { 0.01, 0.2 } },
+    { "filter_bandwidth", "", "", { 1.2 } }, { "filter_leak", "", "", { 0.01, 0.2, 0.0, 0.0 } },
     { "illuminant_drift", "", "", { 0.05 } }, { "illumination_gradient", "", "", { 0.05, -0.02 } },
     { "vignetting", "", "", { 0.1, 0.0, 0.0 } }, { "veiling_glare", "", "", { 0.02 } },
     { "local_stray_light", "", "", { 0.1, 2.0 } }, { "exposure_gain", "", "", { 1.02 } },

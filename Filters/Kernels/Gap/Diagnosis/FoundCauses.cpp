@@ -21,15 +21,22 @@ namespace
 {
 constexpr double MinutesToGetReady = 10.0;
 
-// Of every subset of the positions, fitted anew.
-std::vector<double> subsetShrinksOf(const Observation& data, const ObservedFit& best)
+// Of every subset of the positions: fitted anew from where the whole set is, or as it was found on the way.
+std::vector<double> subsetShrinksOf(const Observation& data, const FoundSets& found)
 {
+  const ObservedFit& best = *found.best;
   const std::size_t subsets = std::size_t(1) << best.set.size();
   std::vector<double> shrink(subsets, 0.0);
   for (std::size_t subset = 1; subset < subsets; ++subset)
   {
-    shrink[subset] = std::fmax(
-      shrinkOf(data.energies(subset + 1 == subsets ? best : *data.reduced(best, subset))), 0.0);
+    FitPointer fit = subset + 1 == subsets ? found.best : data.reduced(best, subset);
+    for (const FitPointer& other : found.visited)
+    {
+      const bool same = other->set.size() == fit->set.size() &&
+        std::is_permutation(other->set.begin(), other->set.end(), fit->set.begin());
+      fit = same && other->energy < fit->energy ? other : fit;
+    }
+    shrink[subset] = std::fmax(shrinkOf(data.energies(*fit)), 0.0);
   }
   return shrink;
 }
@@ -146,7 +153,7 @@ std::vector<double> sharesUnderPrecedence(
 std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink)
 {
   const ObservedFit& best = *found.best;
-  const std::vector<double> reached = subsetShrinksOf(data, best);
+  const std::vector<double> reached = subsetShrinksOf(data, found);
   std::vector<char> later;
   for (const std::size_t option : best.set)
   {

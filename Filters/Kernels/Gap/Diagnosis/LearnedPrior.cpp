@@ -154,7 +154,7 @@ LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
     {
       block = group.covariance(square);
       surprise += 0.5 * group.deviation.square().sum() / group.learned + cauchy(group.mean);
-      if (!group.kind.byPattern)
+      if (!group.kind.mayFollowCurve)
       {
         chanceOfCurve = std::fmin(chanceOfCurve, chanceOfCubic(group.deviation.matrix()));
       }

@@ -36,8 +36,9 @@ struct FreeNumber
   double wanted = 0.0;
   bool normal =
     false; // of a common number: known to be near neutral, its prior is normal and not Cauchy
-  // Of numbers of channels: a pattern in the image tells the effect, so that they may follow a curve.
-  bool byPattern = false;
+  // Of numbers of channels: they tell the effect also where they follow a curve over the channels. A pattern in the image does, or
+  // the light makes them what they are.
+  bool mayFollowCurve = false;
 };
 
 // Of a number that a fit leaves neutral only where the data do not determine it: standard deviation Decision::FreeSpread.
@@ -63,7 +64,7 @@ struct LearnedPrior
   // Minus the logarithm of the prior's density over that at neutral.
   double surprise = 0.0;
   // Probability that independent numbers of channels follow a smooth curve over the channels as closely; the smallest of
-  // all groups, but for those byPattern.
+  // all groups, but for those mayFollowCurve.
   double chanceOfCurve = 1.0;
 };
 

@@ -58,7 +58,7 @@ TEST(LearnedPrior, NumbersThatAPatternTellsMayFollowACurve)
 {
   msi::FreeNumber number{ 0, true, false, 0.3, 1.0 };
   EXPECT_LT(msi::LearnedPrior(std::vector<msi::FreeNumber>(6, number)).chanceOfCurve, 1e-6);
-  number.byPattern = true;
+  number.mayFollowCurve = true;
   EXPECT_EQ(msi::LearnedPrior(std::vector<msi::FreeNumber>(6, number)).chanceOfCurve, 1.0);
 }
 

@@ -172,6 +172,40 @@ TEST(SetSearch, FindsWhatIsThereAndNothingElse)
   EXPECT_NEAR(causes[0].share + causes[1].share, 0.9, 1e-12);
 }
 
+// Fits that are begun where a larger set was do not get anywhere.
+class StuckWhenReduced : public ColumnSums
+{
+public:
+  using ColumnSums::ColumnSums;
+  msi::FitPointer reduced(const msi::ObservedFit& from, std::size_t positions) const override
+  {
+    auto stuck = std::make_shared<msi::ObservedFit>(*ColumnSums::reduced(from, positions));
+    stuck->energy = nominal()->energy;
+    return stuck;
+  }
+  msi::GroupEnergies energies(const msi::ObservedFit& fit) const override
+  {
+    return ColumnSums::energies(fit.energy == nominal()->energy ? *nominal() : fit);
+  }
+};
+
+TEST(SetSearch, SharesKnowWhatWasFoundOnTheWay)
+{
+  const Eigen::MatrixXd X = drawnNumbers(SumRows, 8, 1);
+  const Eigen::VectorXd y = 4.0 * X.col(2) - 3.0 * X.col(5) + drawnNumbers(SumRows, 1, 2);
+  const ColumnSums plain(X, y);
+  const std::vector<msi::GapCause> expected = msi::foundCauses(plain, foundSets(plain), 0.9);
+  const StuckWhenReduced stuck(X, y);
+  const std::vector<msi::GapCause> causes = msi::foundCauses(stuck, foundSets(stuck), 0.9);
+  ASSERT_EQ(causes.size(), 2U);
+  for (std::size_t c = 0; c < 2; ++c)
+  {
+    EXPECT_EQ(causes[c].effect, expected[c].effect);
+    EXPECT_NEAR(causes[c].share, expected[c].share, 1e-12);
+    EXPECT_NEAR(causes[c].shrink, expected[c].shrink, 1e-12);
+  }
+}
+
 TEST(SetSearch, NoiseIsNothing)
 {
   const ColumnSums data(drawnNumbers(SumRows, 8, 3), drawnNumbers(SumRows, 1, 4));

@@ -161,6 +161,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
                        parameter.lower - neutral, parameter.upper - neutral },
       e, index, channel, neutral, name, parameter.unit });
     free.back().deviation = value(free.back()) - neutral;
+    free.back().mayFollowCurve = parameter.followsLight;
   };
   for (std::size_t e = 0; e < effects.size(); ++e)
   {

@@ -27,18 +27,17 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices)
   std::vector<GapOption> options;
   for (const EffectChoice& choice : choices)
   {
-    const auto& parameters = choice.form->parameters;
-    options.push_back({ choice.effect, choice.form->name, choice.medium,
-      std::any_of(parameters.begin(), parameters.end(),
-        [](const EffectParameter& parameter) { return parameter.perChannel && !parameter.given; }),
-      Decision::EffectImprobability +
-        Decision::FormImprobability *
-          (choice.form->has(FormTrait::BesideLine)
-              ? 0.0
-              : static_cast<double>(
-                  choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0))),
-      choice.form->has(FormTrait::BesideLine),
-      choice.form->has(FormTrait::Brightens) && !choice.whiteAfter });
+    const EffectParameter& first = choice.form->parameters.front();
+    options.push_back(
+      { choice.effect, choice.form->name, choice.medium, first.perChannel && !first.followsLight,
+        Decision::EffectImprobability +
+          Decision::FormImprobability *
+            (choice.form->has(FormTrait::BesideLine)
+                ? 0.0
+                : static_cast<double>(
+                    choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0))),
+        choice.form->has(FormTrait::BesideLine),
+        choice.form->has(FormTrait::Brightens) && !choice.whiteAfter });
   }
   return options;
 }
@@ -195,6 +194,7 @@ FitPointer SampleObservation::extended(const ObservedFit& from, const GapPreview
 FitPointer SampleObservation::reduced(const ObservedFit& from, std::size_t positions) const
 {
   EffectSet effects = sampleFit(from).effects;
+  const bool whiteAfter = effects.whiteAfterEffects();
   std::vector<std::size_t> set = from.set;
   for (std::size_t p = set.size(); p-- > 0;)
   {
@@ -202,6 +202,18 @@ FitPointer SampleObservation::reduced(const ObservedFit& from, std::size_t posit
     {
       effects.remove(p);
       set.erase(set.begin() + static_cast<std::ptrdiff_t>(p));
+    }
+  }
+  // The white stays as it was, also where the option that said so is gone.
+  for (std::size_t p = 0; p < set.size() && whiteAfter && !effects.whiteAfterEffects(); ++p)
+  {
+    const auto twin = std::find_if(Choices.begin(), Choices.end(),
+      [&own = effects.choices[p]](const EffectChoice& other)
+      { return other.whiteAfter && other.form == own.form && other.leveled == own.leveled; });
+    if (twin != Choices.end())
+    {
+      effects.choices[p] = *twin;
+      set[p] = static_cast<std::size_t>(twin - Choices.begin());
     }
   }
   return described(Fitter.fit(std::move(effects), SearchFit), std::move(set));

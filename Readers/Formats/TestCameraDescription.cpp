@@ -172,7 +172,7 @@ TEST_F(CameraDescriptions, EffectErrors)
   EXPECT_EQ(effectError(R"([{"effect": "filter_shift", "form": "round"}])"),
     "list.json:1:3: effect 1 (filter_shift): it has no form 'round'; expected one of common, "
     "of_neighbours, "
-    "sampled, linear, in_light, per_channel; correct the form");
+    "sampled, linear, own_levels, per_channel; correct the form");
   EXPECT_EQ(effectError(R"([{"effect": "channel_gain", "parameters": {"gain": [1, 2]}}])"),
     "list.json:1:3: effect 1 (channel_gain): parameter 'gain' has 2 values; expected 3, as the "
     "camera has channels; correct the list");

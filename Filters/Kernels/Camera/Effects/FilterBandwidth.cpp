@@ -1,6 +1,10 @@
 // Passbands wider or narrower than the nominal ones.
 #include "Kernels/Camera/Effects/Effect.h"
+#include "Kernels/Camera/Effects/MovedSpectrum.h"
 #include "Kernels/Camera/Effects/Passbands.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace msi
 {
@@ -9,6 +13,22 @@ namespace
 {
 constexpr double LeastFactor = 0.2; // of a width that changes from channel to channel
 constexpr const char* OwnMiddles = "own_middles";
+
+// Of passbands as if they were Gaussians, by their squares, so that little far from a passband counts for nothing; nm^2. No less than
+// that of one step.
+Eigen::ArrayXd variancesOf(const CameraModel& camera, const Eigen::ArrayXd& middles)
+{
+  const WavelengthGrid& grid = camera.wavelengths();
+  const Eigen::RowVectorXd wavelength = grid.vector().transpose();
+  const Eigen::ArrayXXd weight = camera.responsivity().array().square();
+  const Eigen::ArrayXXd distance =
+    wavelength.replicate(weight.rows(), 1).array().colwise() - middles;
+  const double step =
+    (grid.back() - grid.front()) / static_cast<double>(std::max<Eigen::Index>(grid.size() - 1, 1));
+  return (2.0 * (weight * distance.square()).rowwise().sum() /
+    weight.rowwise().sum().max(std::numeric_limits<double>::min()))
+    .max(step * step / 12.0);
+}
 
 class FilterBandwidth : public ResponsivityOperator
 {
@@ -26,7 +46,7 @@ public:
     }
     if (effect.form().name == OwnMiddles)
     {
-      const Eigen::ArrayXd variance = passbandVariances(effect.camera(), Center);
+      const Eigen::ArrayXd variance = variancesOf(effect.camera(), Center);
       Factor = (Factor.square() + effect.value("added_variance") / variance)
                  .max(LeastFactor * LeastFactor)
                  .sqrt();
@@ -53,11 +73,6 @@ private:
 
 std::unique_ptr<ResponsivityOperator> makeBandwidth(const BoundEffect& effect)
 {
-  if (movesInLight(effect))
-  {
-    return makePassbandsInLight(effect, Eigen::ArrayXd::Zero(effect.camera().channelCount()),
-      (1.0 + (effect.perChannel("factor") - 1.0) * growthOf(effect)).max(LeastFactor));
-  }
   if (goesByNeighbours(effect))
   {
     return makePassbandsOfNeighbours(effect, 0.0, effect.value("added_variance"));
@@ -90,10 +105,6 @@ Effect filterBandwidth()
         FormTrait::KeepsWhite },
       { "fixed_peak", "the same with the peak kept: the response to white grows with the width",
         { factor(false) }, {}, FormTrait::Brightens },
-      inLightForm(
-        "light x passband(c + (wavelength - c) / factor), c the passband's middle; the light "
-        "stays, ln(light) = slope P1(x) + bend P2(x) + twist P3(x), none beyond the grid",
-        factor(false), 1.1, FormTrait::Brightens),
       { OwnMiddles,
         "M(m + (wavelength - m) / factor), response to white kept, m a middle of its own of each "
         "passband: a light with lines moves the centroid away from it",

@@ -1,5 +1,6 @@
 // Passbands at other wavelengths than nominal.
 #include "Kernels/Camera/Effects/Effect.h"
+#include "Kernels/Camera/Effects/MovedSpectrum.h"
 #include "Kernels/Camera/Effects/Passbands.h"
 
 namespace msi
@@ -20,14 +21,14 @@ public:
     , Shift(effect.perChannel("shift"))
     , Sampled(effect.form().name == "sampled")
   {
-    if (effect.form().name == "linear")
+    const bool ownLevels = effect.form().name == OwnLevels;
+    if (ownLevels || effect.form().name == "linear")
     {
       Shift +=
         effect.value("slope") * (passbandCentroids(effect.camera()) - MiddleWavelength) / 100.0;
     }
-    if (effect.form().name == OwnLevels)
+    if (ownLevels)
     {
-      Shift *= growthOf(effect);
       Level = (Shift * effect.perChannel("level")).exp();
     }
   }
@@ -81,11 +82,6 @@ private:
 
 std::unique_ptr<ResponsivityOperator> makeShift(const BoundEffect& effect)
 {
-  if (movesInLight(effect))
-  {
-    return makePassbandsInLight(effect, effect.perChannel("shift") * growthOf(effect),
-      Eigen::ArrayXd::Ones(effect.camera().channelCount()));
-  }
   if (goesByNeighbours(effect))
   {
     return makePassbandsOfNeighbours(effect, effect.value("shift"), 0.0);
@@ -100,6 +96,11 @@ Effect filterShift()
   {
     return EffectParameter{ "shift", "nm", 0.0, -25.0, 25.0, 2.0, "towards longer wavelengths",
       perChannel };
+  };
+  const auto slope = [](bool secondary)
+  {
+    return EffectParameter{ "slope", "nm per 100 nm", 0.0, -15.0, 15.0, 1.0, "growth of the shift",
+      false, secondary };
   };
   Effect effect;
   effect.definition = { "filter_shift", "Filter shift",
@@ -116,22 +117,16 @@ Effect filterShift()
         "the curve itself is moved on its grid: what leaves at an end is lost to the response "
         "to white",
         { shift(false) } },
-      { "linear", "shift + slope (centroid - 550 nm) / 100 nm",
-        { shift(false),
-          { "slope", "nm per 100 nm", 0.0, -15.0, 15.0, 1.0, "growth of the shift" } },
-        {}, FormTrait::KeepsWhite },
-      inLightForm(
-        "light x passband(wavelength - shift); the light stays, ln(light) = slope P1(x) + bend "
-        "P2(x) + twist P3(x), none beyond the grid",
-        shift(false), 1.0),
+      { "linear", "shift + slope (centroid - 550 nm) / 100 nm", { shift(false), slope(false) }, {},
+        FormTrait::KeepsWhite },
       { OwnLevels,
-        "M(wavelength - shift) exp(shift level): in a light with lines each channel becomes "
-        "brighter or darker as its passband moves",
+        "as linear, times exp(shift level): in a light with lines each channel becomes brighter or "
+        "darker as its passband moves",
         { shift(false),
           { "level", "1 per nm", 0.0, -0.1, 0.1, 0.01,
             "change of the channel's response to white, natural logarithm", true, false, false,
             false, true },
-          growthParameter() },
+          slope(true) },
         { { 1.0, 0.0, 0.0 }, { -1.0, 0.0, 0.0 } } },
       { "per_channel", "a shift of its own for each channel", { shift(true) }, {},
         FormTrait::KeepsWhite } },

@@ -1,6 +1,5 @@
 #include "Kernels/Camera/CameraTestData.h"
 #include "Kernels/Camera/Effects/MovedSpectrum.h"
-#include "Kernels/Camera/Effects/PassbandCenter.h"
 
 #include <gtest/gtest.h>
 
@@ -129,6 +128,28 @@ TEST(FilterBandwidth, StretchesAboutMiddlesThatAreNotTheCentroids)
   }
 }
 
+// Under the light exp(rate wavelength) a filter that moves by some nm is its passband moved, exp(rate shift) as bright.
+TEST(FilterShift, IsAsBrightAsTheLightThere)
+{
+  constexpr double Rate = 0.02;
+  constexpr double Shift = 3.0;
+  constexpr double Slope = 1.5;
+  const Eigen::VectorXd band = gaussian(fineGrid(), 550.0, BandDeviation);
+  const Eigen::VectorXd response = responseTo(
+    band, { "filter_shift", "own_levels", "", { Shift, Rate, -Rate, 0.5 * Rate, Slope } });
+  const std::array<double, 3> level{ Rate, -Rate, 0.5 * Rate };
+  for (int k = 0; k < 3; ++k)
+  {
+    const double off = 70.0 * (k - 1);
+    const double shift = Shift + Slope * off / 100.0;
+    EXPECT_NEAR(response[k],
+      std::exp(level[static_cast<std::size_t>(k)] * shift) *
+        overlap(FilterDeviation, BandDeviation, off + shift),
+      2e-5)
+      << k;
+  }
+}
+
 // Passbands of one shape at uneven places, of different brightness. Over such channels the response to a spectrum that is linear in
 // the wavelength, relative to that to white, is a line through the centers, and to one that is quadratic a parabola: exact between
 // three neighbours.
@@ -232,121 +253,6 @@ TEST(FilterShift, NeedsThreeChannelsToGoByNeighbours)
   EXPECT_EQ(
     CameraSimulator(camera, { { "filter_shift", "of_neighbours", "", { 5.0 } } }).respond(scene),
     CameraSimulator(camera, {}).respond(scene));
-}
-
-// A camera whose filters are not those of the model, behind the same lamp and balanced on the same white.
-class FiltersInLight : public ::testing::Test
-{
-protected:
-  FiltersInLight()
-    : Grid(fineGrid())
-  {
-    const Eigen::ArrayXd x = (Grid.vector().array() - 550.0) / 150.0;
-    Parts.detector = Eigen::VectorXd::Ones(Grid.size());
-    Parts.light = (Slope * x + Bend * (1.5 * x.square() - 0.5)).exp();
-    Parts.filters = { { 412.0, 30.0 }, { 470.0, 24.0 }, { 560.0, 40.0 }, { 690.0, 30.0 } };
-    Samples.reflectance = 0.3 + 0.2 * (Grid.vector().array() / 35.0).sin();
-  }
-  Eigen::VectorXd expected(double factor, double shift) const
-  {
-    msi::CameraParts real = Parts;
-    for (msi::BandpassFilter& filter : real.filters)
-    {
-      filter.width *= factor;
-      filter.center += shift;
-    }
-    return msi::designCamera(Grid, real).responsivity() * Samples.reflectance.col(0);
-  }
-  Eigen::VectorXd found(const CameraEffect& effect) const
-  {
-    return CameraSimulator(msi::designCamera(Grid, Parts), { effect }, { true })
-      .respond({ Grid, Samples });
-  }
-  static constexpr double Slope = 1.1;
-  static constexpr double Bend = -0.4;
-  WavelengthGrid Grid;
-  msi::CameraParts Parts;
-  msi::SceneSamples Samples;
-};
-
-TEST_F(FiltersInLight, Widen)
-{
-  for (const double factor : { 0.6, 0.9, 1.4, 2.0 })
-  {
-    const Eigen::VectorXd real = expected(factor, 0.0);
-    const Eigen::VectorXd error =
-      found({ "filter_bandwidth", "in_light", "", { factor, 0.0, Slope, Bend, 0.0 } }) - real;
-    // A passband that the end cuts is not known beyond it: what comes in from there when it narrows is missing.
-    const Eigen::Index first = factor < 1.0 ? 1 : 0;
-    const Eigen::Index count = factor < 1.0 ? 2 : 4;
-    EXPECT_LT(error.segment(first, count).cwiseAbs().maxCoeff(), 1e-3) << factor;
-    EXPECT_LT(error.segment(1, 2).cwiseAbs().maxCoeff(), 2e-5) << factor;
-    // The plain form, which lets the light move along, is far off.
-    const Eigen::VectorXd plain = found({ "filter_bandwidth", "common", "", { factor } }) - real;
-    EXPECT_GT(plain.cwiseAbs().maxCoeff(), 10.0 * error.segment(first, count).cwiseAbs().maxCoeff())
-      << factor;
-  }
-}
-
-TEST_F(FiltersInLight, Shift)
-{
-  for (const double shift : { -6.0, -1.0, 3.0 })
-  {
-    const Eigen::VectorXd error =
-      found({ "filter_shift", "in_light", "", { shift, 0.0, Slope, Bend, 0.0 } }) -
-      expected(1.0, shift);
-    EXPECT_LT(error.segment(1, 2).cwiseAbs().maxCoeff(), 2e-5) << shift;
-  }
-}
-
-TEST_F(FiltersInLight, ChangeMoreWhereTheWavesAreLong)
-{
-  const Eigen::ArrayXd z = (msi::designCamera(Grid, Parts).centroids().array() - 550.0) / 100.0;
-  const double growth = 0.4;
-  msi::CameraParts widened = Parts;
-  msi::CameraParts moved = Parts;
-  for (std::size_t k = 0; k < Parts.filters.size(); ++k)
-  {
-    const double more = 1.0 + growth * z[static_cast<Eigen::Index>(k)];
-    widened.filters[k].width *= 1.0 + 0.3 * more;
-    moved.filters[k].center += 3.0 * more;
-  }
-  const auto real = [this](const msi::CameraParts& parts) -> Eigen::VectorXd
-  { return msi::designCamera(Grid, parts).responsivity() * Samples.reflectance.col(0); };
-  const auto error = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b)
-  { return (a - b).segment(1, 2).cwiseAbs().maxCoeff(); };
-  EXPECT_LT(error(found({ "filter_bandwidth", "in_light", "", { 1.3, growth, Slope, Bend, 0.0 } }),
-              real(widened)),
-    2e-5);
-  EXPECT_LT(error(found({ "filter_shift", "in_light", "", { 3.0, growth, Slope, Bend, 0.0 } }),
-              real(moved)),
-    2e-5);
-}
-
-TEST_F(FiltersInLight, ShiftedTheyAreAsBrightAsTheLightThere)
-{
-  Samples.reflectance.setOnes();
-  const Eigen::VectorXd white = CameraSimulator(msi::designCamera(Grid, Parts),
-    { { "filter_shift", "in_light", "", { 4.0, 0.0, Slope, 0.0, 0.0 } } })
-                                  .respond({ Grid, Samples });
-  EXPECT_NEAR(white[1], std::exp(Slope * 4.0 / 150.0), 1e-12);
-  EXPECT_NEAR(white[2], std::exp(Slope * 4.0 / 150.0), 1e-12);
-  EXPECT_LT(white[3], std::exp(Slope * 4.0 / 150.0)); // a part is out of the light
-}
-
-TEST(PassbandCenter, IsTheGaussiansUnderAnyExponentialLightAndAtTheEndOfTheGrid)
-{
-  const WavelengthGrid grid = WavelengthGrid::uniform(400.0, 700.0, 10.0);
-  const Eigen::ArrayXd logLight = 0.02 * grid.vector().array();
-  for (const double center : { 404.0, 433.3, 551.0, 696.0 })
-  {
-    for (const double deviation : { 5.0, 14.0, 40.0 })
-    {
-      const Eigen::ArrayXd row = gaussian(grid, center, deviation) * (logLight - 11.0).exp();
-      EXPECT_NEAR(msi::passbandCenter(grid, row, logLight), center, 1e-6) << deviation;
-    }
-  }
-  EXPECT_EQ(msi::passbandCenter(grid, Eigen::ArrayXd::Zero(grid.size()), logLight), 550.0);
 }
 
 TEST(FilterLeak, LetsALongPassTileThroughABlueChannel)

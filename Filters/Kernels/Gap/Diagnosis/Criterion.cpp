@@ -9,22 +9,36 @@
 namespace msi
 {
 
+namespace
+{
+// Whether every medium that its effect could have been blamed on has it.
+bool isEverywhere(const GapOption& option, const std::vector<GapOption>& options,
+  const std::vector<std::size_t>& set)
+{
+  return !option.medium.empty() &&
+    std::all_of(options.begin(), options.end(),
+      [&](const GapOption& other)
+      {
+        return other.effect != option.effect ||
+          std::any_of(set.begin(), set.end(),
+            [&](std::size_t mine) { return options[mine].sameCause(other); });
+      });
+}
+
+bool isOfOnlyMedium(const GapOption& option, const std::vector<GapOption>& options)
+{
+  return std::all_of(options.begin(), options.end(),
+    [&](const GapOption& other) { return other.medium.empty() || other.medium == option.medium; });
+}
+}
+
 int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std::size_t>& set)
 {
   int signs = 0;
   for (const std::size_t number : set)
   {
-    const GapOption& option = options[number];
-    // Every medium that the effect could have been blamed on has it.
-    const bool everywhere = !option.medium.empty() &&
-      std::all_of(options.begin(), options.end(),
-        [&](const GapOption& other)
-        {
-          return other.effect != option.effect ||
-            std::any_of(set.begin(), set.end(),
-              [&](std::size_t mine) { return options[mine].sameCause(other); });
-        });
-    signs += (option.inDisguise ? 1 : 0) + (everywhere ? 1 : 0);
+    signs +=
+      (options[number].inDisguise ? 1 : 0) + (isEverywhere(options[number], options, set) ? 1 : 0);
   }
   return signs;
 }
@@ -74,10 +88,17 @@ double Criterion::occam(const ObservedFit& fit) const
 
 double Criterion::improbability(const std::vector<std::size_t>& set) const
 {
-  double sum = Decision::StandIn * signsOfStandIns(Data.options(), set);
+  const std::vector<GapOption>& options = Data.options();
+  double sum = Decision::StandIn * signsOfStandIns(options, set);
   for (const std::size_t number : set)
   {
-    sum += Data.options()[number].improbability;
+    const GapOption& option = options[number];
+    sum += option.improbability;
+    // That the only medium has it is no coincidence of several.
+    if (isEverywhere(option, options, set) && isOfOnlyMedium(option, options))
+    {
+      sum += Decision::FormImprobability - Decision::StandIn;
+    }
   }
   return sum;
 }

@@ -33,8 +33,8 @@ inline constexpr double FormImprobability = 1.0;
 // Logarithm of odds beyond which a set is out of the question: the search does not go on from it, its effects are not equivalent.
 inline constexpr double DecisiveOdds = 6.0;
 
-// Of an effect that seems to stand for another: a parameter at the end of its range, an effect of a medium that all media have,
-// a gain in disguise.
+// Of an effect that seems to stand for another: a parameter at the end of its range, an effect of a medium that all of several media
+// have, a gain in disguise.
 inline constexpr double StandIn = 0.5 * DecisiveOdds;
 
 // How sure?

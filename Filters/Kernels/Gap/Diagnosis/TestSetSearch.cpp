@@ -1,5 +1,6 @@
 // The search and what is said of it, on data of which everything is known: columns of numbers and their sums.
 #include "Kernels/Gap/Diagnosis/Criterion.h"
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Diagnosis/SetSearch.h"
 
@@ -31,6 +32,7 @@ public:
     }
   }
   void makePerChannel(std::size_t option) { Options[option].perChannel = true; }
+  void makeOfMedium(std::size_t option, const char* medium) { Options[option].medium = medium; }
   const std::vector<msi::GapOption>& options() const override { return Options; }
   double elements() const override { return static_cast<double>(Y.size()); }
   double noiseEnergy() const override { return static_cast<double>(Y.size()); }
@@ -314,6 +316,26 @@ TEST(SignsOfStandIns, AnEffectOfEveryMediumIsNotTheMediums)
   EXPECT_EQ(msi::signsOfStandIns(options, { 5 }), 1);
   // The only medium there is.
   EXPECT_EQ(msi::signsOfStandIns({ options.front() }, { 0 }), 1);
+}
+
+// Column 1 does the same on a medium as column 0.
+TEST(Criterion, AnEffectOfTheOnlyMediumIsOneFormDearerThanTheCameras)
+{
+  Eigen::MatrixXd X = drawnNumbers(SumRows, 3, 9);
+  X.col(1) = X.col(0);
+  ColumnSums data(X, 4.0 * X.col(0) + drawnNumbers(SumRows, 1, 10));
+  const msi::FitPointer nominal = data.nominal();
+  const auto dearer = [&]
+  {
+    const msi::Criterion score(data, *nominal, 50.0);
+    return score(*data.extended(*nominal, { 0, {}, {} })) -
+      score(*data.extended(*nominal, { 1, {}, {} }));
+  };
+  EXPECT_NEAR(dearer(), 0.0, 1e-9);
+  data.makeOfMedium(1, "paper");
+  EXPECT_NEAR(dearer(), msi::Decision::FormImprobability, 1e-9);
+  data.makeOfMedium(2, "cotton");
+  EXPECT_NEAR(dearer(), msi::Decision::StandIn, 1e-9);
 }
 
 TEST(SharesUnderPrecedence, AreShapleyValuesWithoutPrecedence)

@@ -36,6 +36,35 @@ TEST(SampleObservation, AFitWithoutOnePositionIsTheFitOfTheOther)
   EXPECT_NEAR(again->energy, gain->energy, 1e-3 * gain->energy);
 }
 
+TEST(SampleObservation, TheWhiteStaysTakenWhereWhatSaidSoIsGone)
+{
+  const msi::CameraEffect leak{ "filter_leak", "", "", { 0.03, 0.5, 0.0, 0.0 } };
+  const msi::CameraEffect wide{ "filter_bandwidth", "fixed_peak", "", { 1.3 } };
+  const msi::SceneSamples samples = rasterSamples(96);
+  const msi::CameraSimulator real(sevenChannels(), { leak, wide }, { true });
+  const msi::GapData data = dataOf(
+    captureFrom(sevenChannels(), samples, real.respond(msi::SampleScene(visibleGrid(), samples))));
+  const std::vector<msi::EffectChoice> choices = msi::choicesFor(data.scene, {});
+  const msi::SampleObservation observation(data, data.usable, choices, 1);
+  const auto optionOf = [&choices](const msi::CameraEffect& effect, bool whiteAfter)
+  {
+    return static_cast<std::size_t>(
+      std::find_if(choices.begin(), choices.end(),
+        [&](const msi::EffectChoice& choice)
+        {
+          return choice.effect->name == effect.name && choice.whiteAfter == whiteAfter &&
+            choice.form->name == (effect.form.empty() ? "common" : effect.form);
+        }) -
+      choices.begin());
+  };
+  const msi::FitPointer width =
+    observation.extended(*observation.nominal(), { optionOf(wide, true), { 1.2 }, {} });
+  const msi::FitPointer both =
+    observation.extended(*width, { optionOf(leak, false), { 0.01, 0.0, 0.0, 0.0 }, {} });
+  EXPECT_LT(both->energy, 2.0 * observation.noiseEnergy());
+  EXPECT_EQ(observation.reduced(*both, 2)->set, std::vector<std::size_t>{ optionOf(leak, true) });
+}
+
 // Beside another effect; the gains of the channels, seven numbers, learn how much they scatter.
 TEST(SampleObservation, APreviewOfALinearEffectIsItsFit)
 {

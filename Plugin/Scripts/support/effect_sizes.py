@@ -90,11 +90,18 @@ def _crosstalk(_form, p):
             "behind")
 
 
-def _bandwidth(form, p):
-    if form == "of_neighbours":
+def _wider(value):
+    return "wider" if value >= 0 else "narrower"
+
+
+def _bandwidth(_form, p):
+    words = []
+    if "factor" in p:
+        words.append(_relative([v - 1.0 for v in p["factor"]], lambda v: f"{_percent(v)} {_wider(v)}"))
+    if "added_variance" in p:
         variance = p["added_variance"][0]
-        return f"passbands {'wider' if variance >= 0 else 'narrower'}, by {_plain(abs(variance))} nm² of variance"
-    return "passbands " + _relative([v - 1.0 for v in p["factor"]], lambda v: f"{_percent(v)} {'wider' if v >= 0 else 'narrower'}")
+        words.append(f"{_wider(variance)} by {_plain(abs(variance))} nm² of variance")
+    return "passbands " + ", and ".join(words)
 
 
 def _noise(form, p):

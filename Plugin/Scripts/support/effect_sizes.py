@@ -96,8 +96,9 @@ def _wider(value):
 
 def _bandwidth(_form, p):
     words = []
-    if "factor" in p:
-        words.append(_relative([v - 1.0 for v in p["factor"]], lambda v: f"{_percent(v)} {_wider(v)}"))
+    changes = [v - 1.0 for v in p.get("factor", [])]
+    if any(abs(change) >= 5e-4 for change in changes) or "added_variance" not in p:
+        words.append(_relative(changes, lambda v: f"{_percent(v)} {_wider(v)}"))
     if "added_variance" in p:
         variance = p["added_variance"][0]
         words.append(f"{_wider(variance)} by {_plain(abs(variance))} nm² of variance")

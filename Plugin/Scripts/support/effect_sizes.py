@@ -95,14 +95,14 @@ def _wider(value):
 
 
 def _bandwidth(_form, p):
-    words = []
     changes = [v - 1.0 for v in p.get("factor", [])]
-    if any(abs(change) >= 5e-4 for change in changes) or "added_variance" not in p:
-        words.append(_relative(changes, lambda v: f"{_percent(v)} {_wider(v)}"))
-    if "added_variance" in p:
-        variance = p["added_variance"][0]
-        words.append(f"{_wider(variance)} by {_plain(abs(variance))} nm² of variance")
-    return "passbands " + ", and ".join(words)
+    by_factor = _relative(changes, lambda v: f"{_percent(v)} {_wider(v)}") if changes else ""
+    if "added_variance" not in p:
+        return "passbands " + by_factor
+    variance = p["added_variance"][0]
+    if all(abs(change) < 5e-4 for change in changes):
+        return f"passbands {_wider(variance)} by {_plain(abs(variance))} nm² of variance"
+    return f"passbands {by_factor}, with {_plain(abs(variance))} nm² {'more' if variance >= 0 else 'less'} variance"
 
 
 def _noise(form, p):

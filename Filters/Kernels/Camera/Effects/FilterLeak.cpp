@@ -54,8 +54,8 @@ Effect filterLeak()
     { 0.01, -0.9, 0.0, 0.0 }, { 0.01, 0.0, 2.0, 0.0 } };
   Effect effect;
   effect.definition = { "filter_leak", "Filter leak",
-    "Transmittance outside the passband, even over the grid or tilted.", EffectStage::Responsivity,
-    EffectNeed::Nothing,
+    "Transmittance outside the passband: even over the grid, tilted or bent.",
+    EffectStage::Responsivity, EffectNeed::Nothing,
     { { "common", "M + fraction x (response to white) x spectrum", leak(false), starts },
       { "per_channel", "the same with a fraction of its own for each channel", leak(true),
         starts } },

@@ -79,7 +79,7 @@ struct GapCause
   std::vector<std::string> equivalent; // effects that this data cannot tell from it; at most two
   std::vector<GapParameter> parameters;
   double probability = 0.0; // of this effect, and not another or an unknown one, being a cause
-  bool perChannel = false;  // a number for every channel
+  bool perChannel = false;  // a number for every channel, and not because of the light
 };
 
 struct GapCandidate

@@ -109,8 +109,8 @@ Effect filterBandwidth()
         "M(m + (wavelength - m) / factor), response to white kept, m a middle of its own of each "
         "passband: a light with lines moves the centroid away from it",
         { factor(false),
-          { "middle", "nm", 0.0, -30.0, 30.0, 10.0,
-            "from the centroid to the middle of the passband", true, false, false, false, true },
+          followingLight({ "middle", "nm", 0.0, -30.0, 30.0, 10.0,
+            "from the centroid to the middle of the passband", true }),
           { "added_variance", "nm^2", 0.0, -200.0, 800.0, 30.0,
             "the same for all passbands, beyond what the factor does", false, true } },
         { { 1.15, 0.0, 0.0 }, { 0.85, 0.0, 0.0 } }, FormTrait::KeepsWhite } },

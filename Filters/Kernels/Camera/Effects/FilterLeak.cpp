@@ -38,9 +38,8 @@ Effect filterLeak()
   const auto leak = [](bool perChannel)
   {
     return std::vector<EffectParameter>{
-      { "fraction", "1", 0.0, 0.0, 0.5, 0.01,
-        "response to white through the leak over that through the passband", perChannel, false,
-        false, false, true },
+      followingLight({ "fraction", "1", 0.0, 0.0, 0.5, 0.01,
+        "response to white through the leak over that through the passband", perChannel }),
       { "tilt", "1", 0.0, -1.0, 1.0, 0.5, "-1 only short waves leak, 1 only long ones", false,
         true },
       { "bend", "1", 0.0, -4.0, 4.0, 1.0,

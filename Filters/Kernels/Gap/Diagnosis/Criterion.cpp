@@ -89,15 +89,15 @@ double Criterion::occam(const ObservedFit& fit) const
 double Criterion::improbability(const std::vector<std::size_t>& set) const
 {
   const std::vector<GapOption>& options = Data.options();
-  double sum = Decision::StandIn * signsOfStandIns(options, set);
+  double sum = 0.0;
   for (const std::size_t number : set)
   {
     const GapOption& option = options[number];
-    sum += option.improbability;
-    // That the only medium has it is no coincidence of several.
-    if (isEverywhere(option, options, set) && isOfOnlyMedium(option, options))
+    sum += option.improbability + (option.inDisguise ? Decision::StandIn : 0.0);
+    if (isEverywhere(option, options, set))
     {
-      sum += Decision::FormImprobability - Decision::StandIn;
+      // That the only medium has it is no coincidence of several.
+      sum += isOfOnlyMedium(option, options) ? Decision::FormImprobability : Decision::StandIn;
     }
   }
   return sum;

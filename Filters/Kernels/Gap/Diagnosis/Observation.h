@@ -21,7 +21,7 @@ struct GapOption
   const EffectDefinition* effect = nullptr;
   std::string form;
   std::string medium;
-  bool perChannel = false;    // a number for every channel
+  bool perChannel = false;    // a number for every channel, and not because of the light
   double improbability = 0.0; // minus the logarithm of its probability before the data speak
   bool besideLine = false;    // FormTrait::BesideLine
   bool inDisguise = false;    // also a gain, which white would take away

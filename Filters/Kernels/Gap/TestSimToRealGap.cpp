@@ -90,6 +90,35 @@ TEST(SimToRealGap, OneEffectIsNamedMeasuredAndPutBack)
   EXPECT_LT(report.gapAfter.norm(), 0.2 * report.gapBefore.norm());
 }
 
+// A tunable filter before a chart of 24: more numbers of single channels than samples. The camera differs in its passbands, too, so
+// that the gains leave more than noise.
+TEST(SimToRealGap, GainsOfMoreChannelsThanSamplesAreFound)
+{
+  const msi::WavelengthGrid& grid = visibleGrid();
+  msi::CameraParts parts;
+  parts.detector = msi::siliconDetector(grid);
+  parts.light = msi::Illuminant::named("A").powerAt(grid);
+  msi::CameraParts realParts = parts;
+  msi::CameraEffect gains{ "channel_gain", "", "", {} };
+  const msi::CounterRandom random(11);
+  for (std::uint64_t k = 0; k < 30; ++k)
+  {
+    const auto normal = random.normalPair(k);
+    const double middle = 410.0 + 10.0 * static_cast<double>(k);
+    parts.filters.push_back({ middle, 15.0 });
+    realParts.filters.push_back({ middle + 0.5 * normal[0], 15.0 });
+    gains.parameters.push_back(1.0 + 0.04 * normal[1]);
+  }
+  const msi::CameraSimulator real(msi::designCamera(grid, realParts), { gains });
+  const msi::GapReport report = diagnosisOf(captureFrom(
+    msi::designCamera(grid, parts), rasterSamples(24), real.respond(rasterScene(24)), 1));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "channel_gain");
+  EXPECT_GT(report.causes.front().share, 0.8);
+  EXPECT_GT(report.causes.front().probability, 0.7);
+}
+
 // Its spectrum is none of those that the effect knows: the mean of two of them, of different kinds.
 TEST(SimToRealGap, ALampOfAnotherKindIsOneCause)
 {

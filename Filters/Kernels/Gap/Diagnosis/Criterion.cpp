@@ -43,6 +43,12 @@ int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std
   return signs;
 }
 
+double independentNumbers(double numbers, std::size_t groups, Eigen::Index channels)
+{
+  return std::fmax(std::fmin(static_cast<double>(groups), numbers),
+    Decision::DiscrepancyPerChannel * static_cast<double>(channels));
+}
+
 Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double numbers)
   : Data(data)
   , Gap(std::fmax(nominal.energy - data.noiseEnergy(), 0.0))
@@ -50,7 +56,7 @@ Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double
   , Floor(
       std::fmax(Decision::FormPart * std::fmin(std::fmax(data.inexactEnergy() - Noise, 0.0), Gap),
         std::numeric_limits<double>::min()))
-  , Discrepancy(std::clamp(static_cast<double>(data.energies(nominal).before.size()), 1.0, numbers))
+  , Discrepancy(independentNumbers(numbers, data.energies(nominal).before.size(), data.channels()))
   , Reference(std::numeric_limits<double>::infinity())
 {
   refer(nominal.energy, nominal.coherence);

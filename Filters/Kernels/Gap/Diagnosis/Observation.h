@@ -66,6 +66,7 @@ public:
   virtual ~Observation() = default;
 
   virtual const std::vector<GapOption>& options() const = 0;
+  virtual Eigen::Index channels() const = 0;
   virtual double elements() const = 0;    // residuals with weight
   virtual double noiseEnergy() const = 0; // what noise alone leaves of the energy
   // Of the nominal fit, but for what effects with exact forms take away.

@@ -32,6 +32,7 @@ public:
     const FieldWeights& weights, const FieldStart& start, const FieldLoop& loop);
 
   const std::vector<GapOption>& options() const override { return Options; }
+  Eigen::Index channels() const override { return Data.channels(); }
   double elements() const override { return Elements; }
   double noiseEnergy() const override { return NoiseEnergy; }
   FitPointer nominal() const override { return Nominal; }

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Samples/EffectFit.h"
 
+#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
 
@@ -120,7 +121,7 @@ void EffectFitter::solve(EffectFit& fit, const Eigen::ArrayXd& residual) const
   }
   // What is left beyond noise counts as in the criterion.
   const double numbers =
-    std::min(static_cast<double>(Training.size()), Decision::DiscrepancyNumbers);
+    independentNumbers(Decision::DiscrepancyNumbers, Training.size(), Data.channels());
   const double dispersion = std::fmax((huberCost(residual, fit.root) - NoiseEnergy) / numbers, 1.0);
   fit.linear = LinearFit(
     { fit.free.begin(), fit.free.end() }, std::move(folds), fit.set.size() > 1, dispersion);

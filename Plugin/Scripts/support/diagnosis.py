@@ -70,9 +70,10 @@ class Diagnosis:
                                 for row in self.records("candidates") + self.records("causes")})
             self._names.update({axis: axis.replace("_", " ") for axis in self.axes})
             curves = self.records("camera")
-            for name in curves[0] if curves else ():
-                if name.startswith("C") and "wavelength" in curves[0]:
-                    self._names[name] = report.channel(name, max(curves, key=lambda row: row[name])["wavelength"])
+            channels = [name for name in curves[0] if name.startswith("C")] if curves and "wavelength" in curves[0] else []
+            for name in channels:
+                peak = max(curves, key=lambda row: row[name])["wavelength"]
+                self._names[name] = report.channel(name, channels, peak)
         told = re.sub(r"\b[A-Za-z]\w*\b", lambda found: self._names.get(found[0], found[0]), text)
         return told.replace("channel channel", "channel")
 

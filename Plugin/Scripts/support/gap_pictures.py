@@ -99,6 +99,7 @@ def _heat_maps(rows, summary):
               for column in sorted({row["column"] for row in rows})]
     channels = [next(row for row in rows if row["row"] == number)["channel"]
                 for number in sorted({row["row"] for row in rows})]
+    apart = -(-len(channels) // _MOST_LABELS)
     limit = max(abs(row["mean_before"]) for row in rows if row["mean_before"] == row["mean_before"])
     top = max(row["rms_before"] for row in rows if row["rms_before"] == row["rms_before"])
     panels = (("mean_before", "Mean gap (real - simulated)", "PuOr", Normalize(-limit, limit)),
@@ -110,7 +111,7 @@ def _heat_maps(rows, summary):
         image = plot.imshow(_pivot(rows, value), aspect="auto", cmap=colors, norm=norm,
                             interpolation="nearest")
         plot.set_title(title, fontsize=12)
-        plot.set_xticks(range(len(channels)), channels, rotation=90, fontsize=8)
+        plot.set_xticks(range(0, len(channels), apart), channels[::apart], rotation=90, fontsize=8)
         for number in range(1, len(groups)):
             if groups[number]["kind"] != groups[number - 1]["kind"]:
                 plot.axhline(number - 0.5, color="white", linewidth=4)

@@ -12,7 +12,7 @@ from . import command, outputs, painter
 _MOST_ROWS_SHOWN = 12  # longer tables are folded
 _NOTHING = 1e-12  # what rounding leaves of zero
 _LONG = 32  # letters: such a cell is broken into lines
-_LEAST_NM = 100  # a channel with such a number is named by its wavelength
+_LEAST_NM = 100  # channels whose numbers are all as large are named by their wavelengths
 _WIDE = 1.7  # times the height: needs the whole width of the page
 _WORDS = {"p95": "95th percentile", "left_out": "left out", "residual_rms": "residual rms", "condition": "condition number",
           "complete": "all unknowns determined", "OutOfRange": "excess over range",
@@ -53,14 +53,20 @@ def chapter(title, sections, lead=""):
     return _section(title, words + "".join(sections).replace("<h2>", "<h3>").replace("</h2>", "</h3>"))
 
 
-def channel(name, peak=None):
-    """A channel in words: C400 is 400 nm, C3 is channel 3. peak: its wavelength in nm where the name does not tell it."""
+def _channel_number(name):
     found = re.fullmatch(r"C(\d+(?:\.\d+)?)", name)
-    if found is None:
+    return found and found[1]
+
+
+def channel(name, among=(), peak=None):
+    """A channel in words: C400 is 400 nm, C3 is channel 3; C150 of a camera that has C3, too, is channel 150. among: the
+    camera's channels. peak: its wavelength in nm where the name does not tell it."""
+    number = _channel_number(name)
+    if number is None:
         return name
-    if float(found[1]) >= _LEAST_NM:
-        return f"{found[1]} nm"
-    return f"channel {found[1]}" + (f" ({peak:g} nm)" if peak is not None else "")
+    if all(float(_channel_number(other) or _LEAST_NM) >= _LEAST_NM for other in (name, *among)):
+        return f"{number} nm"
+    return f"channel {number}" + (f" ({peak:g} nm)" if peak is not None else "")
 
 
 def in_words(name):
@@ -68,11 +74,11 @@ def in_words(name):
     return _WORDS.get(name, re.sub(r"\bdE(?=[0-9 ])", "\u0394E", name))
 
 
-def _value_in_words(name, value):
+def _value_in_words(name, value, column=()):
     if name == "metric":
         return in_words(value)
     if name == "channel" and isinstance(value, str):
-        return channel(value)
+        return channel(value, column)
     if name == "complete":
         return "yes" if value else "no"
     if name == "condition" and value == 0:
@@ -86,7 +92,8 @@ def table(title, names, rows, columns=None, note=None, fold=True):
         return ""
     chosen = [names.index(name) for name in (columns or names)]
     head = "".join(f"<th{_class(rows[0][i])}>{html.escape(in_words(names[i]))}</th>" for i in chosen)
-    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(_value_in_words(names[i], row[i]))}</td>" for i in chosen)
+    channels = {str(row[names.index("channel")]) for row in rows} if "channel" in names else ()
+    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(_value_in_words(names[i], row[i], channels))}</td>" for i in chosen)
                    + "</tr>" for row in rows)
     remark = f"<p>{html.escape(note)}</p>" if note else ""
     content = f"<div class='scroll'><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"

@@ -17,6 +17,7 @@ LIKELY = 0.5  # probability from which a cause is not only a possible one
 _MOST_LABELS = 40
 _MOST_SCENES = 4
 _MOST_CHANNELS = 18
+_MOST_CHANNEL_NAMES = 30
 _CHANNELS_IN_A_LINE = 6
 _MOST_PIXELS_OF_A_SIDE = 512
 
@@ -99,7 +100,7 @@ def _heat_maps(rows, summary):
               for column in sorted({row["column"] for row in rows})]
     channels = [next(row for row in rows if row["row"] == number)["channel"]
                 for number in sorted({row["row"] for row in rows})]
-    apart = -(-len(channels) // _MOST_LABELS)
+    apart = -(-len(channels) // _MOST_CHANNEL_NAMES)
     limit = max(abs(row["mean_before"]) for row in rows if row["mean_before"] == row["mean_before"])
     top = max(row["rms_before"] for row in rows if row["rms_before"] == row["rms_before"])
     panels = (("mean_before", "Mean gap (real - simulated)", "PuOr", Normalize(-limit, limit)),

@@ -108,10 +108,11 @@ def what_killed_runs_left_goes(base):
 
 def reports_are_in_words(_):
     for name, words in (("C400", "400 nm"), ("C402.5", "402.5 nm"), ("C3", "channel 3"), ("Coral", "Coral"), ("red", "red")):
-        expect(report.channel(name) == words, f"{name} is {report.channel(name)}")
-    expect(report.channel("C3", peak=550.0) == "channel 3 (550 nm)", "the wavelength of C3")
+        told = report.channels([name])[name]
+        expect(told == words, f"{name} is {told}")
+    expect(report.channels(["C3"], {"C3": 550.0})["C3"] == "channel 3 (550 nm)", "the wavelength of C3")
     many = [f"C{number}" for number in range(1, 201)]
-    expect(report.channel("C150", many, 625.0) == "channel 150 (625 nm)", "C150 of 200 channels is not at 150 nm")
+    expect(report.channels(many, dict.fromkeys(many, 625.0))["C150"] == "channel 150 (625 nm)", "C150 of 200 channels is not at 150 nm")
     told = report.table("", ["channel"], [[name] for name in many])
     expect("channel 150" in told and " nm" not in told, "a table of 200 channels")
     expect("400 nm" in report.table("", ["channel"], [["C400"], ["C410"]]), "a table of wavelengths")

@@ -80,9 +80,10 @@ def draw_responsivities(camera, path, uncertainty=None):
                            (", dotted: its 95 % interval" if uncertainty is not None else ""),
                            "Wavelength (nm)", "Response to a band of perfect white")
     names = channels(camera)
+    words = report.channels(names)
     shades = {name: color(i, len(names)) for i, name in enumerate(names)}
     chart.add(camera, "wavelength",
-              {name: (report.channel(name, names), shades[name], pictures.LineStyle.SOLID, 2.5) for name in names})
+              {name: (words[name], shades[name], pictures.LineStyle.SOLID, 2.5) for name in names})
     if uncertainty is not None:
         known = pipeline.column_names(uncertainty)
         chart.add(uncertainty, "wavelength",
@@ -96,10 +97,10 @@ def draw_samples(difference, title, path):
     prefix = "difference "
     names = [name.removeprefix(prefix) for name in pipeline.column_names(pipeline.port(difference, 0))
              if name.startswith(prefix)]
+    words = report.channels(names)
     chart = pictures.Chart(f"Every sample: {title}", "Sample", "Difference (response, 1 = white)")
     chart.add(pipeline.port(difference, 0), None,
-              {prefix + name: (report.channel(name, names), color(i, len(names)))
-               for i, name in enumerate(names)},
+              {prefix + name: (words[name], color(i, len(names))) for i, name in enumerate(names)},
               line=pictures.LineStyle.NONE, marker=pictures.Marker.CIRCLE, marker_size=4.0)
     chart.save(path)
 
@@ -107,8 +108,7 @@ def draw_samples(difference, title, path):
 def draw_figures(difference, title, path):
     """Mean and rms of the difference in each channel, and the rms that no line takes away."""
     names, rows = pipeline.table(pipeline.port(difference, 1))
-    channels = [row[names.index("channel")] for row in rows]
-    known = [report.channel(name, channels) for name in channels]
+    known = list(report.channels([row[names.index("channel")] for row in rows]).values())
     in_nm = all(name.endswith(" nm") for name in known)
     chart = pictures.Chart(f"Each channel: {title}", "Channel (nm)" if in_nm else "Channel", "Difference (response, 1 = white)")
     chart.add(pipeline.port(difference, 1), [float(name[:-3]) for name in known] if in_nm else list(range(1, len(rows) + 1)),

@@ -71,9 +71,8 @@ class Diagnosis:
             self._names.update({axis: axis.replace("_", " ") for axis in self.axes})
             curves = self.records("camera")
             channels = [name for name in curves[0] if name.startswith("C")] if curves and "wavelength" in curves[0] else []
-            for name in channels:
-                peak = max(curves, key=lambda row: row[name])["wavelength"]
-                self._names[name] = report.channel(name, channels, peak)
+            self._names.update(report.channels(
+                channels, {name: max(curves, key=lambda row: row[name])["wavelength"] for name in channels}))
         told = re.sub(r"\b[A-Za-z]\w*\b", lambda found: self._names.get(found[0], found[0]), text)
         return told.replace("channel channel", "channel")
 

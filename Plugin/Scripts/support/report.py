@@ -53,20 +53,15 @@ def chapter(title, sections, lead=""):
     return _section(title, words + "".join(sections).replace("<h2>", "<h3>").replace("</h2>", "</h3>"))
 
 
-def _channel_number(name):
-    found = re.fullmatch(r"C(\d+(?:\.\d+)?)", name)
-    return found and found[1]
-
-
-def channel(name, among=(), peak=None):
-    """A channel in words: C400 is 400 nm, C3 is channel 3; C150 of a camera that has C3, too, is channel 150. among: the
-    camera's channels. peak: its wavelength in nm where the name does not tell it."""
-    number = _channel_number(name)
-    if number is None:
-        return name
-    if all(float(_channel_number(other) or _LEAST_NM) >= _LEAST_NM for other in (name, *among)):
-        return f"{number} nm"
-    return f"channel {number}" + (f" ({peak:g} nm)" if peak is not None else "")
+def channels(names, peaks=None):
+    """The channels of one camera in words, by name: C400 is 400 nm; C3 is channel 3, and beside it C150 is channel 150.
+    peaks: by name, their wavelengths in nm where the names do not tell them."""
+    numbers = {name: found[1] for name in names if (found := re.fullmatch(r"C(\d+(?:\.\d+)?)", name))}
+    in_nm = all(float(number) >= _LEAST_NM for number in numbers.values())
+    words = {name: name for name in names}
+    for name, number in numbers.items():
+        words[name] = f"{number} nm" if in_nm else f"channel {number}" + (f" ({peaks[name]:g} nm)" if peaks else "")
+    return words
 
 
 def in_words(name):
@@ -74,16 +69,19 @@ def in_words(name):
     return _WORDS.get(name, re.sub(r"\bdE(?=[0-9 ])", "\u0394E", name))
 
 
-def _value_in_words(name, value, column=()):
+def _value_in_words(name, value):
     if name == "metric":
         return in_words(value)
-    if name == "channel" and isinstance(value, str):
-        return channel(value, column)
     if name == "complete":
         return "yes" if value else "no"
     if name == "condition" and value == 0:
         return ""  # the method has none
     return value
+
+
+def _column_in_words(name, values):
+    known = channels([value for value in values if isinstance(value, str)]) if name == "channel" else {}
+    return [known.get(value) or _value_in_words(name, value) for value in values]
 
 
 def table(title, names, rows, columns=None, note=None, fold=True):
@@ -92,9 +90,9 @@ def table(title, names, rows, columns=None, note=None, fold=True):
         return ""
     chosen = [names.index(name) for name in (columns or names)]
     head = "".join(f"<th{_class(rows[0][i])}>{html.escape(in_words(names[i]))}</th>" for i in chosen)
-    channels = {str(row[names.index("channel")]) for row in rows} if "channel" in names else ()
-    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(_value_in_words(names[i], row[i], channels))}</td>" for i in chosen)
-                   + "</tr>" for row in rows)
+    told = zip(*(_column_in_words(names[i], [row[i] for row in rows]) for i in chosen))
+    body = "".join("<tr>" + "".join(f"<td{_class(row[i])}>{_cell(value)}</td>" for i, value in zip(chosen, values))
+                   + "</tr>" for row, values in zip(rows, told))
     remark = f"<p>{html.escape(note)}</p>" if note else ""
     content = f"<div class='scroll'><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
     if fold and len(rows) > _MOST_ROWS_SHOWN:
@@ -105,7 +103,7 @@ def table(title, names, rows, columns=None, note=None, fold=True):
 def figures(title, names, rows, note=None):
     """The figures of one row, each in a line of its own: for tables of one row and many columns. A status in words stands above."""
     status = rows[0][names.index("status")] if rows and "status" in names else ""
-    values = [_value_in_words(name, value) for name, value in zip(names, rows[0])] if rows else []
+    values = [_column_in_words(name, [value])[0] for name, value in zip(names, rows[0])] if rows else []
     lines = [[in_words(name), value if isinstance(value, str) else _cell(value)] for name, value in zip(names, values)]
     return table(title, ["figure", "value"], [line for line in lines if line[1] not in ("", status)],
                  note=" ".join(filter(None, (note, status and f"{status[:1].upper()}{status[1:]}."))))

@@ -10,8 +10,8 @@ namespace msi
 // are there in every medium.
 int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std::size_t>& set);
 
-// As how many a residual beyond noise counts: `numbers` (Decision::DiscrepancyNumbers or BeliefNumbers), or one per group
-// where there are fewer groups; at the least Decision::DiscrepancyPerChannel for every channel.
+// How many independent numbers a residual beyond noise is taken to be: `numbers` (Decision::DiscrepancyNumbers or
+// BeliefNumbers), or one per group where there are fewer groups; but at least Decision::DiscrepancyPerChannel per channel.
 double independentNumbers(double numbers, std::size_t groups, Eigen::Index channels);
 
 // Logarithm of the posterior probability of a set, but for a constant.
@@ -21,7 +21,7 @@ double independentNumbers(double numbers, std::size_t groups, Eigen::Index chann
 // Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera, but for what effects with exact forms take
 // away (Observation::inexactEnergy); f: Decision::FormPart.
 // phi, the dispersion, is what one independent number of the best residual known has of energy: noise, as far as
-//   it is coherent within groups, and what is left beyond noise, which counts as so many independentNumbers().
+//   it is coherent within groups, and what is left beyond noise, which counts as independentNumbers().
 // m = (Q + f G) / phi of that residual: the independent numbers.
 class Criterion
 {

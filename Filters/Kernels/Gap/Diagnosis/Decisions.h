@@ -14,7 +14,7 @@ inline constexpr double DiscrepancyNumbers = 50.0;
 // And as this many where it is asked how sure the answer is.
 inline constexpr double BeliefNumbers = 25.0;
 
-// In both at the least as this many per channel: errors of single channels show in few samples, too, where many channels have them.
+// In both cases at least as this many per channel: otherwise few samples could not show the errors of many single channels.
 inline constexpr double DiscrepancyPerChannel = 1.5;
 
 // Standard deviation of a number of an effect in a fit before the data speak, in typical sizes.

@@ -209,7 +209,8 @@ struct Expectation
   Eigen::VectorXd mean, variance;
   Eigen::MatrixXd derivative; // by the free parameters of the explanation
 
-  // Of elements from `first` on: counts as no more than so many numbers, as what is systematic does in the criterion.
+  // Of elements from `first` on: counts as no more than so many numbers. So does what is systematic in the criterion,
+  // but for its least number per channel.
   void addSystematic(const Eigen::VectorXd& added, Eigen::Index first, double numbers)
   {
     const double copies =

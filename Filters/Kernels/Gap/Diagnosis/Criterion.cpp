@@ -89,7 +89,7 @@ double Criterion::operator()(const ObservedFit& fit) const
 
 double Criterion::occam(const ObservedFit& fit) const
 {
-  return 0.5 * (1.0 + fit.information.array() / Dispersion).log().sum() + fit.surprise;
+  return fit.prior.gain(fit.information / Dispersion) + fit.surprise;
 }
 
 double Criterion::improbability(const std::vector<std::size_t>& set) const

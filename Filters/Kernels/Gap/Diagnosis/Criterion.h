@@ -16,7 +16,8 @@ double independentNumbers(double numbers, std::size_t groups, Eigen::Index chann
 
 // Logarithm of the posterior probability of a set, but for a constant.
 //
-//   -m/2 log (Q + f G)  -  1/2 sum_i log(1 + information_i / phi)  -  surprise  -  sum of the options' improbabilities
+//   -m/2 log (Q + f G)  -  1/2 log det(1 + prior covariance x information / phi)  -  surprise
+//   -  sum of the options' improbabilities
 //
 // Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera, but for what effects with exact forms take
 // away (Observation::inexactEnergy); f: Decision::FormPart.

@@ -2,8 +2,6 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -67,18 +65,8 @@ struct Group
   double mean = 0.0;        // from neutral, of those with a mean of their own
 
   // Of numbers of single channels, whose mean has this variance where it is their own.
-  Eigen::MatrixXd covariance(double ofMean) const
-  {
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(size, size, kind.ownMean ? ofMean : 0.0);
-    covariance.diagonal().array() += learned;
-    return covariance;
-  }
+  PriorBlock block(double ofMean) const { return { size, learned, kind.ownMean ? ofMean : 0.0 }; }
 };
-
-double widestVariance(double typical)
-{
-  return squareOf(Decision::FreeSpread * typical);
-}
 
 std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
 {
@@ -100,7 +88,7 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
       group.deviation[p] = at(first + p).deviation;
       variance += at(first + p).variance / static_cast<double>(group.size);
     }
-    const double widest = widestVariance(group.kind.typical);
+    const double widest = wideVariance(group.kind.typical);
     const bool ownMean = group.kind.perChannel && group.kind.ownMean;
     const bool isNeutral = (group.deviation == 0.0).all();
     group.mean = ownMean ? group.deviation.mean() : 0.0;
@@ -115,44 +103,131 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
 }
 }
 
-double widePrecision(double typical) noexcept
+double wideVariance(double typical) noexcept
 {
-  return std::pow(Decision::FreeSpread * typical, -2);
+  return squareOf(Decision::FreeSpread * typical);
 }
 
-Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers)
+Eigen::VectorXd diagonalOfInverse(const SparseMatrix& matrix)
 {
-  const auto count = static_cast<Eigen::Index>(numbers.size());
-  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(count, count);
-  for (const Group& group : groupsOf(numbers))
+  const SparseFactor factor(matrix);
+  const SparseMatrix& lower = factor.matrixL().nestedExpression(); // without the ones
+  using Entry = SparseMatrix::InnerIterator;
+  // By columns from the last one on, and only where the factor has an element.
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
+  for (Eigen::Index j = matrix.cols(); j-- > 0;)
   {
-    auto block = precision.block(group.first, group.first, group.size, group.size);
-    if (group.kind.perChannel)
+    inverse(j, j) = 1.0 / factor.vectorD()[j];
+    for (Entry row(lower, j); row; ++row)
     {
-      block = group.covariance(widestVariance(group.kind.typical))
-                .llt()
-                .solve(Eigen::MatrixXd::Identity(group.size, group.size));
+      for (Entry other(lower, j); other; ++other)
+      {
+        inverse(row.row(), j) -= other.value() *
+          inverse(std::max(row.row(), other.row()), std::min(row.row(), other.row()));
+      }
     }
-    else
+    for (Entry row(lower, j); row; ++row)
     {
-      block.diagonal().setConstant(widePrecision(group.kind.typical));
+      inverse(j, j) -= row.value() * inverse(row.row(), j);
     }
   }
-  return precision;
+  return factor.permutationPinv() * Eigen::VectorXd(inverse.diagonal());
+}
+
+BlockPrior::BlockPrior(std::vector<PriorBlock> blocks)
+  : Blocks(std::move(blocks))
+{
+  Eigen::Index numbers = 0;
+  Eigen::Index all = 0;
+  for (const PriorBlock& block : Blocks)
+  {
+    numbers += block.size;
+    all += block.size + (block.ofMean > 0.0 ? 1 : 0);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::Index number = 0;
+  Eigen::Index mean = numbers;
+  for (const PriorBlock& block : Blocks)
+  {
+    const bool hasMean = block.ofMean > 0.0;
+    for (const Eigen::Index end = number + block.size; number < end; ++number)
+    {
+      entries.emplace_back(number, number, 1.0 / block.variance);
+      if (hasMean)
+      {
+        entries.emplace_back(number, mean, -1.0 / block.variance);
+        entries.emplace_back(mean, number, -1.0 / block.variance);
+      }
+    }
+    if (hasMean)
+    {
+      entries.emplace_back(
+        mean, mean, static_cast<double>(block.size) / block.variance + 1.0 / block.ofMean);
+      ++mean;
+    }
+  }
+  Precision.resize(all, all);
+  Precision.setFromTriplets(entries.begin(), entries.end());
+}
+
+SparseMatrix BlockPrior::after(SparseMatrix normal) const
+{
+  normal.conservativeResize(Precision.rows(), Precision.cols());
+  return normal + Precision;
+}
+
+Eigen::VectorXd BlockPrior::pull(const Eigen::VectorXd& off) const
+{
+  Eigen::VectorXd pull(off.size());
+  Eigen::Index first = 0;
+  for (const PriorBlock& block : Blocks)
+  {
+    const auto own = off.segment(first, block.size).array();
+    const double mean =
+      own.sum() * block.ofMean / (block.variance + static_cast<double>(block.size) * block.ofMean);
+    pull.segment(first, block.size) = (own - mean) / block.variance;
+    first += block.size;
+  }
+  return pull;
+}
+
+double BlockPrior::gain(const SparseMatrix& normal) const
+{
+  if (Precision.rows() == 0)
+  {
+    return 0.0;
+  }
+  // Of the determinant of the precision without data means of their own are a factor of 1 / ofMean.
+  double logs = SparseFactor(after(normal)).vectorD().array().log().sum();
+  for (const PriorBlock& block : Blocks)
+  {
+    logs += static_cast<double>(block.size) * std::log(block.variance) +
+      (block.ofMean > 0.0 ? std::log(block.ofMean) : 0.0);
+  }
+  return 0.5 * logs;
+}
+
+BlockPrior fitPrior(const std::vector<FreeNumber>& numbers)
+{
+  std::vector<PriorBlock> blocks;
+  for (const Group& group : groupsOf(numbers))
+  {
+    const double wide = wideVariance(group.kind.typical);
+    blocks.push_back(group.kind.perChannel ? group.block(wide) : PriorBlock{ group.size, wide });
+  }
+  return BlockPrior(std::move(blocks));
 }
 
 LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
 {
-  const auto count = static_cast<Eigen::Index>(numbers.size());
-  covariance = Eigen::MatrixXd::Zero(count, count);
+  std::vector<PriorBlock> blocks;
   for (const Group& group : groupsOf(numbers))
   {
-    auto block = covariance.block(group.first, group.first, group.size, group.size);
     const double square = squareOf(group.kind.typical);
     const auto cauchy = [&](double value) { return std::log1p(value * value / square); };
     if (group.kind.perChannel)
     {
-      block = group.covariance(square);
+      blocks.push_back(group.block(square));
       surprise += 0.5 * group.deviation.square().sum() / group.learned + cauchy(group.mean);
       if (!group.kind.mayFollowCurve)
       {
@@ -161,24 +236,12 @@ LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
     }
     else
     {
-      block.diagonal().setConstant(square);
+      blocks.push_back({ group.size, square });
       surprise += group.kind.normal ? 0.5 * group.deviation.square().sum() / square
                                     : group.deviation.unaryExpr(cauchy).sum();
     }
   }
-}
-
-Eigen::VectorXd LearnedPrior::informationOf(const Eigen::MatrixXd& information) const
-{
-  if (covariance.size() == 0)
-  {
-    return {};
-  }
-  const Eigen::MatrixXd root = covariance.llt().matrixL();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-    root.transpose() * information * root, Eigen::EigenvaluesOnly)
-    .eigenvalues()
-    .cwiseMax(0.0);
+  normal = BlockPrior(std::move(blocks));
 }
 
 } // namespace msi

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCholesky>
 
 #include <cstddef>
 #include <limits>
@@ -41,12 +42,46 @@ struct FreeNumber
   bool mayFollowCurve = false;
 };
 
-// Of a number that a fit leaves neutral only where the data do not determine it: standard deviation Decision::FreeSpread.
-double widePrecision(double typical) noexcept;
+// Of a number that a fit leaves neutral only where the data do not determine it: Decision::FreeSpread typical sizes, squared.
+double wideVariance(double typical) noexcept;
 
-// Precision of the numbers' prior in a fit: widePrecision() for a common number; for numbers of single channels that are no longer neutral the
+using SparseMatrix = Eigen::SparseMatrix<double>;
+using SparseFactor = Eigen::SimplicialLDLT<SparseMatrix>;
+
+// Of the inverse of a symmetric matrix, whose other elements are not worked out (K. Takahashi, J. Fagan and M.-S. Chin, 1973).
+Eigen::VectorXd diagonalOfInverse(const SparseMatrix& matrix);
+
+// So many numbers, independent with this variance about a mean: neutral, or where it has a variance a number of its own.
+struct PriorBlock
+{
+  Eigen::Index size = 1;
+  double variance = 1.0;
+  double ofMean = 0.0;
+};
+
+// A normal prior of numbers, block by block. With means it is dense, unless these are carried along: behind the numbers.
+class BlockPrior
+{
+public:
+  BlockPrior() = default;
+  explicit BlockPrior(std::vector<PriorBlock> blocks);
+
+  const std::vector<PriorBlock>& blocks() const noexcept { return Blocks; }
+  // Precision of numbers and means after data with this normal matrix of the numbers.
+  SparseMatrix after(SparseMatrix normal) const;
+  // Precision of the numbers alone, times this.
+  Eigen::VectorXd pull(const Eigen::VectorXd& off) const;
+  // 1/2 log det(1 + covariance x normal): nats that such data tell of the numbers.
+  double gain(const SparseMatrix& normal) const;
+
+private:
+  std::vector<PriorBlock> Blocks;
+  SparseMatrix Precision;
+};
+
+// The prior of a fit: wideVariance() for a common number; for numbers of single channels that are no longer neutral the
 // variance learned from them, so that a common effect beside them takes what they have in common.
-Eigen::MatrixXd fitPrecision(const std::vector<FreeNumber>& numbers);
+BlockPrior fitPrior(const std::vector<FreeNumber>& numbers);
 
 // The prior by which a fit is judged.
 //   A common number: a Cauchy distribution whose scale is the typical size (H. Jeffreys, Theory of Probability, 1961, 5.2).
@@ -56,11 +91,7 @@ struct LearnedPrior
 {
   explicit LearnedPrior(const std::vector<FreeNumber>& numbers);
 
-  // Prior variance over noise variance along its principal axes. information: normal matrix of the numbers without any
-  // prior.
-  Eigen::VectorXd informationOf(const Eigen::MatrixXd& information) const;
-
-  Eigen::MatrixXd covariance; // of a common number the square of the scale
+  BlockPrior normal; // a common number with the square of the scale
   // Minus the logarithm of the prior's density over that at neutral.
   double surprise = 0.0;
   // Probability that independent numbers of channels follow a smooth curve over the channels as closely; the smallest of

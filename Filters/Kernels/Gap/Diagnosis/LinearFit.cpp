@@ -1,9 +1,6 @@
 #include "Kernels/Gap/Diagnosis/LinearFit.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace msi
@@ -15,21 +12,60 @@ constexpr int Rounds = 3;         // of holding numbers at their bounds
 constexpr int Learnings = 3;      // of expectation and maximization
 constexpr double Rounding = 1e-9; // typical sizes
 
-Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& symmetric)
+bool anyPerChannel(const std::vector<FreeNumber>& numbers)
 {
-  return symmetric.ldlt().solve(Eigen::MatrixXd::Identity(symmetric.rows(), symmetric.cols()));
+  return std::any_of(
+    numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.perChannel; });
 }
+
+// The same equations with some of the unknowns 0.
+SparseMatrix without(SparseMatrix matrix, const std::vector<char>& held)
+{
+  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
+  {
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
+    {
+      if (held[static_cast<std::size_t>(entry.row())] != 0 ||
+        held[static_cast<std::size_t>(column)] != 0)
+      {
+        entry.valueRef() = entry.row() == column ? 1.0 : 0.0;
+      }
+    }
+  }
+  return matrix;
+}
+}
+
+void NormalEquationsSum::add(const std::vector<Eigen::Index>& numbers,
+  const Eigen::MatrixXd& matrix, const Eigen::VectorXd& gradient)
+{
+  for (std::size_t column = 0; column < numbers.size(); ++column)
+  {
+    const auto c = static_cast<Eigen::Index>(column);
+    for (std::size_t row = 0; row < numbers.size(); ++row)
+    {
+      Entries.emplace_back(
+        numbers[row], numbers[column], matrix(static_cast<Eigen::Index>(row), c));
+    }
+    Gradient[numbers[column]] += gradient[c];
+  }
+}
+
+NormalEquations NormalEquationsSum::sum() const
+{
+  NormalEquations sum{ SparseMatrix(Gradient.size(), Gradient.size()), Gradient };
+  sum.matrix.setFromTriplets(Entries.begin(), Entries.end());
+  return sum;
 }
 
 LinearFit::LinearFit(std::vector<FreeNumber> numbers, std::vector<NormalEquations> folds,
   bool besideOthers, double dispersion)
   : Numbers(std::move(numbers))
   , Folds(std::move(folds))
-  , All(static_cast<Eigen::Index>(Numbers.size()))
-  , Precision(All.matrix)
   , Dispersion(dispersion)
-  , Off(All.gradient)
+  , Off(static_cast<Eigen::Index>(Numbers.size()))
 {
+  All = { SparseMatrix(Off.size(), Off.size()), Eigen::VectorXd::Zero(Off.size()) };
   for (NormalEquations& fold : Folds)
   {
     fold.matrix /= Dispersion;
@@ -37,87 +73,113 @@ LinearFit::LinearFit(std::vector<FreeNumber> numbers, std::vector<NormalEquation
     All.matrix += fold.matrix;
     All.gradient += fold.gradient;
   }
+  std::vector<PriorBlock> wide;
   for (Eigen::Index n = 0; n < Off.size(); ++n)
   {
     const FreeNumber& number = Numbers[static_cast<std::size_t>(n)];
-    Precision(n, n) = widePrecision(number.typical);
+    wide.push_back({ 1, wideVariance(number.typical) });
     Off[n] = number.wanted - number.deviation;
   }
-  const bool learns = besideOthers &&
-    std::any_of(
-      Numbers.begin(), Numbers.end(), [](const FreeNumber& number) { return number.perChannel; });
+  Prior = BlockPrior(std::move(wide));
+  const bool learns = besideOthers && anyPerChannel(Numbers);
   for (int round = 0; learns && round < Learnings; ++round)
   {
-    Precision = fitPrecision(withVariance());
+    Prior = fitPrior(withVariance());
   }
 }
 
 std::vector<FreeNumber> LinearFit::withVariance() const
 {
-  const Eigen::VectorXd variance = inverseOf(All.matrix + Precision).diagonal();
   std::vector<FreeNumber> numbers = Numbers;
-  for (std::size_t n = 0; n < numbers.size(); ++n)
+  if (anyPerChannel(numbers))
   {
-    numbers[n].variance = variance[static_cast<Eigen::Index>(n)];
+    const Eigen::VectorXd variance = diagonalOfInverse(Prior.after(All.matrix));
+    for (std::size_t n = 0; n < numbers.size(); ++n)
+    {
+      numbers[n].variance = variance[static_cast<Eigen::Index>(n)];
+    }
   }
   return numbers;
 }
 
-Eigen::VectorXd LinearFit::stepWithout(std::size_t fold) const
+Eigen::VectorXd LinearFit::step(double damping) const
 {
-  NormalEquations others = All;
-  others.matrix -= Folds[fold].matrix;
-  others.gradient -= Folds[fold].gradient;
-  return step(std::move(others), 0.0);
+  SparseFactor factor;
+  return step(All, damping, factor);
 }
 
-Eigen::VectorXd LinearFit::step(NormalEquations equations, double damping) const
+std::vector<Eigen::VectorXd> LinearFit::stepsWithout() const
 {
-  equations.gradient += Precision * Off;
-  equations.matrix += Precision;
-  equations.matrix.diagonal() *= 1.0 + damping;
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(Off.size());
-  std::vector<Eigen::Index> free(Numbers.size());
-  std::iota(free.begin(), free.end(), Eigen::Index(0));
-  for (int round = 0; round < Rounds && !free.empty(); ++round)
+  SparseFactor factor;
+  std::vector<Eigen::VectorXd> steps;
+  for (const NormalEquations& fold : Folds)
   {
-    step(free).setZero();
-    const Eigen::VectorXd gradient = (equations.gradient - equations.matrix * step)(free);
-    const Eigen::MatrixXd matrix = equations.matrix(free, free);
-    const Eigen::VectorXd solved = matrix.ldlt().solve(gradient);
-    step(free) = solved;
-    const auto held = [&](Eigen::Index n)
+    steps.push_back(step({ All.matrix - fold.matrix, All.gradient - fold.gradient }, 0.0, factor));
+  }
+  return steps;
+}
+
+Eigen::VectorXd LinearFit::step(
+  NormalEquations equations, double damping, SparseFactor& factor) const
+{
+  const Eigen::Index count = Off.size();
+  SparseMatrix matrix = Prior.after(std::move(equations.matrix));
+  matrix.diagonal() *= 1.0 + damping;
+  if (factor.rows() == 0 && count > 0)
+  {
+    factor.analyzePattern(matrix);
+  }
+  const Eigen::VectorXd gradient = equations.gradient + Prior.pull(Off);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(matrix.rows()); // means behind the numbers
+  std::vector<char> held(static_cast<std::size_t>(matrix.rows()), 0);
+  for (int round = 0; round < Rounds && count > 0; ++round)
+  {
+    Eigen::VectorXd left = -(matrix * step);
+    left.head(count) += gradient;
+    for (Eigen::Index n = 0; n < count; ++n)
+    {
+      left[n] = held[static_cast<std::size_t>(n)] != 0 ? 0.0 : left[n];
+    }
+    factor.factorize(round == 0 ? matrix : without(matrix, held));
+    step += factor.solve(left);
+    bool beyond = false;
+    for (Eigen::Index n = 0; n < count; ++n)
     {
       const FreeNumber& number = Numbers[static_cast<std::size_t>(n)];
       const double within =
         std::clamp(step[n], number.lower - number.deviation, number.upper - number.deviation);
-      return std::exchange(step[n], within) != within;
-    };
-    const auto beyond = std::remove_if(free.begin(), free.end(), held);
-    if (beyond == free.end())
+      if (std::exchange(step[n], within) != within)
+      {
+        held[static_cast<std::size_t>(n)] = 1;
+        beyond = true;
+      }
+    }
+    if (!beyond)
     {
       break;
     }
-    free.erase(beyond, free.end());
   }
-  return step;
+  return step.head(count);
 }
 
 void LinearFit::settle()
 {
-  All.gradient = -Precision * Off;
+  All.gradient = -Prior.pull(Off);
 }
 
 double LinearFit::penalty(const Eigen::VectorXd& step) const
 {
   const Eigen::VectorXd off = step - Off;
-  return Dispersion * off.dot(Precision * off);
+  return Dispersion * off.dot(Prior.pull(off));
 }
 
 Eigen::MatrixXd LinearFit::covariance(const Eigen::MatrixXd& scores) const
 {
   const auto groups = static_cast<double>(scores.cols());
-  const Eigen::MatrixXd half = inverseOf(All.matrix + Precision) * (scores / Dispersion);
+  const SparseMatrix precision = Prior.after(All.matrix);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(precision.rows(), scores.cols());
+  right.topRows(scores.rows()) = scores / Dispersion;
+  const Eigen::MatrixXd half = SparseFactor(precision).solve(right).topRows(scores.rows());
   return groups / std::max(groups - 1.0, 1.0) * half * half.transpose();
 }
 
@@ -132,7 +194,8 @@ void LinearFit::describe(ObservedFit& fit, const Eigen::VectorXd& step) const
     fit.atBound = fit.atBound || room < Rounding * number.typical;
   }
   const LearnedPrior prior(moved);
-  fit.information = prior.informationOf(information());
+  fit.prior = prior.normal;
+  fit.information = information();
   fit.surprise = prior.surprise;
   fit.chanceOfCurve = prior.chanceOfCurve;
 }

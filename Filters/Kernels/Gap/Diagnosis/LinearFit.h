@@ -13,22 +13,34 @@
 namespace msi
 {
 
-// Of weighted residuals r about some values of the numbers that would change them by -J: J'J and J'r.
+// Of weighted residuals r about some values of the numbers that would change them by -J: J'J and J'r. Sparse: numbers of
+// different channels mostly have nothing to do with each other.
 struct NormalEquations
 {
-  explicit NormalEquations(Eigen::Index count = 0)
-    : matrix(Eigen::MatrixXd::Zero(count, count))
-    , gradient(Eigen::VectorXd::Zero(count))
+  SparseMatrix matrix;
+  Eigen::VectorXd gradient;
+};
+
+class NormalEquationsSum
+{
+public:
+  explicit NormalEquationsSum(Eigen::Index count)
+    : Gradient(Eigen::VectorXd::Zero(count))
   {
   }
+  // numbers: those that these are about.
+  void add(const std::vector<Eigen::Index>& numbers, const Eigen::MatrixXd& matrix,
+    const Eigen::VectorXd& gradient);
+  NormalEquations sum() const;
 
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd gradient;
+private:
+  std::vector<Eigen::Triplet<double>> Entries;
+  Eigen::VectorXd Gradient;
 };
 
 // A penalised Gauss-Newton step.
 //
-// Prior: normal about FreeNumber::wanted, with the precision fitPrecision(). Numbers of single channels learn their variance
+// Prior: normal about FreeNumber::wanted, by fitPrior(). Numbers of single channels learn their variance
 //   where another effect is in the set, so that these keep to what the channels do not have in common.
 // Bounds: a number that would pass one is held there, and the others are solved for again.
 // The data count less the more is left: their precision is that of noise over the dispersion.
@@ -43,10 +55,10 @@ public:
     double dispersion = 1.0);
 
   // damping: part by which the diagonal is larger (Levenberg and Marquardt).
-  Eigen::VectorXd step(double damping = 0.0) const { return step(All, damping); }
-  Eigen::VectorXd stepWithout(std::size_t fold) const;
-  std::size_t folds() const noexcept { return Folds.size(); }
-  // The fit goes no further: from here on step() is none, and stepWithout() what leaving out the fold alone does.
+  Eigen::VectorXd step(double damping = 0.0) const;
+  // Without each fold.
+  std::vector<Eigen::VectorXd> stepsWithout() const;
+  // The fit goes no further: from here on step() is none, and stepsWithout() what leaving out the fold alone does.
   void settle();
   // Twice the prior's minus logarithm after a step.
   double penalty(const Eigen::VectorXd& step) const;
@@ -58,17 +70,18 @@ public:
   void describe(ObservedFit& fit, const Eigen::VectorXd& step) const;
   void describe(ObservedFit& fit) const { describe(fit, Eigen::VectorXd::Zero(Off.size())); }
 
-  Eigen::MatrixXd information() const { return Dispersion * All.matrix; } // without prior
-  const Eigen::MatrixXd& precision() const noexcept { return Precision; } // of the prior
+  SparseMatrix information() const { return Dispersion * All.matrix; } // without prior
+  const BlockPrior& prior() const noexcept { return Prior; }
 
 private:
-  Eigen::VectorXd step(NormalEquations equations, double damping) const;
+  // factor: of the first of several steps, whose pattern it keeps.
+  Eigen::VectorXd step(NormalEquations equations, double damping, SparseFactor& factor) const;
   std::vector<FreeNumber> withVariance() const;
 
   std::vector<FreeNumber> Numbers;
   std::vector<NormalEquations> Folds;
   NormalEquations All;
-  Eigen::MatrixXd Precision;
+  BlockPrior Prior;
   double Dispersion = 1.0;
   Eigen::VectorXd Off; // from the number to what its prior wants
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
 #include "Kernels/Gap/GapReport.h"
 #include "Kernels/Gap/Shrink.h"
 
@@ -42,9 +43,9 @@ public:
   std::vector<std::size_t> set; // numbers of options
   double energy = 0.0;          // weighted sum of squares, cross-validated by groups
   double coherence =
-    1.0; // independent residuals would scatter by that much less in the sum over a group
-  Eigen::VectorXd
-    information; // prior variance over noise variance along its principal axes; unit dispersion
+    1.0;            // independent residuals would scatter by that much less in the sum over a group
+  BlockPrior prior; // of its numbers, by which it is judged
+  SparseMatrix information; // their normal matrix without prior; unit dispersion
   double surprise =
     0.0; // half the sum of squares of the parameters over their learned prior deviations
   double chanceOfCurve = 1.0; // LearnedPrior::chanceOfCurve

@@ -15,9 +15,11 @@ namespace
 TEST(LearnedPrior, ACommonNumberIsCauchyByItsTypicalSize)
 {
   const msi::LearnedPrior prior({ { 0, false, false, 0.3, 0.1 } });
-  EXPECT_NEAR(prior.covariance(0, 0), 0.01, 1e-15);
+  ASSERT_EQ(prior.normal.blocks().size(), 1U);
+  EXPECT_NEAR(prior.normal.blocks().front().variance, 0.01, 1e-15);
   EXPECT_NEAR(prior.surprise, std::log(10.0), 1e-12);
-  EXPECT_NEAR(prior.informationOf(Eigen::MatrixXd::Constant(1, 1, 500.0))[0], 5.0, 1e-12);
+  EXPECT_NEAR(prior.normal.gain(Eigen::MatrixXd::Constant(1, 1, 500.0).sparseView()),
+    0.5 * std::log(6.0), 1e-12);
   // A mean of their own have numbers of channels only.
   EXPECT_NEAR(msi::LearnedPrior({ { 0, false, true, 0.3, 0.1 } }).surprise, std::log(10.0), 1e-12);
 }
@@ -29,9 +31,12 @@ TEST(LearnedPrior, NumbersOfChannelsLearnTheirScatter)
   {
     const msi::LearnedPrior prior({ { 0, true, false, size, 1.0 }, { 0, true, false, -size, 1.0 },
       { 1, false, false, 0.0, 3.0 } });
-    EXPECT_NEAR(prior.covariance(0, 0), size * size, 1e-9);
-    EXPECT_EQ(prior.covariance(0, 1), 0.0);
-    EXPECT_DOUBLE_EQ(prior.covariance(2, 2), 9.0);
+    const std::vector<msi::PriorBlock>& blocks = prior.normal.blocks();
+    ASSERT_EQ(blocks.size(), 2U);
+    EXPECT_EQ(blocks[0].size, 2);
+    EXPECT_NEAR(blocks[0].variance, size * size, 1e-9);
+    EXPECT_EQ(blocks[0].ofMean, 0.0);
+    EXPECT_DOUBLE_EQ(blocks[1].variance, 9.0);
     EXPECT_NEAR(prior.surprise, 1.0, 1e-6);
   }
 }
@@ -41,15 +46,15 @@ TEST(LearnedPrior, UncertainNumbersMayScatterMore)
 {
   const msi::LearnedPrior prior(
     { { 0, true, false, 0.3, 1.0, 0.07 }, { 0, true, false, -0.3, 1.0, 0.07 } });
-  EXPECT_NEAR(prior.covariance(0, 0), 0.09 + 0.07, 1e-9);
+  EXPECT_NEAR(prior.normal.blocks().front().variance, 0.09 + 0.07, 1e-9);
 }
 
 // What is common to all channels is a number of its own where the effect has a form with one: 1 of typical size, +-.1 about it.
 TEST(LearnedPrior, ACommonPartIsNoScatter)
 {
   const msi::LearnedPrior prior({ { 0, true, true, 1.1, 1.0 }, { 0, true, true, 0.9, 1.0 } });
-  EXPECT_NEAR(prior.covariance(0, 1), 1.0, 1e-12);
-  EXPECT_NEAR(prior.covariance(0, 0) - prior.covariance(0, 1), 0.01, 1e-6);
+  EXPECT_NEAR(prior.normal.blocks().front().ofMean, 1.0, 1e-12);
+  EXPECT_NEAR(prior.normal.blocks().front().variance, 0.01, 1e-6);
   EXPECT_NEAR(prior.surprise, 1.0 + std::log(2.0), 1e-6);
 }
 
@@ -69,22 +74,24 @@ TEST(LearnedPrior, ANumberNearNeutralIsNormal)
   EXPECT_NEAR(msi::LearnedPrior({ number }).surprise, 4.5, 1e-12);
 }
 
-TEST(FitPrecision, IsWideUntilNumbersOfChannelsAreKnown)
+TEST(FitPrior, IsWideUntilNumbersOfChannelsAreKnown)
 {
-  const double wide = std::pow(msi::Decision::FreeSpread * 0.5, -2);
-  const Eigen::MatrixXd before = msi::fitPrecision(
-    { { 0, true, false, 0.0, 0.5 }, { 0, true, false, 0.0, 0.5 }, { 1, false, false, 0.2, 0.5 } });
-  EXPECT_LT((before - wide * Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-12);
-  const Eigen::MatrixXd behind = msi::fitPrecision(
-    { { 0, true, false, 0.2, 0.5 }, { 0, true, false, -0.2, 0.5 }, { 1, false, false, 0.2, 0.5 } });
-  EXPECT_NEAR(behind(0, 0), 25.0, 1e-6);
-  EXPECT_NEAR(behind(2, 2), wide, 1e-12);
+  const double wide = msi::wideVariance(0.5);
+  const auto variances = [](double deviation)
+  {
+    const msi::BlockPrior prior = msi::fitPrior({ { 0, true, false, deviation, 0.5 },
+      { 0, true, false, -deviation, 0.5 }, { 1, false, false, 0.2, 0.5 } });
+    return Eigen::Vector2d(prior.blocks()[0].variance, prior.blocks()[1].variance);
+  };
+  EXPECT_EQ(variances(0.0), Eigen::Vector2d(wide, wide));
+  EXPECT_NEAR(variances(0.2)[0], 0.04, 1e-6);
+  EXPECT_EQ(variances(0.2)[1], wide);
 }
 
 TEST(LearnedPrior, NothingFreeIsNothingKnown)
 {
   const msi::LearnedPrior prior({});
-  EXPECT_EQ(prior.informationOf(Eigen::MatrixXd()).size(), 0);
+  EXPECT_EQ(prior.normal.gain(msi::SparseMatrix()), 0.0);
   EXPECT_EQ(prior.surprise, 0.0);
 }
 

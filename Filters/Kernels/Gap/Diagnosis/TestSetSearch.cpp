@@ -119,7 +119,9 @@ private:
   {
     auto fit = std::make_shared<Fit>();
     fit->energy = leftOf(set).squaredNorm();
-    fit->information = 100.0 * (chosen(set).colwise().squaredNorm()).transpose();
+    const Eigen::VectorXd squares = chosen(set).colwise().squaredNorm();
+    fit->information = Eigen::MatrixXd(squares.asDiagonal()).sparseView();
+    fit->prior = msi::BlockPrior({ { squares.size(), 100.0 } });
     fit->set = std::move(set);
     return fit;
   }

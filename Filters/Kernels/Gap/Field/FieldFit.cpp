@@ -22,12 +22,12 @@ struct FieldFitter::Design
   Eigen::MatrixXd columns;
 
   // normal: products of the columns; change: of these, known beforehand.
-  void add(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change, NormalEquations& sum) const
+  void add(
+    const Eigen::MatrixXd& normal, const Eigen::VectorXd& change, NormalEquationsSum& sum) const
   {
     const Eigen::Index last = FieldColumn::residual();
     const auto products = normal.topLeftCorner(last, last);
-    sum.matrix(numbers, numbers) += columns.transpose() * products * columns;
-    sum.gradient(numbers) += gradient(normal, change);
+    sum.add(numbers, columns.transpose() * products * columns, gradient(normal, change));
   }
   Eigen::VectorXd gradient(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change) const
   {
@@ -136,11 +136,12 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
   std::vector<NormalEquations> folds;
   for (const std::vector<Eigen::MatrixXd>& normal : Fold)
   {
-    folds.emplace_back(static_cast<Eigen::Index>(numbers.size()));
+    NormalEquationsSum sum(static_cast<Eigen::Index>(numbers.size()));
     for (std::size_t k = 0; k < design.size(); ++k)
     {
-      design[k].add(normal[k], known[k], folds.back());
+      design[k].add(normal[k], known[k], sum);
     }
+    folds.push_back(sum.sum());
   }
   fit.linear = LinearFit({ numbers.begin(), numbers.end() }, std::move(folds), set.size() > 1);
   fit.increase = fit.linear.step();
@@ -152,13 +153,13 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
     fit.next[number.term->parameter].segment(std::max<Eigen::Index>(number.channel, 0),
       number.channel < 0 ? Data.channels() : 1) += change;
   }
+  const std::vector<Eigen::VectorXd> without = fit.linear.stepsWithout();
   for (std::size_t f = 0; f < Fold.size(); ++f)
   {
-    const Eigen::VectorXd without = fit.linear.stepWithout(f);
     fit.change.emplace_back();
     for (std::size_t k = 0; k < design.size(); ++k)
     {
-      fit.change.back().emplace_back(known[k] + design[k].columns * without(design[k].numbers));
+      fit.change.back().emplace_back(known[k] + design[k].columns * without[f](design[k].numbers));
       fit.energy += energyLeft(Fold[f][k], fit.change.back().back());
     }
   }

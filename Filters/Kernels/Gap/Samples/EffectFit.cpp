@@ -49,33 +49,56 @@ double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
 }
 }
 
-NormalEquations normalEquations(const Eigen::MatrixXd& jacobian,
+std::vector<NormalEquations> normalEquations(const std::vector<Eigen::MatrixXd>& derivative,
   const Eigen::Ref<const Eigen::ArrayXXd>& root, const Eigen::Ref<const Eigen::ArrayXXd>& residual,
-  const std::vector<FreeParameter>& free, Eigen::Index reach, const SampleList& samples)
+  const std::vector<FreeParameter>& free, Eigen::Index reach, const std::vector<SampleList>& folds)
 {
-  NormalEquations normal(jacobian.cols());
+  SampleList samples;
+  for (const SampleList& fold : folds)
+  {
+    samples.insert(samples.end(), fold.begin(), fold.end());
+  }
+  std::vector<std::vector<Eigen::Index>> acting(static_cast<std::size_t>(root.rows()));
+  for (std::size_t p = 0; p < free.size(); ++p)
+  {
+    const auto [first, count] = free[p].channels(reach, root.rows());
+    for (Eigen::Index k = first; k < first + count; ++k)
+    {
+      acting[static_cast<std::size_t>(k)].push_back(static_cast<Eigen::Index>(p));
+    }
+  }
+  std::vector<NormalEquationsSum> sums(
+    folds.size(), NormalEquationsSum(static_cast<Eigen::Index>(free.size())));
   for (Eigen::Index k = 0; k < root.rows(); ++k)
   {
-    SampleList rows;
-    for (const Eigen::Index i : samples)
+    const std::vector<Eigen::Index>& parameters = acting[static_cast<std::size_t>(k)];
+    const auto count = static_cast<Eigen::Index>(parameters.size());
+    Eigen::ArrayXXd columns(static_cast<Eigen::Index>(samples.size()), count + 1);
+    columns.col(count) = residual.row(k)(samples);
+    const Eigen::ArrayXd weight = root.row(k)(samples);
+    for (Eigen::Index c = 0; c < count; ++c)
     {
-      rows.push_back(k + root.rows() * i);
+      const auto p = static_cast<std::size_t>(parameters[static_cast<std::size_t>(c)]);
+      const Eigen::Index row = k - free[p].channels(reach, root.rows()).first;
+      columns.col(c) = weight * derivative[p].row(row)(samples).transpose().array();
     }
-    SampleList active;
-    for (std::size_t p = 0; p < free.size(); ++p)
+    Eigen::Index first = 0;
+    for (std::size_t f = 0; f < folds.size(); ++f)
     {
-      if (free[p].channel < 0 || std::abs(free[p].channel - k) <= reach)
-      {
-        active.push_back(static_cast<Eigen::Index>(p));
-      }
+      const auto members = static_cast<Eigen::Index>(folds[f].size());
+      const auto rows = columns.middleRows(first, members).matrix();
+      const Eigen::MatrixXd products = rows.transpose() * rows;
+      sums[f].add(
+        parameters, products.topLeftCorner(count, count), products.col(count).head(count));
+      first += members;
     }
-    const Eigen::VectorXd weight = root.row(k)(samples);
-    const Eigen::VectorXd left = residual.row(k)(samples);
-    const Eigen::MatrixXd columns = weight.asDiagonal() * jacobian(rows, active);
-    normal.matrix(active, active) += columns.transpose() * columns;
-    normal.gradient(active) += columns.transpose() * left;
   }
-  return normal;
+  std::vector<NormalEquations> equations;
+  for (const NormalEquationsSum& sum : sums)
+  {
+    equations.push_back(sum.sum());
+  }
+  return equations;
 }
 
 EffectFitter::EffectFitter(const GapData& data, SampleList training, std::uint64_t seed)
@@ -105,7 +128,7 @@ void EffectFitter::linearise(
 {
   fit.root = huber(residual, flat(Weight));
   fit.free = fit.set.freeParameters(Data.camera);
-  fit.jacobian = jacobian(here, fit.set, fit.free);
+  fit.derivative = derivatives(here, fit.set, fit.free);
   solve(fit, residual);
 }
 
@@ -114,17 +137,13 @@ void EffectFitter::solve(EffectFit& fit, const Eigen::ArrayXd& residual) const
   const Eigen::ArrayXXd trust =
     Weight.array().sqrt() * fit.root.reshaped(Data.channels(), Data.samples());
   const Eigen::ArrayXXd left = (residual * fit.root).reshaped(Data.channels(), Data.samples());
-  std::vector<NormalEquations> folds;
-  for (const SampleList& members : Fold)
-  {
-    folds.push_back(normalEquations(fit.jacobian, trust, left, fit.free, fit.set.reach(), members));
-  }
   // What is left beyond noise counts as in the criterion.
   const double numbers =
     independentNumbers(Decision::DiscrepancyNumbers, Training.size(), Data.channels());
   const double dispersion = std::fmax((huberCost(residual, fit.root) - NoiseEnergy) / numbers, 1.0);
-  fit.linear = LinearFit(
-    { fit.free.begin(), fit.free.end() }, std::move(folds), fit.set.size() > 1, dispersion);
+  fit.linear = LinearFit({ fit.free.begin(), fit.free.end() },
+    normalEquations(fit.derivative, trust, left, fit.free, fit.set.reach(), Fold),
+    fit.set.size() > 1, dispersion);
 }
 
 EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
@@ -135,7 +154,6 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   if (fit.set.size() == 0 || !here)
   {
     fit.predicted = fit.set.size() == 0 ? Data.simulated : noResponse(Data.camera, Data.scene);
-    fit.jacobian.resize(Data.observed.size(), 0);
     fit.root = huber(whitened(fit.predicted), flat(Weight));
     crossValidate(fit);
     return fit;
@@ -151,7 +169,7 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
       break;
     }
     const double before = huberCost(residual, fit.root) +
-      fit.linear.penalty(Eigen::VectorXd::Zero(fit.jacobian.cols()));
+      fit.linear.penalty(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fit.free.size())));
     bool better = false;
     double after = before;
     for (int attempt = 0; attempt < 6 && !better; ++attempt)
@@ -200,10 +218,12 @@ std::optional<EffectFit> EffectFitter::oneStep(
   fit.free = fit.set.freeParameters(Data.camera);
   const auto added = std::find_if(fit.free.begin(), fit.free.end(),
     [&](const FreeParameter& parameter) { return parameter.effect >= present.set.size(); });
-  const Eigen::Index known = added - fit.free.begin();
-  fit.jacobian.resize(fit.predicted.size(), static_cast<Eigen::Index>(fit.free.size()));
-  fit.jacobian << present.jacobian.leftCols(known),
-    jacobian(*here, fit.set, { added, fit.free.end() });
+  fit.derivative.assign(
+    present.derivative.begin(), present.derivative.begin() + (added - fit.free.begin()));
+  for (Eigen::MatrixXd& one : derivatives(*here, fit.set, { added, fit.free.end() }))
+  {
+    fit.derivative.push_back(std::move(one));
+  }
   fit.root = present.root;
   solve(fit, whitened(fit.predicted));
   crossValidate(fit);
@@ -216,17 +236,16 @@ void EffectFitter::crossValidate(EffectFit& fit) const
   const Eigen::Index samples = Data.samples();
   const Eigen::Index reach = fit.set.reach();
   fit.heldOut = (Weight.array() > 0.0).select(Data.observed - fit.predicted, 0.0);
-  for (std::size_t f = 0; f < fit.linear.folds(); ++f)
+  const std::vector<Eigen::VectorXd> without = fit.linear.stepsWithout();
+  for (std::size_t f = 0; f < without.size(); ++f)
   {
-    const Eigen::VectorXd step = fit.linear.stepWithout(f);
     for (std::size_t p = 0; p < fit.free.size(); ++p)
     {
-      const auto column = static_cast<Eigen::Index>(p);
       const auto [first, count] = fit.free[p].channels(reach, channels);
       for (const Eigen::Index j : Fold[f])
       {
         fit.heldOut.col(j).segment(first, count) -=
-          step[column] * fit.jacobian.col(column).segment(j * channels + first, count);
+          without[f][static_cast<Eigen::Index>(p)] * fit.derivative[p].col(j);
       }
     }
   }
@@ -246,14 +265,14 @@ void EffectFitter::crossValidate(EffectFit& fit) const
 
 Eigen::MatrixXd EffectFitter::covariance(const EffectFit& fit) const
 {
-  const Eigen::Index channels = Data.channels();
-  Eigen::MatrixXd scores(fit.jacobian.cols(), static_cast<Eigen::Index>(Training.size()));
-  for (std::size_t t = 0; t < Training.size(); ++t)
+  const Eigen::MatrixXd pull = Weight.cwiseProduct(fit.heldOut);
+  Eigen::MatrixXd scores(
+    static_cast<Eigen::Index>(fit.free.size()), static_cast<Eigen::Index>(Training.size()));
+  for (std::size_t p = 0; p < fit.free.size(); ++p)
   {
-    const Eigen::Index j = Training[t];
-    scores.col(static_cast<Eigen::Index>(t)) =
-      fit.jacobian.middleRows(j * channels, channels).transpose() *
-      (Weight.col(j).array() * fit.heldOut.col(j).array()).matrix();
+    const auto [first, count] = fit.free[p].channels(fit.set.reach(), Data.channels());
+    scores.row(static_cast<Eigen::Index>(p)) =
+      fit.derivative[p].cwiseProduct(pull.middleRows(first, count)).colwise().sum()(Training);
   }
   return fit.linear.covariance(scores);
 }

@@ -31,12 +31,12 @@ struct EffectFit
 {
   EffectSet set;
   std::vector<FreeParameter> free;
-  Eigen::MatrixXd predicted; // K x S, all samples
-  Eigen::MatrixXd jacobian;  // KS x p
-  LinearFit linear;          // about the set
-  Eigen::ArrayXd root;       // KS, of the Huber weights
-  Eigen::MatrixXd heldOut;   // K x S, cross-validated residual of the training samples, 0 elsewhere
-  double energy = 0.0;       // weighted sum of squares of heldOut
+  Eigen::MatrixXd predicted;               // K x S, all samples
+  std::vector<Eigen::MatrixXd> derivative; // of each parameter: its channels x S
+  LinearFit linear;                        // about the set
+  Eigen::ArrayXd root;                     // KS, of the Huber weights
+  Eigen::MatrixXd heldOut; // K x S, cross-validated residual of the training samples, 0 elsewhere
+  double energy = 0.0;     // weighted sum of squares of heldOut
   double dispersion =
     1.0; // energy a residual element has, with the samples' correlation between channels
 };
@@ -69,7 +69,7 @@ private:
   // Residuals over their standard deviations, 0 where there is no weight.
   Eigen::ArrayXd whitened(const Eigen::MatrixXd& predicted) const;
   void linearise(EffectFit& fit, const StagedResponse& here, const Eigen::ArrayXd& residual) const;
-  // By the normal equations of its jacobian.
+  // By the normal equations of its derivatives.
   void solve(EffectFit& fit, const Eigen::ArrayXd& residual) const;
   void crossValidate(EffectFit& fit) const;
 
@@ -81,14 +81,12 @@ private:
   double NoiseEnergy = 0.0;
 };
 
-// Over the samples named, p numbers.
-// jacobian: KS x p, rows in the order of a K x S response; root: of the weights, K x S; residual: times that root, K x S;
-// free: one a column.
-// reach: how many channels away a parameter of one channel acts. Where it is zero the cost grows with the number of
-//   parameters a channel has, not with that of all.
-NormalEquations normalEquations(const Eigen::MatrixXd& jacobian,
+// Of each fold.
+// derivative: of each of `free`, its channels x S; root: of the weights, K x S; residual: times that root, K x S;
+// reach: EffectSet::reach(); folds: their samples.
+std::vector<NormalEquations> normalEquations(const std::vector<Eigen::MatrixXd>& derivative,
   const Eigen::Ref<const Eigen::ArrayXXd>& root, const Eigen::Ref<const Eigen::ArrayXXd>& residual,
-  const std::vector<FreeParameter>& free, Eigen::Index reach, const SampleList& samples);
+  const std::vector<FreeParameter>& free, Eigen::Index reach, const std::vector<SampleList>& folds);
 
 // Observed minus predicted, K x S; 0 where nothing was measured.
 // A step in time is only known to lie between two training samples; a sample between these may lie on either side of it,

@@ -33,24 +33,6 @@ auto litOrNothing(Simulate simulate) -> std::optional<decltype(simulate())>
   }
 }
 
-// (there - here) / step in `count` rows from `low` on, of all samples; 0 for samples without reflectance.
-void derive(const Eigen::MatrixXd& there, const Eigen::MatrixXd& here, double step,
-  Eigen::Index low, Eigen::Index count, double* column)
-{
-  const bool whole = count == here.rows();
-  const Eigen::Index runs = whole ? 1 : here.cols();
-  const Eigen::Index length = whole ? here.size() : count;
-  for (Eigen::Index j = 0; j < runs; ++j)
-  {
-    const Eigen::Index first = j * here.rows() + low;
-    for (Eigen::Index i = first; i < first + length; ++i)
-    {
-      const double change = (there.data()[i] - here.data()[i]) / step;
-      column[i] = std::isfinite(change) ? change : 0.0;
-    }
-  }
-}
-
 // The effect that carries the level of the choices that are leveled.
 const EffectDefinition& levelEffect()
 {
@@ -243,14 +225,13 @@ std::optional<StagedResponse> stagedResponse(const StagedResponse& related, cons
   return litOrNothing([&] { return StagedResponse(related, set.simulated(), optionsOf(set)); });
 }
 
-Eigen::MatrixXd jacobian(
+std::vector<Eigen::MatrixXd> derivatives(
   const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free)
 {
   const Eigen::MatrixXd& base = here.response();
   const Eigen::Index reach = set.reach();
   const Eigen::Index colors = 2 * reach + 1;
-  const Eigen::Index channels = base.rows();
-  Eigen::MatrixXd columns(base.size(), static_cast<Eigen::Index>(free.size()));
+  std::vector<Eigen::MatrixXd> derivatives(free.size());
   const auto stepOf = [&](const FreeParameter& parameter)
   {
     const double step = RelativeStep * parameter.typical;
@@ -282,21 +263,20 @@ Eigen::MatrixXd jacobian(
         {
           continue;
         }
-        double* column = columns.col(static_cast<Eigen::Index>(p)).data();
-        if (perChannel || !there)
-        {
-          std::fill_n(column, base.size(), 0.0);
-        }
+        const auto [low, count] = free[p].channels(reach, base.rows());
+        derivatives[p] = Eigen::MatrixXd::Zero(count, base.cols());
         if (there)
         {
-          const auto [low, count] = free[p].channels(reach, channels);
-          derive(there->response(), base, stepOf(free[p]), low, count, column);
+          const Eigen::ArrayXXd change =
+            (there->response().middleRows(low, count) - base.middleRows(low, count)) /
+            stepOf(free[p]);
+          derivatives[p] = change.isFinite().select(change, 0.0);
         }
       }
     }
     first = last;
   }
-  return columns;
+  return derivatives;
 }
 
 bool canShow(const SampleScene& scene, const EffectDefinition& effect, const std::string& medium)

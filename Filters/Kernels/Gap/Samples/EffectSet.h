@@ -94,11 +94,10 @@ std::optional<StagedResponse> stagedResponse(
   const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
 std::optional<StagedResponse> stagedResponse(const StagedResponse& related, const EffectSet& set);
 
-// Derivative of the response `here`, that of the set, by these of its parameters: one column a parameter, rows in the
-// order of the K x S response; 0 where there is none.
+// Derivative of the response `here`, that of the set, by these of its parameters: for each its channels() x S; 0 where there is none.
 // Forward differences. The parameters of one channel move that channel only (with channel_crosstalk also
 // its neighbours), so all channels are moved at once.
-Eigen::MatrixXd jacobian(
+std::vector<Eigen::MatrixXd> derivatives(
   const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free);
 
 // Whether this scene has what an effect needs. medium: of an effect of one.

@@ -1,15 +1,16 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 
 #include "Kernels/Camera/StagedResponse.h"
+#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <optional>
 
 namespace msi
@@ -23,31 +24,30 @@ constexpr Eigen::Index MostElements = 2000; // of a chart that is simulated agai
 constexpr int Side = 3;                   // of a raster of whites: few, since they are one spectrum
 constexpr double LeastProbability = 0.02; // of an explanation that is looked at
 
+double logDeterminant(const SparseFactor& factor)
+{
+  return factor.vectorD().array().log().sum();
+}
+
 // An explanation made ready to predict.
 struct Predictor
 {
   EffectFit fit;
-  Eigen::MatrixXd root; // of the covariance of the free parameters
-  double rest = 0.0;    // variance of an element that the explanation leaves beyond noise
-};
+  SparseMatrix precision; // of its numbers and, behind them, of means of their prior
+  std::shared_ptr<const SparseFactor> factor;
+  double rest = 0.0; // variance of an element that the explanation leaves beyond noise
 
-Predictor predictorOf(const SampleObservation& data, const ObservedFit& explanation)
-{
-  Predictor predictor{ data.linearised(explanation), {}, 0.0 };
-  const EffectFit& fit = predictor.fit;
-  const Eigen::MatrixXd posterior =
-    fit.linear.information() / std::fmax(fit.dispersion, 1.0) + fit.linear.precision();
-  const Eigen::LDLT<Eigen::MatrixXd> decomposed(
-    posterior.ldlt().solve(Eigen::MatrixXd::Identity(posterior.rows(), posterior.cols())));
-  predictor.root = decomposed.transpositionsP().transpose() *
-    Eigen::MatrixXd(decomposed.matrixL()) *
-    decomposed.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  const GroupEnergies energies = data.energies(fit);
-  predictor.rest = (std::fmax(sumOf(energies.after) - sumOf(energies.noise), 0.0) +
-                     Decision::FormPart * sumOf(energies.before)) /
-    std::fmax(data.elements(), 1.0);
-  return predictor;
-}
+  Predictor(const SampleObservation& data, const ObservedFit& explanation)
+    : fit(data.linearised(explanation))
+    , precision(fit.linear.prior().after(fit.linear.information() / std::fmax(fit.dispersion, 1.0)))
+    , factor(std::make_shared<SparseFactor>(precision))
+  {
+    const GroupEnergies energies = data.energies(fit);
+    rest = (std::fmax(sumOf(energies.after) - sumOf(energies.noise), 0.0) +
+             Decision::FormPart * sumOf(energies.before)) /
+      std::fmax(data.elements(), 1.0);
+  }
+};
 
 SceneSamples selected(const SceneSamples& samples, const SampleList& which)
 {
@@ -89,48 +89,6 @@ SampleList chartOf(const GapData& data)
   return which;
 }
 
-// Normal distribution with covariance diag(variance) + factor factor'.
-class LowRankNormal
-{
-public:
-  LowRankNormal(Eigen::VectorXd mean, Eigen::VectorXd variance, Eigen::MatrixXd factor)
-    : Mean(std::move(mean))
-    , Variance(std::move(variance))
-    , Precision(Variance.cwiseInverse())
-    , Factor(std::move(factor))
-    , Scaled(Precision.asDiagonal() * Factor)
-    , Inner(Eigen::MatrixXd::Identity(Factor.cols(), Factor.cols()) + Factor.transpose() * Scaled)
-  {
-    LogDeterminant =
-      Variance.array().log().sum() + 2.0 * Inner.matrixLLT().diagonal().array().log().sum();
-  }
-
-  double logDensity(const Eigen::VectorXd& y) const
-  {
-    const Eigen::VectorXd off = y - Mean;
-    const Eigen::VectorXd inner = Scaled.transpose() * off;
-    const double square = off.cwiseAbs2().dot(Precision) - inner.dot(Inner.solve(inner));
-    return -0.5 * (square + LogDeterminant);
-  }
-
-  Eigen::VectorXd draw(const CounterRandom& random, std::uint64_t number) const
-  {
-    std::vector<float> normals(static_cast<std::size_t>(Mean.size() + Factor.cols()));
-    random.normals(number * normals.size(), normals.data(), normals.size());
-    const Eigen::VectorXd z =
-      Eigen::Map<Eigen::VectorXf>(normals.data(), static_cast<Eigen::Index>(normals.size()))
-        .cast<double>();
-    return Mean + Variance.cwiseSqrt().cwiseProduct(z.head(Mean.size())) +
-      Factor * z.tail(Factor.cols());
-  }
-
-private:
-  Eigen::VectorXd Mean, Variance, Precision;
-  Eigen::MatrixXd Factor, Scaled;
-  Eigen::LLT<Eigen::MatrixXd> Inner;
-  double LogDeterminant = 0.0;
-};
-
 // The effects that this capture can show, those known left out.
 EffectSet shownBy(const CaptureCandidate& candidate, const SampleScene& scene, const EffectSet& all,
   std::vector<std::size_t>& kept)
@@ -151,20 +109,6 @@ EffectSet shownBy(const CaptureCandidate& candidate, const SampleScene& scene, c
     }
   }
   return shown;
-}
-
-// The column of a parameter among all of the explanation; none: it has no variance.
-std::optional<Eigen::Index> columnOf(
-  const Predictor& predictor, const FreeParameter& parameter, std::size_t effect)
-{
-  const std::vector<FreeParameter>& all = predictor.fit.free;
-  const auto same = std::find_if(all.begin(), all.end(),
-    [&](const FreeParameter& other)
-    {
-      return other.effect == effect && other.index == parameter.index &&
-        other.channel == parameter.channel;
-    });
-  return same == all.end() ? std::nullopt : std::make_optional(same - all.begin());
 }
 
 // The spectra of a capture that the chart did not have.
@@ -203,19 +147,20 @@ NewSpectra newSpectra(const GapData& data, const CaptureCandidate& candidate)
   return { leverageOf(spectra) / leverageOf(chart).mean(), static_cast<double>(distinct.size()) };
 }
 
-// What an explanation expects of the elements of a capture.
+// What an explanation expects of a capture; K x S.
 struct Expectation
 {
-  Eigen::VectorXd mean, variance;
-  Eigen::MatrixXd derivative; // by the free parameters of the explanation
+  Eigen::MatrixXd mean, variance;
+  std::vector<Eigen::MatrixXd>
+    derivative; // EffectFit::derivative of the explanation, by these samples
 
-  // Of elements from `first` on: counts as no more than so many numbers. So does what is systematic in the criterion,
-  // but for its least number per channel.
-  void addSystematic(const Eigen::VectorXd& added, Eigen::Index first, double numbers)
+  // Of samples from `first` on: counts as so many numbers, but as no more than in the criterion.
+  void addSystematic(const Eigen::MatrixXd& added, Eigen::Index first, double numbers)
   {
-    const double copies =
-      static_cast<double>(added.size()) / std::fmin(numbers, Decision::BeliefNumbers);
-    variance.segment(first, added.size()) += std::fmax(copies, 1.0) * added;
+    const double most = independentNumbers(
+      Decision::BeliefNumbers, static_cast<std::size_t>(added.size()), added.rows());
+    const double copies = static_cast<double>(added.size()) / std::fmin(numbers, most);
+    variance.middleCols(first, added.cols()) += std::fmax(copies, 1.0) * added;
   }
 };
 
@@ -231,18 +176,23 @@ std::optional<Expectation> simulated(const GapData& data, const CaptureCandidate
     return std::nullopt;
   }
   const Eigen::VectorXd noise = data.variance.rowwise().mean();
-  Expectation expected{ here->response().reshaped(), noise.replicate(scene.size(), 1),
-    Eigen::MatrixXd::Zero(
-      here->response().size(), static_cast<Eigen::Index>(predictor.fit.free.size())) };
+  Expectation expected{ here->response(), noise.replicate(1, scene.size()), {} };
   const std::vector<FreeParameter> free = shown.freeParameters(data.camera);
-  const Eigen::MatrixXd columns = jacobian(*here, shown, free);
-  for (std::size_t p = 0; p < free.size(); ++p)
+  const std::vector<Eigen::MatrixXd> known = derivatives(*here, shown, free);
+  for (const FreeParameter& parameter : predictor.fit.free)
   {
-    const std::size_t effect =
-      free[p].effect < shown.size() ? kept[free[p].effect] : predictor.fit.set.size();
-    if (const auto column = columnOf(predictor, free[p], effect))
+    const auto [first, count] = parameter.channels(predictor.fit.set.reach(), data.channels());
+    expected.derivative.emplace_back(Eigen::MatrixXd::Zero(count, scene.size()));
+    for (std::size_t p = 0; p < free.size(); ++p)
     {
-      expected.derivative.col(*column) = columns.col(static_cast<Eigen::Index>(p));
+      const std::size_t effect =
+        free[p].effect < shown.size() ? kept[free[p].effect] : predictor.fit.set.size();
+      if (parameter.effect == effect && parameter.index == free[p].index &&
+        parameter.channel == free[p].channel)
+      {
+        const auto [low, moved] = free[p].channels(shown.reach(), data.channels());
+        expected.derivative.back().middleRows(low - first, moved) = known[p];
+      }
     }
   }
   return expected;
@@ -252,31 +202,109 @@ std::optional<Expectation> simulated(const GapData& data, const CaptureCandidate
 void seeAgain(
   Expectation& expected, const GapData& data, const SampleList& again, const Predictor& predictor)
 {
-  const auto known = static_cast<Eigen::Index>(again.size()) * data.channels();
-  auto mean = expected.mean.head(known);
-  mean -= predictor.fit.predicted(Eigen::all, again).reshaped();
-  const double error = Decision::FormPart * mean.squaredNorm() / static_cast<double>(known);
-  expected.addSystematic(Eigen::VectorXd::Constant(known, error), 0, Decision::BeliefNumbers);
-  mean += data.observed(Eigen::all, again).reshaped();
-  expected.variance.head(known) += data.variance(Eigen::all, again).reshaped();
-  Eigen::Index row = 0;
-  for (const Eigen::Index j : again)
+  const auto known = static_cast<Eigen::Index>(again.size());
+  auto mean = expected.mean.leftCols(known);
+  mean -= predictor.fit.predicted(Eigen::all, again);
+  const double error = Decision::FormPart * mean.squaredNorm() / static_cast<double>(mean.size());
+  expected.addSystematic(Eigen::MatrixXd::Constant(mean.rows(), known, error), 0,
+    std::numeric_limits<double>::infinity());
+  mean += data.observed(Eigen::all, again);
+  expected.variance.leftCols(known) += data.variance(Eigen::all, again);
+  for (std::size_t p = 0; p < expected.derivative.size(); ++p)
   {
-    expected.derivative.middleRows(row, data.channels()) -=
-      predictor.fit.jacobian.middleRows(j * data.channels(), data.channels());
-    row += data.channels();
+    expected.derivative[p].leftCols(known) -= predictor.fit.derivative[p](Eigen::all, again);
   }
 }
 
 // Errors of the response to spectra are one number a channel and spectrum.
-void doubt(Expectation& expected, const NewSpectra& spectra, Eigen::Index channels, double rest)
+void doubt(Expectation& expected, const NewSpectra& spectra, double rest)
 {
+  const Eigen::Index channels = expected.mean.rows();
   const Eigen::MatrixXd error = rest * spectra.leverage.replicate(channels, 1);
-  expected.addSystematic(error.reshaped(), expected.mean.size() - error.size(),
-    static_cast<double>(channels) * spectra.distinct);
+  expected.addSystematic(
+    error, expected.mean.cols() - error.cols(), static_cast<double>(channels) * spectra.distinct);
 }
 
-std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandidate& candidate,
+// The normal distribution of a capture's elements: they scatter independently, and with the parameters of the explanation.
+class Prediction
+{
+public:
+  Prediction(Expectation expected, const Predictor& by)
+    : Expected(std::move(expected))
+    , By(by)
+  {
+    Expected.variance =
+      (Decision::Temperature * (Expected.variance.array() + 1e-14)).matrix().eval();
+    for (Eigen::MatrixXd& derivative : Expected.derivative)
+    {
+      derivative *= std::sqrt(Decision::Temperature);
+    }
+    SampleList all(static_cast<std::size_t>(Expected.mean.cols()));
+    std::iota(all.begin(), all.end(), Eigen::Index(0));
+    SparseMatrix told = normalEquations(Expected.derivative, Expected.variance.array().rsqrt(),
+      Eigen::ArrayXXd::Zero(Expected.mean.rows(), Expected.mean.cols()), By.fit.free,
+      By.fit.set.reach(), { all })
+                          .front()
+                          .matrix;
+    told.conservativeResize(By.precision.rows(), By.precision.cols());
+    Inner = std::make_unique<SparseFactor>(SparseMatrix(By.precision + told));
+    LogDeterminant =
+      Expected.variance.array().log().sum() + logDeterminant(*Inner) - logDeterminant(*By.factor);
+  }
+
+  double logDensity(const Eigen::MatrixXd& y) const
+  {
+    const Eigen::MatrixXd off = y - Expected.mean;
+    const Eigen::MatrixXd pull = off.cwiseQuotient(Expected.variance);
+    Eigen::VectorXd inner = Eigen::VectorXd::Zero(By.precision.rows());
+    for (std::size_t p = 0; p < Expected.derivative.size(); ++p)
+    {
+      const auto [first, count] = channelsOf(p);
+      inner[static_cast<Eigen::Index>(p)] =
+        Expected.derivative[p].cwiseProduct(pull.middleRows(first, count)).sum();
+    }
+    const double square = off.cwiseProduct(pull).sum() - inner.dot(Inner->solve(inner));
+    return -0.5 * (square + LogDeterminant);
+  }
+
+  Eigen::MatrixXd draw(const CounterRandom& random, std::uint64_t number) const
+  {
+    const Eigen::Index elements = Expected.mean.size();
+    std::vector<float> normals(static_cast<std::size_t>(elements + By.precision.rows()));
+    random.normals(number * normals.size(), normals.data(), normals.size());
+    const Eigen::VectorXd z =
+      Eigen::Map<Eigen::VectorXf>(normals.data(), static_cast<Eigen::Index>(normals.size()))
+        .cast<double>();
+    Eigen::MatrixXd y = Expected.mean +
+      Expected.variance.cwiseSqrt().cwiseProduct(
+        z.head(elements).reshaped(Expected.mean.rows(), Expected.mean.cols()));
+    const Eigen::VectorXd scaled =
+      z.tail(By.precision.rows()).cwiseQuotient(By.factor->vectorD().cwiseSqrt());
+    const Eigen::VectorXd parameters =
+      By.factor->permutationPinv() * Eigen::VectorXd(By.factor->matrixU().solve(scaled));
+    for (std::size_t p = 0; p < Expected.derivative.size(); ++p)
+    {
+      const auto [first, count] = channelsOf(p);
+      y.middleRows(first, count) +=
+        parameters[static_cast<Eigen::Index>(p)] * Expected.derivative[p];
+    }
+    return y;
+  }
+
+private:
+  // First and number of those in which a parameter acts.
+  std::pair<Eigen::Index, Eigen::Index> channelsOf(std::size_t parameter) const
+  {
+    return By.fit.free[parameter].channels(By.fit.set.reach(), Expected.mean.rows());
+  }
+
+  Expectation Expected;
+  const Predictor& By;
+  std::unique_ptr<SparseFactor> Inner; // of the precision of the numbers once the capture is known
+  double LogDeterminant = 0.0;
+};
+
+std::optional<Prediction> prediction(const GapData& data, const CaptureCandidate& candidate,
   const SampleScene& scene, const NewSpectra& spectra, const Predictor& predictor)
 {
   std::optional<Expectation> expected = simulated(data, candidate, scene, predictor);
@@ -290,11 +318,9 @@ std::optional<LowRankNormal> prediction(const GapData& data, const CaptureCandid
   }
   if (spectra.leverage.size() > 0)
   {
-    doubt(*expected, spectra, data.channels(), predictor.rest);
+    doubt(*expected, spectra, predictor.rest);
   }
-  return LowRankNormal(std::move(expected->mean),
-    Decision::Temperature * (expected->variance.array() + 1e-14),
-    std::sqrt(Decision::Temperature) * expected->derivative * predictor.root);
+  return Prediction(std::move(*expected), predictor);
 }
 
 double logSumExp(const std::vector<double>& logs)
@@ -309,7 +335,7 @@ double logSumExp(const std::vector<double>& logs)
 }
 
 // group: of explanations that are one.
-double expectedBits(const std::vector<LowRankNormal>& predicted,
+double expectedBits(const std::vector<Prediction>& predicted,
   const std::vector<double>& probability, const std::vector<std::set<std::string>>& group,
   const CounterRandom& random)
 {
@@ -319,7 +345,7 @@ double expectedBits(const std::vector<LowRankNormal>& predicted,
     double mean = 0.0;
     for (std::uint64_t draw = 0; draw < Draws; ++draw)
     {
-      const Eigen::VectorXd y = predicted[h].draw(random, h * Draws + draw);
+      const Eigen::MatrixXd y = predicted[h].draw(random, h * Draws + draw);
       std::vector<double> joint, ofGroup;
       double groupProbability = 0.0;
       for (std::size_t g = 0; g < predicted.size(); ++g)
@@ -481,7 +507,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   predictors.reserve(fits.size());
   for (const FitPointer& fit : fits)
   {
-    predictors.push_back(predictorOf(data, *fit));
+    predictors.emplace_back(data, *fit);
   }
   const std::vector<std::string> separates = disputed(explanations, inQuestion);
   const GapData& gap = data.fitter().data();
@@ -491,7 +517,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   {
     const SampleScene scene(gap.camera.wavelengths(), candidate.samples);
     const NewSpectra spectra = newSpectra(gap, candidate);
-    std::vector<LowRankNormal> predicted;
+    std::vector<Prediction> predicted;
     for (const Predictor& predictor : predictors)
     {
       if (auto one = prediction(gap, candidate, scene, spectra, predictor))

@@ -235,7 +235,7 @@ void SampleObservation::describe(
 FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> set) const
 {
   auto described = std::make_shared<SampleFit>();
-  describe(*described, fit, Eigen::VectorXd::Zero(fit.jacobian.cols()));
+  describe(*described, fit, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fit.free.size())));
   described->set = std::move(set);
   described->effects = std::move(fit.set);
   return described;

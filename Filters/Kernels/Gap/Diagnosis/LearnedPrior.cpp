@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace msi
 {
@@ -193,18 +194,26 @@ Eigen::VectorXd BlockPrior::pull(const Eigen::VectorXd& off) const
 
 double BlockPrior::gain(const SparseMatrix& normal) const
 {
-  if (Precision.rows() == 0)
+  if (Blocks.empty())
   {
     return 0.0;
   }
-  // Of the determinant of the precision without data means of their own are a factor of 1 / ofMean.
-  double logs = SparseFactor(after(normal)).vectorD().array().log().sum();
+  // The determinant of the precision without data is the product of those of numbers and means.
+  double logs = 0.0;
+  double least = std::numeric_limits<double>::infinity();
   for (const PriorBlock& block : Blocks)
   {
-    logs += static_cast<double>(block.size) * std::log(block.variance) +
-      (block.ofMean > 0.0 ? std::log(block.ofMean) : 0.0);
+    logs += static_cast<double>(block.size) * std::log(block.variance);
+    least = std::fmin(least, 1.0 / block.variance);
+    if (block.ofMean > 0.0)
+    {
+      logs += std::log(block.ofMean);
+      least = std::fmin(least, 1.0 / block.ofMean);
+    }
   }
-  return 0.5 * logs;
+  // Only by rounding are pivots less than the least without data.
+  const SparseFactor factor(after(normal));
+  return 0.5 * (logs + factor.vectorD().array().max(least).log().sum());
 }
 
 BlockPrior fitPrior(const std::vector<FreeNumber>& numbers)

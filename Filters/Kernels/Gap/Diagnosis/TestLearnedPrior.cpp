@@ -74,6 +74,14 @@ TEST(LearnedPrior, ANumberNearNeutralIsNormal)
   EXPECT_NEAR(msi::LearnedPrior({ number }).surprise, 4.5, 1e-12);
 }
 
+// Two numbers that do the same, known to ten digits: 1/2 ln(1 + 2 x 1e18 x 100), whatever rounding leaves of the second pivot.
+TEST(BlockPrior, RoundingTellsNothing)
+{
+  const msi::BlockPrior prior({ { 1, 100.0 }, { 1, 100.0 } });
+  EXPECT_NEAR(
+    prior.gain(Eigen::MatrixXd::Constant(2, 2, 1e18).sparseView()), 0.5 * std::log(2e20), 0.5);
+}
+
 TEST(FitPrior, IsWideUntilNumbersOfChannelsAreKnown)
 {
   const double wide = msi::wideVariance(0.5);

@@ -87,7 +87,7 @@ std::vector<NormalEquations> normalEquations(const std::vector<Eigen::MatrixXd>&
     {
       const auto members = static_cast<Eigen::Index>(folds[f].size());
       const auto rows = columns.middleRows(first, members).matrix();
-      const Eigen::MatrixXd products = rows.transpose() * rows;
+      const Eigen::MatrixXd products = rows.transpose().lazyProduct(rows);
       sums[f].add(
         parameters, products.topLeftCorner(count, count), products.col(count).head(count));
       first += members;

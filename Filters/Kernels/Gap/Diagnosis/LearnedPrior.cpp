@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace msi
 {
@@ -15,6 +14,8 @@ namespace
 {
 constexpr int Directions = 4;           // of a cubic
 constexpr double LeastDeviation = 1e-6; // of the typical size
+constexpr double Jitter =
+  1e-12; // so much more precise a number that does what others do keeps a pivot
 }
 
 double chanceOfFraction(double fraction, int channels)
@@ -174,7 +175,9 @@ BlockPrior::BlockPrior(std::vector<PriorBlock> blocks)
 SparseMatrix BlockPrior::after(SparseMatrix normal) const
 {
   normal.conservativeResize(Precision.rows(), Precision.cols());
-  return normal + Precision;
+  normal += Precision;
+  normal.diagonal() *= 1.0 + Jitter;
+  return normal;
 }
 
 Eigen::VectorXd BlockPrior::pull(const Eigen::VectorXd& off) const
@@ -198,22 +201,14 @@ double BlockPrior::gain(const SparseMatrix& normal) const
   {
     return 0.0;
   }
-  // The determinant of the precision without data is the product of those of numbers and means.
-  double logs = 0.0;
-  double least = std::numeric_limits<double>::infinity();
+  // Of the determinant without data means of their own are a factor of 1 / ofMean.
+  double logs = SparseFactor(after(normal)).vectorD().array().log().sum();
   for (const PriorBlock& block : Blocks)
   {
-    logs += static_cast<double>(block.size) * std::log(block.variance);
-    least = std::fmin(least, 1.0 / block.variance);
-    if (block.ofMean > 0.0)
-    {
-      logs += std::log(block.ofMean);
-      least = std::fmin(least, 1.0 / block.ofMean);
-    }
+    logs += static_cast<double>(block.size) * std::log(block.variance) +
+      (block.ofMean > 0.0 ? std::log(block.ofMean) : 0.0);
   }
-  // Only by rounding are pivots less than the least without data.
-  const SparseFactor factor(after(normal));
-  return 0.5 * (logs + factor.vectorD().array().max(least).log().sum());
+  return 0.5 * logs;
 }
 
 BlockPrior fitPrior(const std::vector<FreeNumber>& numbers)

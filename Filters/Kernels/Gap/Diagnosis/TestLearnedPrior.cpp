@@ -74,12 +74,25 @@ TEST(LearnedPrior, ANumberNearNeutralIsNormal)
   EXPECT_NEAR(msi::LearnedPrior({ number }).surprise, 4.5, 1e-12);
 }
 
-// Two numbers that do the same, known to ten digits: 1/2 ln(1 + 2 x 1e18 x 100), whatever rounding leaves of the second pivot.
-TEST(BlockPrior, RoundingTellsNothing)
+// Three numbers that do the same: data tell 1/2 ln(1 + 3 x information x 100), and of each at least what is not known of the others.
+TEST(BlockPrior, NumbersThatDoTheSameAreFittedHoweverMuchDataTell)
 {
-  const msi::BlockPrior prior({ { 1, 100.0 }, { 1, 100.0 } });
-  EXPECT_NEAR(
-    prior.gain(Eigen::MatrixXd::Constant(2, 2, 1e18).sparseView()), 0.5 * std::log(2e20), 0.5);
+  const msi::BlockPrior prior({ { 3, 100.0 } });
+  for (const double information : { 1e-3, 1e6, 1e18, 5e284 })
+  {
+    const msi::SparseMatrix normal = Eigen::MatrixXd::Constant(3, 3, information).sparseView();
+    const double told = 0.5 * std::log1p(3.0 * information * 100.0);
+    EXPECT_GT(prior.gain(normal), told - 1e-6);
+    EXPECT_TRUE(std::isfinite(prior.gain(normal)));
+    const Eigen::VectorXd variance = msi::diagonalOfInverse(prior.after(normal));
+    EXPECT_GT(variance.minCoeff(), 0.0);
+    EXPECT_LT(variance.maxCoeff(), 100.0);
+    if (information < 1e7)
+    {
+      EXPECT_NEAR(prior.gain(normal), told, 1e-3);
+      EXPECT_NEAR(variance.mean(), 100.0 - 1e4 * information / (1.0 + 300.0 * information), 0.1);
+    }
+  }
 }
 
 TEST(FitPrior, IsWideUntilNumbersOfChannelsAreKnown)

@@ -49,9 +49,9 @@ double huberCost(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& root)
 }
 }
 
-std::vector<NormalEquations> normalEquations(const std::vector<Eigen::MatrixXd>& derivative,
+std::vector<NormalEquations> normalEquations(const std::vector<Derivative>& derivatives,
   const Eigen::Ref<const Eigen::ArrayXXd>& root, const Eigen::Ref<const Eigen::ArrayXXd>& residual,
-  const std::vector<FreeParameter>& free, Eigen::Index reach, const std::vector<SampleList>& folds)
+  const std::vector<SampleList>& folds)
 {
   SampleList samples;
   for (const SampleList& fold : folds)
@@ -59,16 +59,16 @@ std::vector<NormalEquations> normalEquations(const std::vector<Eigen::MatrixXd>&
     samples.insert(samples.end(), fold.begin(), fold.end());
   }
   std::vector<std::vector<Eigen::Index>> acting(static_cast<std::size_t>(root.rows()));
-  for (std::size_t p = 0; p < free.size(); ++p)
+  for (std::size_t p = 0; p < derivatives.size(); ++p)
   {
-    const auto [first, count] = free[p].channels(reach, root.rows());
-    for (Eigen::Index k = first; k < first + count; ++k)
+    const Eigen::Index end = derivatives[p].first + derivatives[p].changes.rows();
+    for (Eigen::Index k = derivatives[p].first; k < end; ++k)
     {
       acting[static_cast<std::size_t>(k)].push_back(static_cast<Eigen::Index>(p));
     }
   }
   std::vector<NormalEquationsSum> sums(
-    folds.size(), NormalEquationsSum(static_cast<Eigen::Index>(free.size())));
+    folds.size(), NormalEquationsSum(static_cast<Eigen::Index>(derivatives.size())));
   for (Eigen::Index k = 0; k < root.rows(); ++k)
   {
     const std::vector<Eigen::Index>& parameters = acting[static_cast<std::size_t>(k)];
@@ -78,9 +78,9 @@ std::vector<NormalEquations> normalEquations(const std::vector<Eigen::MatrixXd>&
     const Eigen::ArrayXd weight = root.row(k)(samples);
     for (Eigen::Index c = 0; c < count; ++c)
     {
-      const auto p = static_cast<std::size_t>(parameters[static_cast<std::size_t>(c)]);
-      const Eigen::Index row = k - free[p].channels(reach, root.rows()).first;
-      columns.col(c) = weight * derivative[p].row(row)(samples).transpose().array();
+      const Derivative& one =
+        derivatives[static_cast<std::size_t>(parameters[static_cast<std::size_t>(c)])];
+      columns.col(c) = weight * one.changes.row(k - one.first)(samples).transpose().array();
     }
     Eigen::Index first = 0;
     for (std::size_t f = 0; f < folds.size(); ++f)
@@ -128,7 +128,7 @@ void EffectFitter::linearise(
 {
   fit.root = huber(residual, flat(Weight));
   fit.free = fit.set.freeParameters(Data.camera);
-  fit.derivative = derivatives(here, fit.set, fit.free);
+  fit.derivatives = derivatives(here, fit.set, fit.free);
   solve(fit, residual);
 }
 
@@ -142,8 +142,7 @@ void EffectFitter::solve(EffectFit& fit, const Eigen::ArrayXd& residual) const
     independentNumbers(Decision::DiscrepancyNumbers, Training.size(), Data.channels());
   const double dispersion = std::fmax((huberCost(residual, fit.root) - NoiseEnergy) / numbers, 1.0);
   fit.linear = LinearFit({ fit.free.begin(), fit.free.end() },
-    normalEquations(fit.derivative, trust, left, fit.free, fit.set.reach(), Fold),
-    fit.set.size() > 1, dispersion);
+    normalEquations(fit.derivatives, trust, left, Fold), fit.set.size() > 1, dispersion);
 }
 
 EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
@@ -218,11 +217,11 @@ std::optional<EffectFit> EffectFitter::oneStep(
   fit.free = fit.set.freeParameters(Data.camera);
   const auto added = std::find_if(fit.free.begin(), fit.free.end(),
     [&](const FreeParameter& parameter) { return parameter.effect >= present.set.size(); });
-  fit.derivative.assign(
-    present.derivative.begin(), present.derivative.begin() + (added - fit.free.begin()));
-  for (Eigen::MatrixXd& one : derivatives(*here, fit.set, { added, fit.free.end() }))
+  fit.derivatives.assign(
+    present.derivatives.begin(), present.derivatives.begin() + (added - fit.free.begin()));
+  for (Derivative& one : derivatives(*here, fit.set, { added, fit.free.end() }))
   {
-    fit.derivative.push_back(std::move(one));
+    fit.derivatives.push_back(std::move(one));
   }
   fit.root = present.root;
   solve(fit, whitened(fit.predicted));
@@ -234,18 +233,17 @@ void EffectFitter::crossValidate(EffectFit& fit) const
 {
   const Eigen::Index channels = Data.channels();
   const Eigen::Index samples = Data.samples();
-  const Eigen::Index reach = fit.set.reach();
   fit.heldOut = (Weight.array() > 0.0).select(Data.observed - fit.predicted, 0.0);
   const std::vector<Eigen::VectorXd> without = fit.linear.stepsWithout();
   for (std::size_t f = 0; f < without.size(); ++f)
   {
-    for (std::size_t p = 0; p < fit.free.size(); ++p)
+    for (std::size_t p = 0; p < fit.derivatives.size(); ++p)
     {
-      const auto [first, count] = fit.free[p].channels(reach, channels);
+      const Derivative& derivative = fit.derivatives[p];
       for (const Eigen::Index j : Fold[f])
       {
-        fit.heldOut.col(j).segment(first, count) -=
-          without[f][static_cast<Eigen::Index>(p)] * fit.derivative[p].col(j);
+        fit.heldOut.col(j).segment(derivative.first, derivative.changes.rows()) -=
+          without[f][static_cast<Eigen::Index>(p)] * derivative.changes.col(j);
       }
     }
   }
@@ -268,11 +266,11 @@ Eigen::MatrixXd EffectFitter::covariance(const EffectFit& fit) const
   const Eigen::MatrixXd pull = Weight.cwiseProduct(fit.heldOut);
   Eigen::MatrixXd scores(
     static_cast<Eigen::Index>(fit.free.size()), static_cast<Eigen::Index>(Training.size()));
-  for (std::size_t p = 0; p < fit.free.size(); ++p)
+  for (std::size_t p = 0; p < fit.derivatives.size(); ++p)
   {
-    const auto [first, count] = fit.free[p].channels(fit.set.reach(), Data.channels());
+    const Derivative& derivative = fit.derivatives[p];
     scores.row(static_cast<Eigen::Index>(p)) =
-      fit.derivative[p].cwiseProduct(pull.middleRows(first, count)).colwise().sum()(Training);
+      derivative.changes.cwiseProduct(derivative.of(pull)).colwise().sum()(Training);
   }
   return fit.linear.covariance(scores);
 }

@@ -31,10 +31,10 @@ struct EffectFit
 {
   EffectSet set;
   std::vector<FreeParameter> free;
-  Eigen::MatrixXd predicted;               // K x S, all samples
-  std::vector<Eigen::MatrixXd> derivative; // of each parameter: its channels x S
-  LinearFit linear;                        // about the set
-  Eigen::ArrayXd root;                     // KS, of the Huber weights
+  Eigen::MatrixXd predicted;           // K x S, all samples
+  std::vector<Derivative> derivatives; // one a parameter
+  LinearFit linear;                    // about the set
+  Eigen::ArrayXd root;                 // KS, of the Huber weights
   Eigen::MatrixXd heldOut; // K x S, cross-validated residual of the training samples, 0 elsewhere
   double energy = 0.0;     // weighted sum of squares of heldOut
   double dispersion =
@@ -81,12 +81,11 @@ private:
   double NoiseEnergy = 0.0;
 };
 
-// Of each fold.
-// derivative: of each of `free`, its channels x S; root: of the weights, K x S; residual: times that root, K x S;
-// reach: EffectSet::reach(); folds: their samples.
-std::vector<NormalEquations> normalEquations(const std::vector<Eigen::MatrixXd>& derivative,
+// Of each fold, by its samples.
+// root: of the weights, K x S; residual: times that root, K x S.
+std::vector<NormalEquations> normalEquations(const std::vector<Derivative>& derivatives,
   const Eigen::Ref<const Eigen::ArrayXXd>& root, const Eigen::Ref<const Eigen::ArrayXXd>& residual,
-  const std::vector<FreeParameter>& free, Eigen::Index reach, const std::vector<SampleList>& folds);
+  const std::vector<SampleList>& folds);
 
 // Observed minus predicted, K x S; 0 where nothing was measured.
 // A step in time is only known to lie between two training samples; a sample between these may lie on either side of it,

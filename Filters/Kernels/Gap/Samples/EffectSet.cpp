@@ -225,13 +225,14 @@ std::optional<StagedResponse> stagedResponse(const StagedResponse& related, cons
   return litOrNothing([&] { return StagedResponse(related, set.simulated(), optionsOf(set)); });
 }
 
-std::vector<Eigen::MatrixXd> derivatives(
+std::vector<Derivative> derivatives(
   const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free)
 {
   const Eigen::MatrixXd& base = here.response();
   const Eigen::Index reach = set.reach();
   const Eigen::Index colors = 2 * reach + 1;
-  std::vector<Eigen::MatrixXd> derivatives(free.size());
+  const Eigen::Index channels = base.rows();
+  std::vector<Derivative> derivatives(free.size());
   const auto stepOf = [&](const FreeParameter& parameter)
   {
     const double step = RelativeStep * parameter.typical;
@@ -263,14 +264,16 @@ std::vector<Eigen::MatrixXd> derivatives(
         {
           continue;
         }
-        const auto [low, count] = free[p].channels(reach, base.rows());
-        derivatives[p] = Eigen::MatrixXd::Zero(count, base.cols());
+        const Eigen::Index low =
+          perChannel ? std::max<Eigen::Index>(free[p].channel - reach, 0) : 0;
+        const Eigen::Index end =
+          perChannel ? std::min(free[p].channel + reach + 1, channels) : channels;
+        derivatives[p] = { low, Eigen::MatrixXd::Zero(end - low, base.cols()) };
         if (there)
         {
           const Eigen::ArrayXXd change =
-            (there->response().middleRows(low, count) - base.middleRows(low, count)) /
-            stepOf(free[p]);
-          derivatives[p] = change.isFinite().select(change, 0.0);
+            (derivatives[p].of(there->response()) - derivatives[p].of(base)) / stepOf(free[p]);
+          derivatives[p].changes = change.isFinite().select(change, 0.0);
         }
       }
     }

@@ -9,10 +9,8 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace msi
@@ -38,13 +36,6 @@ struct FreeParameter : FreeNumber
   Eigen::Index channel; // -1: common to all channels
   double neutral;
   std::string name, unit;
-
-  // First and number of those in which it acts. reach: EffectSet::reach().
-  std::pair<Eigen::Index, Eigen::Index> channels(Eigen::Index reach, Eigen::Index all) const
-  {
-    const Eigen::Index first = channel < 0 ? 0 : std::max<Eigen::Index>(channel - reach, 0);
-    return { first, (channel < 0 ? all : std::min(channel + reach + 1, all)) - first };
-  }
 };
 
 // The parameter that says when a step takes place: its index in CameraEffect::parameters, that of its width behind it.
@@ -94,10 +85,24 @@ std::optional<StagedResponse> stagedResponse(
   const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
 std::optional<StagedResponse> stagedResponse(const StagedResponse& related, const EffectSet& set);
 
-// Derivative of the response `here`, that of the set, by these of its parameters: for each its channels() x S; 0 where there is none.
+// Of a response by one parameter, in the channels where it acts.
+struct Derivative
+{
+  Eigen::Index first = 0;  // of these channels
+  Eigen::MatrixXd changes; // channels x S
+
+  // Of these rows of a K x S matrix those of the channels.
+  template <typename Matrix>
+  auto of(Matrix& all) const
+  {
+    return all.middleRows(first, changes.rows());
+  }
+};
+
+// Of the response `here`, that of the set, by these of its parameters.
 // Forward differences. The parameters of one channel move that channel only (with channel_crosstalk also
 // its neighbours), so all channels are moved at once.
-std::vector<Eigen::MatrixXd> derivatives(
+std::vector<Derivative> derivatives(
   const StagedResponse& here, const EffectSet& set, const std::vector<FreeParameter>& free);
 
 // Whether this scene has what an effect needs. medium: of an effect of one.

@@ -151,8 +151,7 @@ NewSpectra newSpectra(const GapData& data, const CaptureCandidate& candidate)
 struct Expectation
 {
   Eigen::MatrixXd mean, variance;
-  std::vector<Eigen::MatrixXd>
-    derivative; // EffectFit::derivative of the explanation, by these samples
+  std::vector<Derivative> derivatives; // by the free parameters of the explanation
 
   // Of samples from `first` on: counts as so many numbers, but as no more than in the criterion.
   void addSystematic(const Eigen::MatrixXd& added, Eigen::Index first, double numbers)
@@ -178,22 +177,21 @@ std::optional<Expectation> simulated(const GapData& data, const CaptureCandidate
   const Eigen::VectorXd noise = data.variance.rowwise().mean();
   Expectation expected{ here->response(), noise.replicate(1, scene.size()), {} };
   const std::vector<FreeParameter> free = shown.freeParameters(data.camera);
-  const std::vector<Eigen::MatrixXd> known = derivatives(*here, shown, free);
-  for (const FreeParameter& parameter : predictor.fit.free)
+  const std::vector<Derivative> known = derivatives(*here, shown, free);
+  for (std::size_t p = 0; p < predictor.fit.free.size(); ++p)
   {
-    const auto [first, count] = parameter.channels(predictor.fit.set.reach(), data.channels());
-    expected.derivative.emplace_back(Eigen::MatrixXd::Zero(count, scene.size()));
-    for (std::size_t p = 0; p < free.size(); ++p)
-    {
-      const std::size_t effect =
-        free[p].effect < shown.size() ? kept[free[p].effect] : predictor.fit.set.size();
-      if (parameter.effect == effect && parameter.index == free[p].index &&
-        parameter.channel == free[p].channel)
+    const FreeParameter& parameter = predictor.fit.free[p];
+    const auto same = std::find_if(free.begin(), free.end(),
+      [&](const FreeParameter& other)
       {
-        const auto [low, moved] = free[p].channels(shown.reach(), data.channels());
-        expected.derivative.back().middleRows(low - first, moved) = known[p];
-      }
-    }
+        const std::size_t effect =
+          other.effect < shown.size() ? kept[other.effect] : predictor.fit.set.size();
+        return parameter.effect == effect && parameter.index == other.index &&
+          parameter.channel == other.channel;
+      });
+    expected.derivatives.push_back(same != free.end()
+        ? known[static_cast<std::size_t>(same - free.begin())]
+        : Derivative{ predictor.fit.derivatives[p].first, Eigen::MatrixXd(0, scene.size()) });
   }
   return expected;
 }
@@ -210,9 +208,15 @@ void seeAgain(
     std::numeric_limits<double>::infinity());
   mean += data.observed(Eigen::all, again);
   expected.variance.leftCols(known) += data.variance(Eigen::all, again);
-  for (std::size_t p = 0; p < expected.derivative.size(); ++p)
+  for (std::size_t p = 0; p < expected.derivatives.size(); ++p)
   {
-    expected.derivative[p].leftCols(known) -= predictor.fit.derivative[p](Eigen::all, again);
+    const Derivative& before = predictor.fit.derivatives[p];
+    Derivative change{ before.first,
+      Eigen::MatrixXd::Zero(before.changes.rows(), expected.mean.cols()) };
+    change.changes.leftCols(known) = -before.changes(Eigen::all, again);
+    const Derivative& now = expected.derivatives[p];
+    change.changes.middleRows(now.first - before.first, now.changes.rows()) += now.changes;
+    expected.derivatives[p] = std::move(change);
   }
 }
 
@@ -235,15 +239,14 @@ public:
   {
     Expected.variance =
       (Decision::Temperature * (Expected.variance.array() + 1e-14)).matrix().eval();
-    for (Eigen::MatrixXd& derivative : Expected.derivative)
+    for (Derivative& derivative : Expected.derivatives)
     {
-      derivative *= std::sqrt(Decision::Temperature);
+      derivative.changes *= std::sqrt(Decision::Temperature);
     }
     SampleList all(static_cast<std::size_t>(Expected.mean.cols()));
     std::iota(all.begin(), all.end(), Eigen::Index(0));
-    SparseMatrix told = normalEquations(Expected.derivative, Expected.variance.array().rsqrt(),
-      Eigen::ArrayXXd::Zero(Expected.mean.rows(), Expected.mean.cols()), By.fit.free,
-      By.fit.set.reach(), { all })
+    SparseMatrix told = normalEquations(Expected.derivatives, Expected.variance.array().rsqrt(),
+      Eigen::ArrayXXd::Zero(Expected.mean.rows(), Expected.mean.cols()), { all })
                           .front()
                           .matrix;
     told.conservativeResize(By.precision.rows(), By.precision.cols());
@@ -257,11 +260,11 @@ public:
     const Eigen::MatrixXd off = y - Expected.mean;
     const Eigen::MatrixXd pull = off.cwiseQuotient(Expected.variance);
     Eigen::VectorXd inner = Eigen::VectorXd::Zero(By.precision.rows());
-    for (std::size_t p = 0; p < Expected.derivative.size(); ++p)
+    for (std::size_t p = 0; p < Expected.derivatives.size(); ++p)
     {
-      const auto [first, count] = channelsOf(p);
+      const Derivative& derivative = Expected.derivatives[p];
       inner[static_cast<Eigen::Index>(p)] =
-        Expected.derivative[p].cwiseProduct(pull.middleRows(first, count)).sum();
+        derivative.changes.cwiseProduct(derivative.of(pull)).sum();
     }
     const double square = off.cwiseProduct(pull).sum() - inner.dot(Inner->solve(inner));
     return -0.5 * (square + LogDeterminant);
@@ -282,22 +285,15 @@ public:
       z.tail(By.precision.rows()).cwiseQuotient(By.factor->vectorD().cwiseSqrt());
     const Eigen::VectorXd parameters =
       By.factor->permutationPinv() * Eigen::VectorXd(By.factor->matrixU().solve(scaled));
-    for (std::size_t p = 0; p < Expected.derivative.size(); ++p)
+    for (std::size_t p = 0; p < Expected.derivatives.size(); ++p)
     {
-      const auto [first, count] = channelsOf(p);
-      y.middleRows(first, count) +=
-        parameters[static_cast<Eigen::Index>(p)] * Expected.derivative[p];
+      const Derivative& derivative = Expected.derivatives[p];
+      derivative.of(y) += parameters[static_cast<Eigen::Index>(p)] * derivative.changes;
     }
     return y;
   }
 
 private:
-  // First and number of those in which a parameter acts.
-  std::pair<Eigen::Index, Eigen::Index> channelsOf(std::size_t parameter) const
-  {
-    return By.fit.free[parameter].channels(By.fit.set.reach(), Expected.mean.rows());
-  }
-
   Expectation Expected;
   const Predictor& By;
   std::unique_ptr<SparseFactor> Inner; // of the precision of the numbers once the capture is known

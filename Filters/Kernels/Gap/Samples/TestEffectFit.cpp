@@ -80,7 +80,7 @@ TEST(EffectFit, WithoutEffectsIsTheNominalCamera)
   const msi::EffectFit fit = fitter.fit({}, msi::FinalFit);
   EXPECT_EQ(fit.predicted, data.simulated);
   EXPECT_EQ(fit.energy, fitter.nominal().energy);
-  EXPECT_TRUE(fit.derivative.empty());
+  EXPECT_TRUE(fit.derivatives.empty());
 }
 
 TEST(EffectFit, ResistsReadingsThatAreWrongAltogether)
@@ -162,7 +162,7 @@ TEST(EffectSet, DerivativesAreThoseOfTheResponse)
   set.add(choiceOf({ "filter_shift", "per_channel", "", {} }), sevenChannels());
   const msi::SampleScene scene = rasterScene();
   const auto free = set.freeParameters(sevenChannels());
-  const std::vector<Eigen::MatrixXd> derivatives =
+  const std::vector<msi::Derivative> derivatives =
     msi::derivatives(*msi::stagedResponse(sevenChannels(), scene, set), set, free);
   ASSERT_EQ(derivatives.size(), 7U);
   msi::EffectSet up = set;
@@ -172,8 +172,9 @@ TEST(EffectSet, DerivativesAreThoseOfTheResponse)
   Eigen::MatrixXd central = (msi::respond(sevenChannels(), rasterScene(), up) -
                               msi::respond(sevenChannels(), rasterScene(), down)) /
     0.02;
-  ASSERT_EQ(derivatives[2].rows(), 1);
-  EXPECT_LT((derivatives[2] - central.row(2)).norm(), 0.01 * central.norm());
+  EXPECT_EQ(derivatives[2].first, 2);
+  ASSERT_EQ(derivatives[2].changes.rows(), 1);
+  EXPECT_LT((derivatives[2].changes - central.row(2)).norm(), 0.01 * central.norm());
   central.row(2).setZero();
   EXPECT_EQ(central.norm(), 0.0);
 }
@@ -219,16 +220,15 @@ TEST(NormalEquations, ArePlainProducts)
       set.add(choice, data.camera);
     }
     const auto free = set.freeParameters(data.camera);
-    const std::vector<Eigen::MatrixXd> derivatives =
+    const std::vector<msi::Derivative> derivatives =
       msi::derivatives(*msi::stagedResponse(data.camera, data.scene, set), set, free);
     Eigen::MatrixXd columns =
       Eigen::MatrixXd::Zero(data.observed.size(), static_cast<Eigen::Index>(free.size()));
     for (std::size_t p = 0; p < free.size(); ++p)
     {
-      const auto [first, count] = free[p].channels(set.reach(), data.channels());
-      columns.col(static_cast<Eigen::Index>(p))
-        .reshaped(data.channels(), data.samples())
-        .middleRows(first, count) = derivatives[p];
+      auto column =
+        columns.col(static_cast<Eigen::Index>(p)).reshaped(data.channels(), data.samples());
+      derivatives[p].of(column) = derivatives[p].changes;
     }
     std::vector<Eigen::Index> samples(40);
     std::iota(samples.begin(), samples.end(), 20);
@@ -240,8 +240,8 @@ TEST(NormalEquations, ArePlainProducts)
     const Eigen::MatrixXd expected = weighted.transpose() * weighted;
     const Eigen::VectorXd gradient = weighted.transpose() * residual.reshaped().matrix();
     const auto half = samples.begin() + 25;
-    const std::vector<msi::NormalEquations> folds = msi::normalEquations(derivatives, root,
-      residual, free, set.reach(), { { samples.begin(), half }, { half, samples.end() } });
+    const std::vector<msi::NormalEquations> folds = msi::normalEquations(
+      derivatives, root, residual, { { samples.begin(), half }, { half, samples.end() } });
     const Eigen::MatrixXd matrix = folds[0].matrix + folds[1].matrix;
     EXPECT_LT((matrix - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff())
       << name;

@@ -245,7 +245,7 @@ LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
                                     : group.deviation.unaryExpr(cauchy).sum();
     }
   }
-  normal = BlockPrior(std::move(blocks));
+  distribution = BlockPrior(std::move(blocks));
 }
 
 } // namespace msi

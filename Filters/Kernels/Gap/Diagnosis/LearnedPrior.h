@@ -91,7 +91,7 @@ struct LearnedPrior
 {
   explicit LearnedPrior(const std::vector<FreeNumber>& numbers);
 
-  BlockPrior normal; // a common number with the square of the scale
+  BlockPrior distribution; // a common number with the square of the scale
   // Minus the logarithm of the prior's density over that at neutral.
   double surprise = 0.0;
   // Probability that independent numbers of channels follow a smooth curve over the channels as closely; the smallest of

@@ -194,7 +194,7 @@ void LinearFit::describe(ObservedFit& fit, const Eigen::VectorXd& step) const
     fit.atBound = fit.atBound || room < Rounding * number.typical;
   }
   const LearnedPrior prior(moved);
-  fit.prior = prior.normal;
+  fit.prior = prior.distribution;
   fit.information = information();
   fit.surprise = prior.surprise;
   fit.chanceOfCurve = prior.chanceOfCurve;

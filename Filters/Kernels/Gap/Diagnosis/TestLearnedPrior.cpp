@@ -15,10 +15,10 @@ namespace
 TEST(LearnedPrior, ACommonNumberIsCauchyByItsTypicalSize)
 {
   const msi::LearnedPrior prior({ { 0, false, false, 0.3, 0.1 } });
-  ASSERT_EQ(prior.normal.blocks().size(), 1U);
-  EXPECT_NEAR(prior.normal.blocks().front().variance, 0.01, 1e-15);
+  ASSERT_EQ(prior.distribution.blocks().size(), 1U);
+  EXPECT_NEAR(prior.distribution.blocks().front().variance, 0.01, 1e-15);
   EXPECT_NEAR(prior.surprise, std::log(10.0), 1e-12);
-  EXPECT_NEAR(prior.normal.gain(Eigen::MatrixXd::Constant(1, 1, 500.0).sparseView()),
+  EXPECT_NEAR(prior.distribution.gain(Eigen::MatrixXd::Constant(1, 1, 500.0).sparseView()),
     0.5 * std::log(6.0), 1e-12);
   // A mean of their own have numbers of channels only.
   EXPECT_NEAR(msi::LearnedPrior({ { 0, false, true, 0.3, 0.1 } }).surprise, std::log(10.0), 1e-12);
@@ -31,7 +31,7 @@ TEST(LearnedPrior, NumbersOfChannelsLearnTheirScatter)
   {
     const msi::LearnedPrior prior({ { 0, true, false, size, 1.0 }, { 0, true, false, -size, 1.0 },
       { 1, false, false, 0.0, 3.0 } });
-    const std::vector<msi::PriorBlock>& blocks = prior.normal.blocks();
+    const std::vector<msi::PriorBlock>& blocks = prior.distribution.blocks();
     ASSERT_EQ(blocks.size(), 2U);
     EXPECT_EQ(blocks[0].size, 2);
     EXPECT_NEAR(blocks[0].variance, size * size, 1e-9);
@@ -46,15 +46,15 @@ TEST(LearnedPrior, UncertainNumbersMayScatterMore)
 {
   const msi::LearnedPrior prior(
     { { 0, true, false, 0.3, 1.0, 0.07 }, { 0, true, false, -0.3, 1.0, 0.07 } });
-  EXPECT_NEAR(prior.normal.blocks().front().variance, 0.09 + 0.07, 1e-9);
+  EXPECT_NEAR(prior.distribution.blocks().front().variance, 0.09 + 0.07, 1e-9);
 }
 
 // What is common to all channels is a number of its own where the effect has a form with one: 1 of typical size, +-.1 about it.
 TEST(LearnedPrior, ACommonPartIsNoScatter)
 {
   const msi::LearnedPrior prior({ { 0, true, true, 1.1, 1.0 }, { 0, true, true, 0.9, 1.0 } });
-  EXPECT_NEAR(prior.normal.blocks().front().ofMean, 1.0, 1e-12);
-  EXPECT_NEAR(prior.normal.blocks().front().variance, 0.01, 1e-6);
+  EXPECT_NEAR(prior.distribution.blocks().front().ofMean, 1.0, 1e-12);
+  EXPECT_NEAR(prior.distribution.blocks().front().variance, 0.01, 1e-6);
   EXPECT_NEAR(prior.surprise, 1.0 + std::log(2.0), 1e-6);
 }
 
@@ -112,7 +112,7 @@ TEST(FitPrior, IsWideUntilNumbersOfChannelsAreKnown)
 TEST(LearnedPrior, NothingFreeIsNothingKnown)
 {
   const msi::LearnedPrior prior({});
-  EXPECT_EQ(prior.normal.gain(msi::SparseMatrix()), 0.0);
+  EXPECT_EQ(prior.distribution.gain(msi::SparseMatrix()), 0.0);
   EXPECT_EQ(prior.surprise, 0.0);
 }
 

@@ -18,8 +18,8 @@ bool anyPerChannel(const std::vector<FreeNumber>& numbers)
     numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.perChannel; });
 }
 
-// The same equations with some of the unknowns 0.
-SparseMatrix without(SparseMatrix matrix, const std::vector<char>& held)
+// Leaves the equations with these unknowns 0.
+void hold(SparseMatrix& matrix, const std::vector<char>& held)
 {
   for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
   {
@@ -32,7 +32,6 @@ SparseMatrix without(SparseMatrix matrix, const std::vector<char>& held)
       }
     }
   }
-  return matrix;
 }
 }
 
@@ -120,10 +119,10 @@ std::vector<Eigen::VectorXd> LinearFit::stepsWithout() const
 }
 
 Eigen::VectorXd LinearFit::step(
-  NormalEquations equations, double damping, SparseFactor& factor) const
+  const NormalEquations& equations, double damping, SparseFactor& factor) const
 {
   const Eigen::Index count = Off.size();
-  SparseMatrix matrix = Prior.after(std::move(equations.matrix));
+  SparseMatrix matrix = Prior.after(equations.matrix);
   matrix.diagonal() *= 1.0 + damping;
   if (factor.rows() == 0 && count > 0)
   {
@@ -140,7 +139,9 @@ Eigen::VectorXd LinearFit::step(
     {
       left[n] = held[static_cast<std::size_t>(n)] != 0 ? 0.0 : left[n];
     }
-    factor.factorize(round == 0 ? matrix : without(matrix, held));
+    SparseMatrix others = matrix;
+    hold(others, held);
+    factor.factorize(others);
     step += factor.solve(left);
     bool beyond = false;
     for (Eigen::Index n = 0; n < count; ++n)

@@ -75,7 +75,8 @@ public:
 
 private:
   // factor: of the first of several steps, whose pattern it keeps.
-  Eigen::VectorXd step(NormalEquations equations, double damping, SparseFactor& factor) const;
+  Eigen::VectorXd step(
+    const NormalEquations& equations, double damping, SparseFactor& factor) const;
   std::vector<FreeNumber> withVariance() const;
 
   std::vector<FreeNumber> Numbers;

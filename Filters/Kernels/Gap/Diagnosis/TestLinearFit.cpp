@@ -126,35 +126,35 @@ TEST(LinearFit, NumbersOfChannelsLearnTheirVarianceBesideOthers)
 // a mean of their own.
 TEST(LinearFit, MeansCarriedAlongAreAsGoodAsDenseMatrices)
 {
-  constexpr Eigen::Index Channels = 7;
+  constexpr Eigen::Index Count = 7;
   std::vector<FreeNumber> numbers;
-  for (Eigen::Index n = 0; n <= Channels; ++n)
+  for (Eigen::Index n = 0; n <= Count; ++n)
   {
     FreeNumber number;
-    number.group = n < Channels ? 0 : 1;
-    number.perChannel = n < Channels;
+    number.group = n < Count ? 0 : 1;
+    number.perChannel = n < Count;
     number.ownMean = number.perChannel;
     number.deviation = 0.1 + 0.03 * static_cast<double>(n % 3);
     numbers.push_back(number);
   }
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(Channels + 1, Channels + 1);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(Count + 1, Count + 1);
   matrix.diagonal().setLinSpaced(40.0, 90.0);
-  matrix.col(Channels).head(Channels).setLinSpaced(-9.0, 4.0);
-  matrix.row(Channels) = matrix.col(Channels).transpose();
-  const Eigen::VectorXd gradient = Eigen::VectorXd::LinSpaced(Channels + 1, 1.0, -3.0);
+  matrix.col(Count).head(Count).setLinSpaced(-9.0, 4.0);
+  matrix.row(Count) = matrix.col(Count).transpose();
+  const Eigen::VectorXd gradient = Eigen::VectorXd::LinSpaced(Count + 1, 1.0, -3.0);
   const LinearFit fit(numbers, { equations(matrix, gradient) }, true);
 
   const PriorBlock& block = fit.prior().blocks().front();
-  ASSERT_EQ(block.size, Channels);
+  ASSERT_EQ(block.size, Count);
   EXPECT_NEAR(block.ofMean, 1.0 / Wide, 1e-9);
   EXPECT_LT(block.variance, 0.1);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(Channels + 1, Channels + 1);
-  covariance.topLeftCorner(Channels, Channels).setConstant(block.ofMean);
-  covariance.diagonal().head(Channels).array() += block.variance;
-  covariance(Channels, Channels) = 1.0 / Wide;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(Count + 1, Count + 1);
+  covariance.topLeftCorner(Count, Count).setConstant(block.ofMean);
+  covariance.diagonal().head(Count).array() += block.variance;
+  covariance(Count, Count) = 1.0 / Wide;
   const Eigen::MatrixXd precision = covariance.inverse();
-  Eigen::VectorXd off(Channels + 1);
-  for (Eigen::Index n = 0; n <= Channels; ++n)
+  Eigen::VectorXd off(Count + 1);
+  for (Eigen::Index n = 0; n <= Count; ++n)
   {
     off[n] = -numbers[static_cast<std::size_t>(n)].deviation;
   }
@@ -163,12 +163,12 @@ TEST(LinearFit, MeansCarriedAlongAreAsGoodAsDenseMatrices)
   EXPECT_LT((fit.step() - step).norm(), 1e-11 * step.norm());
   const Eigen::VectorXd left = step - off;
   EXPECT_NEAR(fit.penalty(step), left.dot(precision * left), 1e-11);
-  EXPECT_LT((diagonalOfInverse(fit.prior().after(matrix.sparseView())).head(Channels + 1) -
-              inverse.diagonal())
-              .norm(),
+  EXPECT_LT(
+    (diagonalOfInverse(fit.prior().after(matrix.sparseView())).head(Count + 1) - inverse.diagonal())
+      .norm(),
     1e-11);
   const Eigen::MatrixXd told =
-    Eigen::MatrixXd::Identity(Channels + 1, Channels + 1) + covariance * matrix;
+    Eigen::MatrixXd::Identity(Count + 1, Count + 1) + covariance * matrix;
   EXPECT_NEAR(fit.prior().gain(matrix.sparseView()), 0.5 * std::log(told.determinant()), 1e-10);
 }
 

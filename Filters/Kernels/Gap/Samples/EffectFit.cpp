@@ -94,6 +94,7 @@ std::vector<NormalEquations> normalEquations(const std::vector<Derivative>& deri
     }
   }
   std::vector<NormalEquations> equations;
+  equations.reserve(sums.size());
   for (const NormalEquationsSum& sum : sums)
   {
     equations.push_back(sum.sum());

@@ -6,6 +6,8 @@
 #include "Kernels/Gap/Samples/GapNoise.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

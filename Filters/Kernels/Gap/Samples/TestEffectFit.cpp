@@ -241,7 +241,7 @@ TEST(NormalEquations, ArePlainProducts)
     const Eigen::VectorXd gradient = weighted.transpose() * residual.reshaped().matrix();
     const auto half = samples.begin() + 25;
     const std::vector<msi::NormalEquations> folds = msi::normalEquations(
-      derivatives, root, residual, { { samples.begin(), half }, { half, samples.end() } });
+      derivatives, root, residual, { { samples.begin(), half }, { half, samples.end() }, {} });
     const Eigen::MatrixXd matrix = folds[0].matrix + folds[1].matrix;
     EXPECT_LT((matrix - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff())
       << name;
@@ -249,6 +249,8 @@ TEST(NormalEquations, ArePlainProducts)
       1e-10 * gradient.cwiseAbs().maxCoeff())
       << name;
     EXPECT_GT(folds[0].matrix.norm(), folds[1].matrix.norm()) << name;
+    EXPECT_EQ(folds[2].matrix.norm(), 0.0) << name; // but of the same pattern
+    EXPECT_EQ(folds[2].matrix.nonZeros(), folds[0].matrix.nonZeros()) << name;
   }
 }
 

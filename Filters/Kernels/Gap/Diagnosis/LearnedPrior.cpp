@@ -60,7 +60,7 @@ double squareOf(double value)
 // Numbers of one group.
 struct Group
 {
-  Eigen::Index first, size;
+  Eigen::Index size;
   FreeNumber kind;          // of the first number
   Eigen::ArrayXd deviation; // from neutral; with a mean of their own from that
   double learned = 0.0;     // variance of numbers of single channels
@@ -78,7 +78,7 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
   { return numbers[static_cast<std::size_t>(n)]; };
   for (Eigen::Index first = 0; first < count; first += groups.back().size)
   {
-    Group group{ first, 1, at(first), {} };
+    Group group{ 1, at(first), {} };
     while (first + group.size < count && at(first + group.size).group == group.kind.group)
     {
       ++group.size;
@@ -108,6 +108,11 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
 double wideVariance(double typical) noexcept
 {
   return squareOf(Decision::FreeSpread * typical);
+}
+
+double logDeterminant(const SparseFactor& factor)
+{
+  return factor.vectorD().array().log().sum();
 }
 
 Eigen::VectorXd diagonalOfInverse(const SparseMatrix& matrix)
@@ -202,7 +207,7 @@ double BlockPrior::gain(const SparseMatrix& normal) const
     return 0.0;
   }
   // Of the determinant without data means of their own are a factor of 1 / ofMean.
-  double logs = SparseFactor(after(normal)).vectorD().array().log().sum();
+  double logs = logDeterminant(SparseFactor(after(normal)));
   for (const PriorBlock& block : Blocks)
   {
     logs += static_cast<double>(block.size) * std::log(block.variance) +

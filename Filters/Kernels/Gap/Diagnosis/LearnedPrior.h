@@ -48,6 +48,8 @@ double wideVariance(double typical) noexcept;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 using SparseFactor = Eigen::SimplicialLDLT<SparseMatrix>;
 
+double logDeterminant(const SparseFactor& factor);
+
 // Of the inverse of a symmetric matrix, whose other elements are not worked out (K. Takahashi, J. Fagan and M.-S. Chin, 1973).
 Eigen::VectorXd diagonalOfInverse(const SparseMatrix& matrix);
 

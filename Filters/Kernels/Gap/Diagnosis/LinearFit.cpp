@@ -19,7 +19,7 @@ bool anyPerChannel(const std::vector<FreeNumber>& numbers)
 }
 
 // Leaves the equations with these unknowns 0.
-void hold(SparseMatrix& matrix, const std::vector<char>& held)
+void hold(SparseMatrix& matrix, Eigen::VectorXd& right, const std::vector<char>& held)
 {
   for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
   {
@@ -31,6 +31,7 @@ void hold(SparseMatrix& matrix, const std::vector<char>& held)
         entry.valueRef() = entry.row() == column ? 1.0 : 0.0;
       }
     }
+    right[column] = held[static_cast<std::size_t>(column)] != 0 ? 0.0 : right[column];
   }
 }
 }
@@ -122,25 +123,25 @@ Eigen::VectorXd LinearFit::step(
   const NormalEquations& equations, double damping, SparseFactor& factor) const
 {
   const Eigen::Index count = Off.size();
+  if (count == 0)
+  {
+    return Off;
+  }
   SparseMatrix matrix = Prior.after(equations.matrix);
   matrix.diagonal() *= 1.0 + damping;
-  if (factor.rows() == 0 && count > 0)
+  if (factor.rows() == 0)
   {
     factor.analyzePattern(matrix);
   }
   const Eigen::VectorXd gradient = equations.gradient + Prior.pull(Off);
   Eigen::VectorXd step = Eigen::VectorXd::Zero(matrix.rows()); // means behind the numbers
   std::vector<char> held(static_cast<std::size_t>(matrix.rows()), 0);
-  for (int round = 0; round < Rounds && count > 0; ++round)
+  for (int round = 0; round < Rounds; ++round)
   {
     Eigen::VectorXd left = -(matrix * step);
     left.head(count) += gradient;
-    for (Eigen::Index n = 0; n < count; ++n)
-    {
-      left[n] = held[static_cast<std::size_t>(n)] != 0 ? 0.0 : left[n];
-    }
     SparseMatrix others = matrix;
-    hold(others, held);
+    hold(others, left, held);
     factor.factorize(others);
     step += factor.solve(left);
     bool beyond = false;

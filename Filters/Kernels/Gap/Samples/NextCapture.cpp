@@ -26,11 +26,6 @@ constexpr Eigen::Index MostElements = 2000; // of a chart that is simulated agai
 constexpr int Side = 3;                   // of a raster of whites: few, since they are one spectrum
 constexpr double LeastProbability = 0.02; // of an explanation that is looked at
 
-double logDeterminant(const SparseFactor& factor)
-{
-  return factor.vectorD().array().log().sum();
-}
-
 // An explanation made ready to predict.
 struct Predictor
 {
@@ -239,8 +234,7 @@ public:
     : Expected(std::move(expected))
     , By(by)
   {
-    Expected.variance =
-      (Decision::Temperature * (Expected.variance.array() + 1e-14)).matrix().eval();
+    Expected.variance = Decision::Temperature * (Expected.variance.array() + 1e-14);
     for (Derivative& derivative : Expected.derivatives)
     {
       derivative.changes *= std::sqrt(Decision::Temperature);

@@ -65,6 +65,16 @@ TEST(SampleObservation, TheWhiteStaysTakenWhereWhatSaidSoIsGone)
   EXPECT_EQ(observation.reduced(*both, 2)->set, std::vector<std::size_t>{ optionOf(leak, true) });
 }
 
+// The first of the effect's forms.
+msi::GapPreview previewOf(const msi::SampleObservation& observation, const msi::ObservedFit& from,
+  const std::string& effect)
+{
+  const std::vector<msi::GapPreview> previews = observation.previews(from);
+  return *std::find_if(previews.begin(), previews.end(),
+    [&](const msi::GapPreview& one)
+    { return observation.options()[one.option].effect->name == effect; });
+}
+
 // Crosstalk reaches the channels beside its own, the gains that are there before do not.
 TEST(SampleObservation, APreviewBesideNumbersOfChannelsMayReachTheirNeighbours)
 {
@@ -72,16 +82,10 @@ TEST(SampleObservation, APreviewBesideNumbersOfChannelsMayReachTheirNeighbours)
     dataOf(captureWith({ { "channel_gain", "", "", { 1.02, 0.99, 0.98, 1.01, 1.03, 0.99, 1.0 } },
       { "channel_crosstalk", "", "", { 0.03, 0.0 } } }));
   const msi::SampleObservation observation(data, data.usable, msi::choicesFor(data.scene, {}), 1);
-  const auto previewOf = [&](const msi::ObservedFit& from, const std::string& effect)
-  {
-    std::vector<msi::GapPreview> previews = observation.previews(from);
-    return *std::find_if(previews.begin(), previews.end(),
-      [&](const msi::GapPreview& one)
-      { return observation.options()[one.option].effect->name == effect; });
-  };
   const msi::FitPointer nominal = observation.nominal();
-  const msi::FitPointer gains = observation.extended(*nominal, previewOf(*nominal, "channel_gain"));
-  const msi::GapPreview preview = previewOf(*gains, "channel_crosstalk");
+  const msi::FitPointer gains =
+    observation.extended(*nominal, previewOf(observation, *nominal, "channel_gain"));
+  const msi::GapPreview preview = previewOf(observation, *gains, "channel_crosstalk");
   const msi::FitPointer fit = observation.extended(*gains, preview);
   EXPECT_LT(fit->energy, 0.2 * gains->energy);
   EXPECT_LT(preview.fit.energy, 2.0 * fit->energy); // one step, of two effects that multiply
@@ -93,16 +97,10 @@ TEST(SampleObservation, APreviewOfALinearEffectIsItsFit)
   const msi::GapData data = dataOf(captureWith({ { "dark_offset", "", "", { 0.01 } },
     { "channel_gain", "", "", { 1.02, 0.99, 0.98, 1.01, 1.03, 0.99, 1.0 } } }));
   const msi::SampleObservation observation(data, data.usable, msi::choicesFor(data.scene, {}), 1);
-  const auto with = [&](const msi::ObservedFit& from, const std::string& effect)
-  {
-    std::vector<msi::GapPreview> previews = observation.previews(from);
-    return *std::find_if(previews.begin(), previews.end(),
-      [&](const msi::GapPreview& one)
-      { return observation.options()[one.option].effect->name == effect; });
-  };
   const msi::FitPointer nominal = observation.nominal();
-  const msi::FitPointer dark = observation.extended(*nominal, with(*nominal, "dark_offset"));
-  const msi::GapPreview preview = with(*dark, "channel_gain");
+  const msi::FitPointer dark =
+    observation.extended(*nominal, previewOf(observation, *nominal, "dark_offset"));
+  const msi::GapPreview preview = previewOf(observation, *dark, "channel_gain");
   const msi::FitPointer fit = observation.extended(*dark, preview);
   EXPECT_EQ(preview.fit.set, fit->set);
   EXPECT_LT(fit->energy, 0.2 * dark->energy);

@@ -13,6 +13,8 @@ namespace
 {
 constexpr double LeastFactor = 0.2; // of a width that changes from channel to channel
 constexpr const char* OwnMiddles = "own_middles";
+// Natural logarithm per nm^2: as much as nearly all lamps do to a Gaussian filter of 10 nm and more.
+constexpr double MostLevel = 0.002;
 
 // Of passbands as if they were Gaussians, by their squares, so that little far from a passband counts for nothing; nm^2. No less than
 // that of one step.
@@ -51,6 +53,7 @@ public:
                  .max(LeastFactor * LeastFactor)
                  .sqrt();
       Center += effect.perChannel("middle");
+      Gain = ((Factor.square() - 1.0) * variance * effect.perChannel("level")).exp();
     }
   }
   void apply(Eigen::MatrixXd& responsivity) const override
@@ -106,14 +109,17 @@ Effect filterBandwidth()
       { "fixed_peak", "the same with the peak kept: the response to white grows with the width",
         { factor(false) }, {}, FormTrait::Brightens },
       { OwnMiddles,
-        "M(m + (wavelength - m) / factor), response to white kept, m a middle of its own of each "
-        "passband: a light with lines moves the centroid away from it",
+        "M(m + (wavelength - m) / factor) exp(level x added variance), m and level of each "
+        "passband: a light with lines moves the centroid away from the middle, and a wider "
+        "passband becomes brighter or darker in it",
         { factor(false),
           followingLight({ "middle", "nm", 0.0, -30.0, 30.0, 10.0,
             "from the centroid to the middle of the passband", true }),
+          followingLight({ "level", "1 per nm^2", 0.0, -MostLevel, MostLevel, 0.0005,
+            "change of the channel's response to white, natural logarithm", true }),
           { "added_variance", "nm^2", 0.0, -200.0, 800.0, 30.0,
             "the same for all passbands, beyond what the factor does", false, true } },
-        { { 1.15, 0.0, 0.0 }, { 0.85, 0.0, 0.0 } }, FormTrait::KeepsWhite } },
+        { { 1.15, 0.0, 0.0, 0.0 }, { 0.85, 0.0, 0.0, 0.0 } }, FormTrait::Brightens } },
     Captures::Monochromator };
   effect.makeResponsivity = makeBandwidth;
   return effect;

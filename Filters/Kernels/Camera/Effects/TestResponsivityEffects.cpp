@@ -104,7 +104,7 @@ TEST(FilterBandwidth, WidensAGaussianPassband)
 }
 
 // Under the light exp(rate wavelength) a Gaussian filter at c of deviation d is a passband at c + rate d^2, and one of deviation f d at
-// c + rate f^2 d^2: the stretched passband about c - rate f d^2.
+// c + rate f^2 d^2: the stretched passband about c - rate f d^2. With the same area it is exp(rate^2 (f^2 - 1) d^2 / 2) as bright.
 TEST(FilterBandwidth, StretchesAboutMiddlesThatAreNotTheCentroids)
 {
   constexpr double Rate = 0.02;
@@ -115,16 +115,18 @@ TEST(FilterBandwidth, StretchesAboutMiddlesThatAreNotTheCentroids)
     // Of the camera's second channel the centroid is 550 nm.
     const double middle = -Rate * Variance * (1.0 + factor);
     const double moved = Rate * Variance * (factor * factor - 1.0);
-    const double expected = overlap(factor * FilterDeviation, BandDeviation, moved);
     const double added = (factor * factor - 1.0) * Variance;
-    EXPECT_NEAR(responseTo(band,
-                  { "filter_bandwidth", "own_middles", "", { factor, 0.0, middle, 0.0, 0.0 } })[1],
-      expected, 2e-5)
-      << factor;
-    EXPECT_NEAR(responseTo(band,
-                  { "filter_bandwidth", "own_middles", "", { 1.0, 0.0, middle, 0.0, added } })[1],
-      expected, 2e-5)
-      << factor;
+    constexpr double Level = 0.5 * Rate * Rate;
+    const double expected =
+      std::exp(Level * added) * overlap(factor * FilterDeviation, BandDeviation, moved);
+    const auto response = [&](double wider, double more)
+    {
+      return responseTo(band,
+        { "filter_bandwidth", "own_middles", "",
+          { wider, 0.0, middle, 0.0, 0.0, Level, 0.0, more } })[1];
+    };
+    EXPECT_NEAR(response(factor, 0.0), expected, 2e-5) << factor;
+    EXPECT_NEAR(response(1.0, added), expected, 2e-5) << factor;
   }
 }
 

@@ -21,7 +21,7 @@ namespace msi
 namespace
 {
 constexpr std::uint32_t DrawStream = 77;
-constexpr int Draws = 64;                   // of each explanation
+constexpr int Draws = 256; // of each explanation: 64 leave 1 recommendation of 25 to chance
 constexpr Eigen::Index MostElements = 2000; // of a chart that is simulated again
 constexpr int Side = 3;                   // of a raster of whites: few, since they are one spectrum
 constexpr double LeastProbability = 0.02; // of an explanation that is looked at

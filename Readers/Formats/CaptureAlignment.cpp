@@ -34,6 +34,10 @@ std::vector<Eigen::Index> placesIn(
   return places;
 }
 
+// Levels that a capture in counts has at the least and at most, relative to white.
+constexpr double DarkestLevel = 0.01;
+constexpr double BrightestLevel = 10.0;
+
 class Counts
 {
 public:
@@ -45,26 +49,59 @@ public:
   }
 
   // 1, or what to divide by.
-  double divisor(const char* file, const char* part, double level) const
+  double divisor(const std::string& file, const std::string& part, double level) const
   {
     if (!(level > LargestRelativeLevel))
     {
       return 1.0;
     }
-    if (!WhiteLevel || *WhiteLevel <= LargestRelativeLevel)
+    const double white = whiteLevel(file, part, level);
+    if (level < DarkestLevel * white || level > BrightestLevel * white)
     {
-      throw FormatError((std::filesystem::path(Folder) / file).string(),
-        std::string(part) + " reach " + numberText(level) + ", which looks like counts",
+      throw FormatError(pathOf(file), part + " reach " + numberText(level),
+        "values up to 2, relative to white, or counts for the 'white_level' in capture.json, " +
+          numberText(white),
+        "correct 'white_level': the counts of the perfect white, or 1 for values relative to it");
+    }
+    return divided(file, part, white);
+  }
+  // Of the dark values, which may be a few counts.
+  double divisorOfDark(bool curvesInCounts, double level) const
+  {
+    const char* file = "capture.json";
+    const char* part = "the dark values";
+    return level > LargestRelativeLevel || (curvesInCounts && level > 0.0)
+      ? divided(file, part, whiteLevel(file, part, level))
+      : 1.0;
+  }
+
+private:
+  std::string pathOf(const std::string& file) const
+  {
+    return (std::filesystem::path(Folder) / file).string();
+  }
+  double whiteLevel(const std::string& file, const std::string& part, double level) const
+  {
+    if (!WhiteLevel)
+    {
+      throw FormatError(pathOf(file),
+        part + " reach " + numberText(level) + ", which looks like counts",
         "values relative to white (1 = perfect white), or the counts of white as 'white_level' in "
         "capture.json",
         "divide them by the counts of the perfect white");
     }
-    Notes.push_back(std::string(part) + " in " + file +
-      " were in counts: divided by the white level " + numberText(*WhiteLevel));
     return *WhiteLevel;
   }
+  double divided(const std::string& file, const std::string& part, double white) const
+  {
+    if (white != 1.0)
+    {
+      Notes.push_back(
+        part + " in " + file + " were in counts: divided by the white level " + numberText(white));
+    }
+    return white;
+  }
 
-private:
   std::vector<std::string>& Notes;
   std::optional<double> WhiteLevel;
   std::string Folder;
@@ -101,12 +138,13 @@ void alignUnits(Capture& capture, const std::string& folder)
   capture.readings.responses /=
     counts.divisor("responses.csv", "the responses", typicalLevel(capture.readings.responses));
   const Eigen::MatrixXd white = capture.camera.values.colwise().sum().transpose();
-  capture.camera.values /= counts.divisor("camera.csv", "the curves", typicalLevel(white));
+  const double ofCurves = counts.divisor("camera.csv", "the curves", typicalLevel(white));
+  capture.camera.values /= ofCurves;
   auto& dark = capture.description.dark;
   if (!dark.empty())
   {
     Eigen::Map<Eigen::VectorXd> values(dark.data(), static_cast<Eigen::Index>(dark.size()));
-    values /= counts.divisor("capture.json", "the dark values", typicalLevel(values));
+    values /= counts.divisorOfDark(ofCurves > 1.0, typicalLevel(values));
   }
 }
 

@@ -213,6 +213,31 @@ TEST_F(Captures, CountsAreDividedByTheWhiteLevel)
       "the dark values in capture.json were in counts: divided by the white level 1000" }));
 }
 
+TEST_F(Captures, DarkValuesAreInTheUnitOfTheCurves)
+{
+  write("c/capture.json", R"({"white_level": 1000, "dark": 1.5})");
+  write("c/camera.csv", "wavelength,C1,C2\n400,300,400\n410,500,600\n420,100,200\n");
+  const msi::Capture c = capture();
+  EXPECT_EQ(c.camera.values(0, 0), 0.3);
+  EXPECT_EQ(c.description.dark, (std::vector<double>{ 0.0015, 0.0015 }));
+}
+
+TEST_F(Captures, AResponseBeyondWhiteIsNoCount)
+{
+  write("c/responses.csv", "sample,C1,C2\na,1.5,2.9\nb,3,2.7\n");
+  write("c/capture.json", R"({"white_level": 65535})");
+  EXPECT_EQ(captureError(),
+    "c/responses.csv: the responses reach 3; expected values up to 2, relative to white, or "
+    "counts for the 'white_level' in capture.json, 65535; correct 'white_level': the counts of the "
+    "perfect white, or 1 for values relative to it");
+  write("c/capture.json", R"({"white_level": 1})");
+  const msi::Capture c = capture();
+  EXPECT_EQ(c.readings.responses, (Eigen::Matrix2d() << 1.5, 3, 2.9, 2.7).finished());
+  EXPECT_TRUE(c.description.notes.empty());
+  write("c/responses.csv", "sample,C1,C2\na,1500,2900\nb,3000,2700\n");
+  EXPECT_NE(captureError().find("the responses reach 3000; expected"), std::string::npos);
+}
+
 TEST_F(Captures, CountsWithoutAWhiteLevelAreRefused)
 {
   write("c/capture.json", "{}");

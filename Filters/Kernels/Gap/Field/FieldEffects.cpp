@@ -257,7 +257,10 @@ std::vector<CameraEffect> fieldCorrection(
     {
       for (std::size_t i = 0; i < names.size(); ++i)
       {
-        effect.parameters[i] = names[i].name == found.name ? found.value : effect.parameters[i];
+        if (names[i].name == found.name)
+        {
+          effect.parameters[i] = std::clamp(found.value, names[i].lower, names[i].upper);
+        }
       }
     }
     effects.push_back(std::move(effect));

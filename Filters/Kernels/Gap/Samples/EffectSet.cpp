@@ -141,7 +141,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
     const double neutral = parameter.neutral;
     free.push_back({ { group, parameter.perChannel, hasCommonForm, 0.0, parameter.typical, 0.0,
                        parameter.lower - neutral, parameter.upper - neutral },
-      e, index, channel, neutral, name, parameter.unit });
+      e, index, channel, &parameter, name });
     free.back().deviation = value(free.back()) - neutral;
     free.back().mayFollowCurve = parameter.followsLight;
   };
@@ -195,7 +195,9 @@ EffectSet changed(
 {
   for (std::size_t p = 0; p < free.size(); ++p)
   {
-    set.value(free[p]) += change[static_cast<Eigen::Index>(p)];
+    const EffectParameter& bounds = *free[p].definition;
+    double& value = set.value(free[p]);
+    value = std::clamp(value + change[static_cast<Eigen::Index>(p)], bounds.lower, bounds.upper);
   }
   return set;
 }
@@ -236,7 +238,7 @@ std::vector<Derivative> derivatives(
   const auto stepOf = [&](const FreeParameter& parameter)
   {
     const double step = RelativeStep * parameter.typical;
-    return set.value(parameter) - parameter.neutral + step > parameter.upper ? -step : step;
+    return set.value(parameter) + step > parameter.definition->upper ? -step : step;
   };
   std::size_t first = 0;
   while (first < free.size())

@@ -34,8 +34,8 @@ struct FreeParameter : FreeNumber
   std::size_t effect;   // in EffectSet::effects; their number for the level
   std::size_t index;    // in CameraEffect::parameters
   Eigen::Index channel; // -1: common to all channels
-  double neutral;
-  std::string name, unit;
+  const EffectParameter* definition;
+  std::string name;
 };
 
 // The parameter that says when a step takes place: its index in CameraEffect::parameters, that of its width behind it.
@@ -70,7 +70,7 @@ struct EffectSet
   double& value(const FreeParameter& parameter);
 };
 
-// The set with its parameters changed.
+// The set with its parameters changed, within their bounds.
 EffectSet changed(
   EffectSet set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& change);
 

@@ -267,7 +267,8 @@ void addExcessNoise(
     probability = name == "nothing" ? 0.0 : probability;
   }
   beliefs.emplace_back(cause.effect, excess.belief);
-  report.correction.push_back({ cause.effect, cause.form, "", { noise.excess } });
+  report.correction.push_back(
+    { cause.effect, cause.form, "", { std::fmin(noise.excess, factor.upper) } });
   report.causes.push_back(std::move(cause));
   std::stable_sort(report.causes.begin(), report.causes.end(),
     [](const GapCause& a, const GapCause& b) { return a.share > b.share; });

@@ -270,7 +270,7 @@ std::vector<std::vector<GapParameter>> SampleObservation::parameters(const Obser
       if (parameter.effect == e ||
         (parameter.effect == whole.set.size() && whole.set.choices[e].leveled))
       {
-        all[e].push_back({ parameter.name, whole.set.value(parameter), parameter.unit,
+        all[e].push_back({ parameter.name, whole.set.value(parameter), parameter.definition->unit,
           error[static_cast<Eigen::Index>(p)] });
       }
     }

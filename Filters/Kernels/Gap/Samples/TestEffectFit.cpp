@@ -53,7 +53,7 @@ TEST_P(EffectFitRecovers, PlantedParameterWithinItsStandardError)
   const double error = std::sqrt(fitter.covariance(fit)(
     static_cast<Eigen::Index>(planted.parameter), static_cast<Eigen::Index>(planted.parameter)));
   const double truth = planted.effect.parameters[planted.parameter];
-  const double neutral = fit.free[planted.parameter].neutral;
+  const double neutral = fit.free[planted.parameter].definition->neutral;
   EXPECT_NEAR(fit.set.effects.front().parameters[planted.parameter], truth, 3.0 * error);
   EXPECT_LT(error, 0.1 * std::fabs(truth - neutral));
   // What is left is noise: the weighted squares of as many elements, within five of their standard deviations.

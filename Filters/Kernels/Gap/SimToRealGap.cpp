@@ -97,10 +97,10 @@ bool actsOnSpectra(const EffectChoice& choice)
 class TableDiagnosis
 {
 public:
-  TableDiagnosis(const GapCapture& capture, const GapOptions& options)
+  TableDiagnosis(const GapCapture& capture, const GapOptions& options, SampleList leftOut = {})
     : Capture(capture)
     , Options(options)
-    , Data(prepareGapData(capture, options))
+    , Data(prepareGapData(capture, options, std::move(leftOut)))
     , Noise(findNoise(Data, capture.noise))
     , Integration(integrationVariance(Data, capture.wavelengths))
     , Before(measuredOnly(Data, Data.observed - Data.simulated))
@@ -120,6 +120,7 @@ public:
     {
       return std::nullopt;
     }
+    Odd = oddSamples(Data, Before, After);
     learnNoise();
     Report.gap = figuresOf(energiesOf(Data, Data.usable, Before, After),
       static_cast<double>(Data.elements), Options.seed);
@@ -132,6 +133,9 @@ public:
     Steps("done", 10.0);
     return std::move(Report);
   }
+
+  const GapData& data() const noexcept { return Data; }
+  const SampleList& odd() const noexcept { return Odd; } // once it has run
 
 private:
   // What is known of the noise before effects are.
@@ -306,6 +310,7 @@ private:
   std::optional<SampleObservation> Observed;
   FoundSets Found;
   AxisShares Where, Rest;
+  SampleList Odd;
   double Doubted = 0.0; // variance that sums over wavelength were taken to have and do not
   double ReflectanceNoise = 0.0;
   GapReport Report;
@@ -329,7 +334,37 @@ void GapOptions::forAll(int count, const std::function<void(int)>& body) const
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
 {
   requireKnown(options.without);
-  return TableDiagnosis(capture, options).run();
+  TableDiagnosis all(capture, options);
+  std::optional<GapReport> report = all.run();
+  const auto unknown = [](const GapReport& one) { return one.probabilityOf("unknown"); };
+  if (!report || unknown(*report) <= 0.5 || !mixUpOf(all.data()).empty())
+  {
+    return report;
+  }
+  SampleList odd = all.odd();
+  std::optional<GapReport> without;
+  for (SampleList more = odd; !more.empty();)
+  {
+    TableDiagnosis others(capture, options, odd);
+    without = others.run();
+    if (!without)
+    {
+      return without;
+    }
+    more = others.odd();
+    odd.insert(odd.end(), more.begin(), more.end());
+    std::sort(odd.begin(), odd.end());
+  }
+  if (without && without->verdict == GapVerdict::NoGap)
+  {
+    report->notes.insert(
+      report->notes.begin(), oddSamplesNote(all.data(), odd, ", without which there is no gap"));
+  }
+  else if (without && unknown(*without) < 0.5 * unknown(*report))
+  {
+    return without;
+  }
+  return report;
 }
 
 } // namespace msi

@@ -630,6 +630,60 @@ TEST(DegenerateCapture, SaturatedReadings)
   EXPECT_EQ(report.causes.front().effect, "saturation");
 }
 
+// A reading of something else than the sample, as behind a wrong label, would hide every cause.
+TEST(DegenerateCapture, AnOddSampleIsNamedAndLeftOut)
+{
+  const std::vector<msi::CameraEffect> planted{ { "detector_nonlinearity", "gamma", "",
+    { 0.95 } } };
+  msi::GapCapture capture = captureWith(planted);
+  capture.readings.middleCols(10, 2) = (1.6 * capture.readings.middleCols(10, 2)).array() + 0.05;
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "Odd? sample 6 (1 of 96 samples) left out: far from"));
+  EXPECT_FALSE(says(report.notes, "no reading or no reflectance"));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "detector_nonlinearity");
+  EXPECT_TRUE(report.gapAfter.col(5).array().isNaN().all());
+}
+
+TEST(DegenerateCapture, OddSamplesAloneAreTheGap)
+{
+  msi::GapCapture capture = captureWith({});
+  capture.readings.middleCols(10, 2) = (1.6 * capture.readings.middleCols(10, 2)).array() + 0.05;
+  capture.readings.middleCols(40, 2).reverseInPlace();
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_EQ(report.verdict, GapVerdict::Unexplained);
+  EXPECT_TRUE(report.causes.empty());
+  EXPECT_TRUE(says(report.notes,
+    "Odd? sample 6 and sample 21 (2 of 96 samples), without which there is no gap: far"));
+}
+
+// What a medium does is checked on samples of it that were left out.
+TEST(DegenerateCapture, AMediumOfOneSampleIsNotBlamed)
+{
+  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } }, 48);
+  for (std::size_t i = 0; i < capture.samples.medium.size(); ++i)
+  {
+    capture.samples.medium[i] = "medium " + std::to_string(i);
+  }
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "48 of 48 media have one sample"));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "exposure_gain");
+}
+
+TEST(DegenerateCapture, ANoiseModelThatIsTooLargeIsDoubted)
+{
+  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.02 } } });
+  capture.noise = msi::CameraNoise{ 0.02, 0.0 };
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "The repeats scatter 0.02"));
+  capture = captureOf(rasterSamples(96), { { "exposure_gain", "", "", { 1.02 } } }, 1);
+  capture.noise = msi::CameraNoise{ 0.02, 0.0 };
+  const msi::GapReport once = diagnosisOf(capture);
+  EXPECT_EQ(once.verdict == GapVerdict::NoGap, !says(once.notes, "the model looks too large"));
+}
+
 TEST(DegenerateCapture, PartsThatWereNotMeasured)
 {
   msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } });

@@ -124,7 +124,7 @@ def print_summary(gap):
         return
     command.say(f"Verdict: {figures['verdict']}")
     command.say(f"  {far(figures, gap.held)}")
-    for line in mix_ups(gap):
+    for line in mistakes(gap):
         command.say(f"  {line}")
     for line in cause_lines(figures, causes, gap):
         command.say(f"  {line}")
@@ -132,9 +132,9 @@ def print_summary(gap):
         command.say(f"  Next capture: {next_capture(figures, gap)}")
 
 
-def mix_ups(gap):
-    """Notes on readings that seem to belong to other samples or channels: nothing else counts until that is mended."""
-    return [row["note"] for row in gap.records("notes") if row["note"].startswith("Mixed up?")]
+def mistakes(gap):
+    """Notes on readings that seem to belong to other samples or channels, or to none: look at these first."""
+    return [row["note"] for row in gap.records("notes") if row["note"].startswith(("Mixed up?", "Odd?"))]
 
 
 def next_capture(figures, gap):
@@ -207,7 +207,7 @@ def lead(gap):
             f"{title_of(cause)}{': ' if size else ''}{size} ({percent(cause['share'])} of the gap{chance})")
     words = [f"The simulated and the real camera differ by rms {figures['rms_before']:.4f} (response, 1 = white); after "
              f"correction, by {figures['rms_after']:.4f}."]
-    words += mix_ups(gap)
+    words += mistakes(gap)
     unknown = figures["unknown_probability"]
     if unknown >= LIKELY:
         words.append(f"An effect that is not in the library is probably behind it (probability {percent(unknown)}).")
@@ -262,7 +262,7 @@ def uncredited_lines(figures, gap):
 
 def verdict_section(figures, causes, gap):
     lines = [VERDICTS[figures["verdict"]], f"The gap: {far(figures, gap.held)}."]
-    lines += mix_ups(gap)
+    lines += mistakes(gap)
     lines += [f"{line}." for line in cause_lines(figures, causes, gap)]
     if causes:
         lines += uncredited_lines(figures, gap)

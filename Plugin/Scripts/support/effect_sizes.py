@@ -168,6 +168,9 @@ def in_words(rows):
     for row in rows:
         if row["parameter"]:
             values.setdefault(row["parameter"].partition("[")[0], []).append(row["value"])
+    if "added_variance" in values and all(abs(row["value"] - 1.0) < row.get("standard_error", 0.0)
+                                          for row in rows if row["parameter"].startswith("factor")):
+        values.pop("factor", None)  # another width that may as well be none
     try:
         return WORDS[rows[0]["effect"]](rows[0]["form"], values) if values else ""
     except KeyError:  # a form whose parameters these words do not know: its table says more

@@ -130,6 +130,7 @@ Elements derivativeUnder(const GapData& data, int order)
   return data.camera.responsivity() * derivative;
 }
 
+// A group of one sample cannot predict it.
 void addGroups(
   AxisColumns& columns, const std::vector<int>& group, std::size_t count, const Elements& u)
 {
@@ -137,6 +138,10 @@ void addGroups(
   for (int g = 0; g < static_cast<int>(count); ++g)
   {
     const OfSamples member = (number == g).cast<double>();
+    if (member.sum() < 2.0)
+    {
+      continue;
+    }
     if (count <= ManyGroups)
     {
       columns.own(member);

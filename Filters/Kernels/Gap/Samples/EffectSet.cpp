@@ -293,6 +293,19 @@ bool canShow(const SampleScene& scene, const EffectDefinition& effect, const std
       (!medium.empty() && std::find(media.begin(), media.end(), medium) != media.end()));
 }
 
+std::vector<std::string> severalOf(const SampleScene& scene)
+{
+  std::vector<std::string> media;
+  for (std::size_t m = 0; m < scene.media().size(); ++m)
+  {
+    if (std::count(scene.medium().begin(), scene.medium().end(), static_cast<int>(m)) > 1)
+    {
+      media.push_back(scene.media()[m]);
+    }
+  }
+  return media;
+}
+
 std::vector<EffectChoice> choicesFor(
   const SampleScene& scene, const std::vector<std::string>& without)
 {
@@ -307,8 +320,9 @@ std::vector<EffectChoice> choicesFor(
     {
       continue;
     }
-    for (const std::string& medium :
-      effect.need == EffectNeed::Medium ? scene.media() : std::vector<std::string>{ std::string() })
+    for (const std::string& medium : effect.need == EffectNeed::Medium
+        ? severalOf(scene)
+        : std::vector<std::string>{ std::string() })
     {
       if (!canShow(scene, effect, medium))
       {

@@ -132,16 +132,17 @@ void fillInUnknown(SceneSamples& samples)
   fill(samples.order, 0.0);
 }
 
-GapData prepareGapData(const GapCapture& capture, const GapOptions& options)
+GapData prepareGapData(const GapCapture& capture, const GapOptions& options, SampleList leftOut)
 {
   validate(capture);
   GapData data{ capture.camera, alignedScene(capture), capture.names, {}, {}, {}, {}, {}, {}, {},
-    {}, 0, 0 };
+    std::move(leftOut), {}, 0, 0 };
   for (Eigen::Index i = static_cast<Eigen::Index>(data.names.size()); i < data.scene.size(); ++i)
   {
     data.names.push_back("sample " + std::to_string(i + 1));
   }
   averageReadings(capture, data);
+  data.count(Eigen::all, data.leftOut).setZero();
   data.simulated = cameraResponse(data.camera)(data.scene.reflectance());
   for (Eigen::Index j = 0; j < data.samples(); ++j)
   {

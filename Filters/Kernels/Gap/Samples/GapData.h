@@ -25,7 +25,8 @@ struct GapData
   Eigen::MatrixXd simulated; // the nominal camera
   Eigen::MatrixXd variance;  // of observed - simulated from noise alone
   Eigen::MatrixXd weight;    // of a squared residual in a fit
-  SampleList usable;         // with a reflectance and a reading
+  SampleList usable;         // with a reflectance and a reading, and not left out
+  SampleList leftOut;        // whose readings are not looked at
   std::vector<int> fold;     // S: 0 .. folds - 1; -1: not usable
   int folds = 0;
   Eigen::Index elements = 0; // with weight
@@ -41,7 +42,8 @@ void fillInUnknown(SceneSamples& samples);
 
 // Averages and aligns; variance is 0, weight is left empty.
 // Errors: as diagnoseGap.
-GapData prepareGapData(const GapCapture& capture, const GapOptions& options);
+GapData prepareGapData(
+  const GapCapture& capture, const GapOptions& options, SampleList leftOut = {});
 
 // Of the weighted gap, where of a gain of all readings no more than Decision::SmallPart counts: it has an exact form, and other
 // units or another exposure do not make the forms of other effects worse.

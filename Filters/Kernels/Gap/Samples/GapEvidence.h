@@ -36,6 +36,11 @@ double negligibleEnergy(
 double noticed(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
   const Eigen::MatrixXd& integration);
 
+// Samples whose readings fit nothing: few, and far beyond most others in what is left of them with and without the causes found; much
+// of all that is left. A wrong label, dust or glare makes such samples.
+SampleList oddSamples(
+  const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
+
 // Whether a change of the response stands in so few samples that none of them can be left out to check it.
 bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change);
 

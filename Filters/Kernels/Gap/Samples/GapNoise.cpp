@@ -65,7 +65,7 @@ NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& gi
       .select(data.scatter.array() / readingVariances(data, *given).max(1e-14), 0.0)
       .sum() /
     finding.degrees;
-  finding.excess = std::sqrt(ratio);
+  finding.excess = finding.shown = std::sqrt(ratio);
   finding.excessDeviations = (ratio - 1.0) / std::sqrt(2.0 / finding.degrees);
   if (finding.excess > Decision::BeyondNoise && finding.excessDeviations > Decision::SureDeviations)
   {

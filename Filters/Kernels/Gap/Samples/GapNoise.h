@@ -29,6 +29,7 @@ struct NoiseFinding
   double excess = 1.0;           // standard deviation of the readings over the given model's
   double excessDeviations = 0.0; // (excess^2 - 1) over its standard error
   double degrees = 0.0;          // of freedom in the repeats
+  double shown = 1.0;            // standard deviation of the repeats over the given model's
 };
 
 // Noise model of one reading from the given model and the repeats.

@@ -3,6 +3,7 @@
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/MixUps.h"
 #include "Kernels/Gap/ReportParts.h"
+#include "Kernels/Gap/Samples/EffectSet.h"
 #include "Kernels/Gap/Samples/GapEvidence.h"
 
 #include <algorithm>
@@ -14,11 +15,23 @@ namespace msi
 
 namespace
 {
+// "a, b and c"
+std::string enumerated(const std::vector<std::string>& names)
+{
+  std::string all = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i)
+  {
+    all += (i + 1 < names.size() ? ", " : " and ") + names[i];
+  }
+  return all;
+}
+
 constexpr double ClippedReadings = 0.01; // of all at the largest value
 constexpr double FarFromWhite = 2.0;     // factor
+constexpr double FarBelowModel = 0.5;    // scatter of the repeats
 
 void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
-  const NoiseFinding& noise, double reflectanceNoise)
+  const NoiseFinding& noise, double reflectanceNoise, const GapReport& report)
 {
   if (noise.unknown)
   {
@@ -36,6 +49,18 @@ void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
     notes.push_back(textOf(3, "One reading a sample, and what is left scatters ", noise.excess,
       " times as much as the noise model allows: noise, or an error of its own of each sample. "
       "A second reading of each would tell."));
+  }
+  else if (noise.shown < FarBelowModel && noise.excessDeviations < -Decision::SureDeviations)
+  {
+    notes.push_back(textOf(3, "The repeats scatter ", noise.shown,
+      " times as much as the noise model says. Where it is too large, causes stay hidden: "
+      "without it (null) the noise is that of the repeats."));
+  }
+  else if (report.verdict != GapVerdict::NoGap &&
+    report.gap.rmsBefore * Decision::BeyondNoise < report.gap.noiseFloor)
+  {
+    notes.emplace_back("The gap is smaller than the noise model allows, but regular: the model "
+                       "looks too large, and causes stay hidden.");
   }
   else if (noise.degrees < 4.0)
   {
@@ -60,12 +85,7 @@ std::string namesOf(EffectNeed need)
       std::replace(names.back().begin(), names.back().end(), '_', ' ');
     }
   }
-  std::string all = names.front();
-  for (std::size_t i = 1; i < names.size(); ++i)
-  {
-    all += (i + 1 < names.size() ? ", " : " and ") + names[i];
-  }
-  return all;
+  return enumerated(names);
 }
 
 void noteUnknown(std::vector<std::string>& notes, const Eigen::ArrayXd& column, const char* what,
@@ -90,6 +110,12 @@ void noteScene(std::vector<std::string>& notes, const GapData& data, const Scene
   {
     notes.push_back(
       "One medium only: an effect of the medium and one of the camera can look alike.");
+  }
+  if (const std::size_t single = data.scene.media().size() - severalOf(data.scene).size();
+      single > 0)
+  {
+    notes.push_back(textOf(3, single, " of ", data.scene.media().size(),
+      " media have one sample: effects of these media were not tried."));
   }
   if (!data.scene.hasPositions())
   {
@@ -116,9 +142,10 @@ void noteScene(std::vector<std::string>& notes, const GapData& data, const Scene
 void noteSamples(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
 {
   const auto usable = static_cast<Eigen::Index>(data.usable.size());
-  if (usable < data.samples())
+  const auto leftOut = static_cast<Eigen::Index>(data.leftOut.size());
+  if (usable + leftOut < data.samples())
   {
-    notes.push_back(textOf(3, data.samples() - usable, " of ", data.samples(),
+    notes.push_back(textOf(3, data.samples() - usable - leftOut, " of ", data.samples(),
       " samples have no reading or no reflectance and were left out."));
   }
   std::size_t parameters = 0;
@@ -152,17 +179,6 @@ void noteWhite(std::vector<std::string>& notes, const CameraModel& camera)
       " to a perfect white; expected about 1: effects that depend on the level, as a curve of the "
       "detector, are then taken for "
       "others. Divide camera and responses by that."));
-  }
-}
-
-void noteMixUp(std::vector<std::string>& notes, const GapData& data)
-{
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  std::string note = mixUp(data.measured().select(data.observed, none), data.simulated,
-    arrangementsOf(data.scene), data.camera.channels(), data.names);
-  if (!note.empty())
-  {
-    notes.push_back(std::move(note));
   }
 }
 
@@ -275,12 +291,39 @@ void addExcessNoise(
   believe(report, std::move(beliefs));
 }
 
+std::string mixUpOf(const GapData& data)
+{
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return mixUp(data.measured().select(data.observed, none), data.simulated,
+    arrangementsOf(data.scene), data.camera.channels(), data.names);
+}
+
+std::string oddSamplesNote(
+  const GapData& data, const SampleList& samples, const std::string& consequence)
+{
+  std::vector<std::string> names;
+  for (const Eigen::Index i : samples)
+  {
+    names.push_back(data.names[static_cast<std::size_t>(i)]);
+  }
+  return textOf(3, "Odd? ", enumerated(names), " (", samples.size(), " of ", data.samples(),
+    " samples)", consequence,
+    ": far from what is found in all others. Look at label, patch and readings.");
+}
+
 std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise, const GapReport& report)
 {
   std::vector<std::string> notes;
-  noteMixUp(notes, data);
-  noteNoise(notes, capture, noise, reflectanceNoise);
+  if (std::string mixedUp = mixUpOf(data); !mixedUp.empty())
+  {
+    notes.push_back(std::move(mixedUp));
+  }
+  if (!data.leftOut.empty())
+  {
+    notes.push_back(oddSamplesNote(data, data.leftOut, " left out"));
+  }
+  noteNoise(notes, capture, noise, reflectanceNoise, report);
   noteScene(notes, data, capture.samples);
   noteSamples(notes, data, report);
   noteWhite(notes, data.camera);

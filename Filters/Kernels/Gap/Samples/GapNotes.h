@@ -28,6 +28,13 @@ std::string whereOf(const NoiseFinding& noise);
 void addExcessNoise(
   GapReport& report, const GapData& data, const NoiseFinding& noise, const ExcessNoise& excess);
 
+// mixUp() of samples, channels and places.
+std::string mixUpOf(const GapData& data);
+
+// What the report says of oddSamples(). consequence: " left out".
+std::string oddSamplesNote(
+  const GapData& data, const SampleList& samples, const std::string& consequence);
+
 // What the data cannot decide, and why.
 std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise, const GapReport& report);

@@ -179,6 +179,31 @@ TEST(EffectSet, DerivativesAreThoseOfTheResponse)
   EXPECT_EQ(central.norm(), 0.0);
 }
 
+// A report is read back with the bounds of its effects: 1 + (0.2 - 1) would already be less than 0.2.
+TEST(EffectSet, NumbersStayWithinTheirBounds)
+{
+  const msi::GapData data = dataOf(captureWith({}));
+  for (const msi::EffectChoice& choice : msi::choicesFor(data.scene, {}))
+  {
+    msi::EffectSet set;
+    set.add(choice, data.camera);
+    const std::vector<msi::FreeParameter> free = set.freeParameters(data.camera);
+    for (const double way : { -1.0, 1.0 })
+    {
+      Eigen::VectorXd change(static_cast<Eigen::Index>(free.size()));
+      std::transform(free.begin(), free.end(), change.begin(),
+        [&](const msi::FreeParameter& one)
+        { return (way < 0.0 ? one.lower : one.upper) - one.deviation; });
+      const msi::EffectSet moved = msi::changed(set, free, change);
+      for (const msi::FreeParameter& one : free)
+      {
+        EXPECT_GE(moved.value(one), one.definition->lower) << choice.effect->name;
+        EXPECT_LE(moved.value(one), one.definition->upper) << choice.effect->name;
+      }
+    }
+  }
+}
+
 TEST(EffectChoices, OnlyWhatTheCaptureCanShow)
 {
   msi::SceneSamples samples = rasterSamples();

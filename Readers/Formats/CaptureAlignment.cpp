@@ -56,7 +56,7 @@ public:
       return 1.0;
     }
     const double white = whiteLevel(file, part, level);
-    if (level < DarkestLevel * white || level > BrightestLevel * white)
+    if (level < DarkestLevel * white)
     {
       throw FormatError(pathOf(file), part + " reach " + numberText(level),
         "values up to 2, relative to white, or counts for the 'white_level' in capture.json, " +
@@ -82,7 +82,7 @@ private:
   }
   double whiteLevel(const std::string& file, const std::string& part, double level) const
   {
-    if (!WhiteLevel)
+    if (!WhiteLevel || level > BrightestLevel * *WhiteLevel)
     {
       throw FormatError(pathOf(file),
         part + " reach " + numberText(level) + ", which looks like counts",

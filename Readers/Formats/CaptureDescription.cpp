@@ -9,6 +9,8 @@ namespace msi
 
 namespace
 {
+constexpr double LargestNoise = 0.5; // relative to white; a deviation in counts is larger
+
 void noteUnknownKeys(const JsonText::Json& json, CaptureDescription& capture)
 {
   for (const auto& [key, value] : json.items())
@@ -39,8 +41,14 @@ CaptureDescription parseCaptureDescription(const std::string& file, const std::s
   if (const JsonText::Json* noise = JsonText::find(json, "noise"))
   {
     reader.requireType(noise->is_object(), "noise", "an object with read and shot, or null");
-    capture.noise = { reader.numberFromZero(*noise, "read"),
-      reader.numberFromZero(*noise, "shot") };
+    const auto deviation = [&](const char* key)
+    {
+      const std::optional<double> value = reader.numberFromZero(*noise, key);
+      reader.requireType(!value || *value <= LargestNoise, key,
+        "a standard deviation relative to white, up to 0.5 (counts over the white level), or null");
+      return value;
+    };
+    capture.noise = { deviation("read"), deviation("shot") };
   }
   noteUnknownKeys(json, capture);
   return capture;

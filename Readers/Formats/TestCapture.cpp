@@ -90,6 +90,9 @@ TEST_F(Captures, DescriptionErrors)
     "capture.json:1:12: 'read' has a value that cannot be used; expected a number from 0 up, or "
     "null; "
     "correct the value");
+  EXPECT_EQ(descriptionError("{\"white_level\": 4095, \"noise\": {\"read\": 12}}"),
+    "capture.json:1:33: 'read' has a value that cannot be used; expected a standard deviation "
+    "relative to white, up to 0.5 (counts over the white level), or null; correct the value");
   EXPECT_EQ(descriptionError("{\"white_level\": 0}"),
     "capture.json:1:2: 'white_level' has a value that cannot be used; expected a number above 0; "
     "correct the value");
@@ -235,7 +238,8 @@ TEST_F(Captures, AResponseBeyondWhiteIsNoCount)
   EXPECT_EQ(c.readings.responses, (Eigen::Matrix2d() << 1.5, 3, 2.9, 2.7).finished());
   EXPECT_TRUE(c.description.notes.empty());
   write("c/responses.csv", "sample,C1,C2\na,1500,2900\nb,3000,2700\n");
-  EXPECT_NE(captureError().find("the responses reach 3000; expected"), std::string::npos);
+  EXPECT_NE(captureError().find("the responses reach 3000, which looks like counts; expected"),
+    std::string::npos);
 }
 
 TEST_F(Captures, CountsWithoutAWhiteLevelAreRefused)

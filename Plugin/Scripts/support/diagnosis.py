@@ -133,8 +133,8 @@ def print_summary(gap):
 
 
 def mistakes(gap):
-    """Notes on readings that seem to belong to other samples or channels, or to none: look at these first."""
-    return [row["note"] for row in gap.records("notes") if row["note"].startswith(("Mixed up?", "Odd?"))]
+    """Notes on what seems to be wrong with the capture itself: look at these first."""
+    return [row["note"] for row in gap.records("notes") if row["note"].startswith(("Mixed up?", "Odd?", "Noise?"))]
 
 
 def next_capture(figures, gap):

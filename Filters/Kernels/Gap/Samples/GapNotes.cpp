@@ -30,7 +30,16 @@ constexpr double ClippedReadings = 0.01; // of all at the largest value
 constexpr double FarFromWhite = 2.0;     // factor
 constexpr double FarBelowModel = 0.5;    // scatter of the repeats
 
-void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
+// By more than chance, of a root mean square of all elements.
+bool isSmallerThan(const GapData& data, const CameraNoise& noise, double rms)
+{
+  const double ratio = rms * rms / measuredOnly(data, readingVariance(data, noise)).sum() *
+    static_cast<double>(data.elements);
+  return ratio * Decision::BeyondNoise * Decision::BeyondNoise < 1.0 &&
+    1.0 - ratio > Decision::SureDeviations * std::sqrt(2.0 / static_cast<double>(data.elements));
+}
+
+void noteNoise(std::vector<std::string>& notes, const GapData& data, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise, const GapReport& report)
 {
   if (noise.unknown)
@@ -52,15 +61,15 @@ void noteNoise(std::vector<std::string>& notes, const GapCapture& capture,
   }
   else if (noise.shown < FarBelowModel && noise.excessDeviations < -Decision::SureDeviations)
   {
-    notes.push_back(textOf(3, "The repeats scatter ", noise.shown,
+    notes.push_back(textOf(3, "Noise? The repeats scatter ", noise.shown,
       " times as much as the noise model says. Where it is too large, causes stay hidden: "
       "without it (null) the noise is that of the repeats."));
   }
-  else if (report.verdict != GapVerdict::NoGap &&
-    report.gap.rmsBefore * Decision::BeyondNoise < report.gap.noiseFloor)
+  else if (isSmallerThan(data, noise.reading, report.gap.rmsBefore))
   {
-    notes.emplace_back("The gap is smaller than the noise model allows, but regular: the model "
-                       "looks too large, and causes stay hidden.");
+    notes.emplace_back("Noise? The gap is smaller than the noise model says noise is: the model "
+                       "looks too large, and causes stay hidden. Without it (null) the noise is "
+                       "what nothing predicts.");
   }
   else if (noise.degrees < 4.0)
   {
@@ -323,7 +332,7 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   {
     notes.push_back(oddSamplesNote(data, data.leftOut, " left out"));
   }
-  noteNoise(notes, capture, noise, reflectanceNoise, report);
+  noteNoise(notes, data, capture, noise, reflectanceNoise, report);
   noteScene(notes, data, capture.samples);
   noteSamples(notes, data, report);
   noteWhite(notes, data.camera);

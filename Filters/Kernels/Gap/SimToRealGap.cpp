@@ -337,11 +337,11 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   TableDiagnosis all(capture, options);
   std::optional<GapReport> report = all.run();
   const auto unknown = [](const GapReport& one) { return one.probabilityOf("unknown"); };
-  if (!report || unknown(*report) <= 0.5 || !mixUpOf(all.data()).empty())
+  SampleList odd = all.odd();
+  if (!report || odd.empty() || unknown(*report) <= 0.5 || !mixUpOf(all.data()).empty())
   {
     return report;
   }
-  SampleList odd = all.odd();
   std::optional<GapReport> without;
   for (SampleList more = odd; !more.empty();)
   {
@@ -355,12 +355,12 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     odd.insert(odd.end(), more.begin(), more.end());
     std::sort(odd.begin(), odd.end());
   }
-  if (without && without->verdict == GapVerdict::NoGap)
+  if (without->verdict == GapVerdict::NoGap)
   {
     report->notes.insert(
       report->notes.begin(), oddSamplesNote(all.data(), odd, ", without which there is no gap"));
   }
-  else if (without && unknown(*without) < 0.5 * unknown(*report))
+  else if (unknown(*without) < 0.5 * unknown(*report))
   {
     return without;
   }

@@ -65,6 +65,8 @@ struct GapOptions
 //   without them.
 // Errors: std::invalid_argument naming what disagrees: channel counts, samples without number, readings
 //   without sample, an unknown name in `without`, fewer than 2 samples with reading and reflectance.
+// Where something unknown is more likely than not, a few samples that fit nothing may be left out (a note names them; NaN in
+//   GapReport::gapBefore), and the work is done once more or more often.
 // NaN in a sample's reflectance takes the sample out, NaN in a reading takes that reading's channel out.
 // Cost: about 1 s on one core for 200 samples x 16 channels x 31 wavelengths; linear in the samples.
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options = {});

@@ -100,7 +100,7 @@ def _bandwidth(_form, p):
     if "added_variance" not in p:
         return "passbands " + by_factor
     variance = p["added_variance"][0]
-    if all(abs(change) < 5e-4 for change in changes):
+    if not changes:
         return f"passbands {_wider(variance)} by {_plain(abs(variance))} nm² of variance"
     return f"passbands {by_factor}, with {_plain(abs(variance))} nm² {'more' if variance >= 0 else 'less'} variance"
 
@@ -168,7 +168,7 @@ def in_words(rows):
     for row in rows:
         if row["parameter"]:
             values.setdefault(row["parameter"].partition("[")[0], []).append(row["value"])
-    if "added_variance" in values and all(abs(row["value"] - 1.0) < row.get("standard_error", 0.0)
+    if "added_variance" in values and all(abs(row["value"] - 1.0) < max(row.get("standard_error", 0.0), 5e-4)
                                           for row in rows if row["parameter"].startswith("factor")):
         values.pop("factor", None)  # another width that may as well be none
     try:

@@ -293,7 +293,7 @@ bool canShow(const SampleScene& scene, const EffectDefinition& effect, const std
       (!medium.empty() && std::find(media.begin(), media.end(), medium) != media.end()));
 }
 
-std::vector<std::string> severalOf(const SampleScene& scene)
+std::vector<std::string> mediaOfSeveralSamples(const SampleScene& scene)
 {
   std::vector<std::string> media;
   for (std::size_t m = 0; m < scene.media().size(); ++m)
@@ -312,6 +312,8 @@ std::vector<EffectChoice> choicesFor(
   const auto barred = [&without](const std::string& name)
   { return std::find(without.begin(), without.end(), name) != without.end(); };
   const bool mayBrighten = !barred(levelEffect().name);
+  const std::vector<std::string> media = mediaOfSeveralSamples(scene);
+  const std::vector<std::string> noMedium(1);
   std::vector<EffectChoice> choices;
   for (const EffectDefinition& effect : effectLibrary())
   {
@@ -320,9 +322,7 @@ std::vector<EffectChoice> choicesFor(
     {
       continue;
     }
-    for (const std::string& medium : effect.need == EffectNeed::Medium
-        ? severalOf(scene)
-        : std::vector<std::string>{ std::string() })
+    for (const std::string& medium : effect.need == EffectNeed::Medium ? media : noMedium)
     {
       if (!canShow(scene, effect, medium))
       {

@@ -109,7 +109,7 @@ std::vector<Derivative> derivatives(
 bool canShow(const SampleScene& scene, const EffectDefinition& effect, const std::string& medium);
 
 // The media of which there are several samples: without one of them the others can still show what the medium does.
-std::vector<std::string> severalOf(const SampleScene& scene);
+std::vector<std::string> mediaOfSeveralSamples(const SampleScene& scene);
 
 // The effects of the library that this scene can show in its mean response, form by form, without those named;
 // those of lamp and filters also with the white taken after them.

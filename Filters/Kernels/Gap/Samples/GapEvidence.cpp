@@ -14,6 +14,7 @@ namespace
 {
 constexpr Eigen::Index FewSamples = 3;
 constexpr double MuchOfLeft = 0.25;
+constexpr Eigen::Index OddOneIn = 20; // samples, at the most
 
 // Energy explained over energy left where the gap shrinks by Decision::SmallPart.
 double leastOverLeft()
@@ -111,7 +112,7 @@ SampleList oddSamples(
   }
   const auto all = static_cast<Eigen::Index>(data.leftOut.size()) + left.size();
   const auto notUsed = static_cast<Eigen::Index>(data.leftOut.size() + odd.size());
-  const bool few = notUsed <= std::max(FewSamples, all / 20);
+  const bool few = notUsed <= std::max(FewSamples, all / OddOneIn);
   return few && ofOdd > MuchOfLeft * left.sum() ? odd : SampleList{};
 }
 

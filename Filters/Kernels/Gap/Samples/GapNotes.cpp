@@ -120,7 +120,8 @@ void noteScene(std::vector<std::string>& notes, const GapData& data, const Scene
     notes.push_back(
       "One medium only: an effect of the medium and one of the camera can look alike.");
   }
-  if (const std::size_t single = data.scene.media().size() - severalOf(data.scene).size();
+  if (const std::size_t single =
+        data.scene.media().size() - mediaOfSeveralSamples(data.scene).size();
       single > 0)
   {
     notes.push_back(textOf(3, single, " of ", data.scene.media().size(),

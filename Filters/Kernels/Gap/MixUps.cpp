@@ -17,8 +17,8 @@ namespace
 {
 constexpr double MuchBetter = 0.25;    // of the squares left
 constexpr double HardlyTogether = 0.5; // squared correlation
-constexpr double Flat = 0.05;          // deviation of what is simulated over its mean
-constexpr double SamePlace = 1e-3;     // squared distance
+constexpr double Dead = 0.01;      // variance over that of the others, each over what is simulated
+constexpr double SamePlace = 1e-3; // squared distance
 constexpr std::size_t PairsNamed = 3;
 
 PairSums sumsOf(const Eigen::VectorXd& observed, const Eigen::VectorXd& simulated)
@@ -53,9 +53,29 @@ double leftOf(const std::vector<PairSums>& channels)
 double correlationOf(const PairSums& sums)
 {
   const double both = sums.ofBoth();
-  return sums.n < 3.0 || sums.ofSimulated() <= Flat * Flat * sums.simulatedSquares
+  return sums.n < 3.0 || sums.isFlat()
     ? 1.0
     : both * std::fabs(both) / (sums.ofSimulated() * std::fmax(sums.ofReal(), 1e-300));
+}
+
+// A channel that does not change with the scene as the others do.
+std::string deadChannel(
+  const std::vector<PairSums>& channels, const std::vector<std::string>& names)
+{
+  Eigen::VectorXd contrast(static_cast<Eigen::Index>(channels.size()));
+  std::transform(channels.begin(), channels.end(), contrast.begin(),
+    [](const PairSums& sums) { return sums.isFlat() ? 0.0 : sums.ofReal() / sums.ofSimulated(); });
+  const double usual = orderStatistic(contrast, contrast.size() / 2);
+  for (std::size_t k = 0; k < channels.size(); ++k)
+  {
+    if (!channels[k].isFlat() && contrast[static_cast<Eigen::Index>(k)] < Dead * usual &&
+      correlationOf(channels[k]) < HardlyTogether)
+    {
+      return "Dead? Channel " + names[k] +
+        " does not change with the scene as the others do: is it connected, and nothing before it?";
+    }
+  }
+  return {};
 }
 
 // Two that are each other's best match.
@@ -245,8 +265,13 @@ std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simula
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
   const std::vector<std::string>& columns)
 {
-  const std::string found = betterThanTold(observed, simulated, arrangements, channels, columns);
-  return found.empty() ? found : "Mixed up? " + found;
+  std::string found = deadChannel(sumsOfChannels(observed, simulated), channels);
+  if (found.empty())
+  {
+    found = betterThanTold(observed, simulated, arrangements, channels, columns);
+    found.insert(0, found.empty() ? "" : "Mixed up? ");
+  }
+  return found;
 }
 
 } // namespace msi

@@ -1,5 +1,5 @@
 // Readings that seem to belong to other samples, places or channels than they are said to: a chart the other way round, filters in
-// another order.
+// another order. And a channel that does not work.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,8 @@ std::vector<Arrangement> arrangementsOf(const SampleScene& scene);
 // places are at least 0.04 apart.
 std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);
 
-// In words, what fits much better than as told: a quarter of the squares left, after a gain of each channel. Empty: nothing.
+// In words, which channel is dead, else what fits much better than as told: a quarter of the squares left, after a gain of each
+// channel. Empty: nothing.
 // observed, simulated: K x S, NaN: not measured. channels, columns: K and S names; without columns no single ones are looked at.
 std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,

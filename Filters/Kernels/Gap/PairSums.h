@@ -31,11 +31,14 @@ struct PairSums
   double ofReal() const noexcept { return realSquares - real * real / count(); }
   double ofSimulated() const noexcept { return simulatedSquares - simulated * simulated / count(); }
   double ofBoth() const noexcept { return products - real * simulated / count(); }
+  // The deviation of what is simulated is small beside it.
+  bool isFlat() const noexcept { return ofSimulated() <= Flat * Flat * simulatedSquares; }
   // Of the straight line through the origin: its slope, and the squares that it leaves.
   double gain() const noexcept { return products / std::fmax(simulatedSquares, 1e-30); }
   double left() const noexcept { return realSquares - gain() * products; }
 
 private:
+  static constexpr double Flat = 0.05;
   double count() const noexcept { return std::fmax(n, 1.0); }
 };
 

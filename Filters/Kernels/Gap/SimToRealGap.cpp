@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
+#include "Kernels/Gap/OddOnes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
@@ -334,37 +335,21 @@ void GapOptions::forAll(int count, const std::function<void(int)>& body) const
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
 {
   requireKnown(options.without);
-  TableDiagnosis all(capture, options);
-  std::optional<GapReport> report = all.run();
-  const auto unknown = [](const GapReport& one) { return one.probabilityOf("unknown"); };
-  SampleList odd = all.odd();
-  if (!report || odd.empty() || unknown(*report) <= 0.5 || !mixUpOf(all.data()).empty())
+  SampleList leftOut;
+  std::optional<TableDiagnosis> last;
+  const auto diagnose = [&](SampleList& odd)
   {
+    leftOut.insert(leftOut.end(), odd.begin(), odd.end());
+    std::sort(leftOut.begin(), leftOut.end());
+    last.emplace(capture, options, leftOut);
+    std::optional<GapReport> report = last->run();
+    odd = last->odd();
     return report;
-  }
-  std::optional<GapReport> without;
-  for (SampleList more = odd; !more.empty();)
-  {
-    TableDiagnosis others(capture, options, odd);
-    without = others.run();
-    if (!without)
-    {
-      return without;
-    }
-    more = others.odd();
-    odd.insert(odd.end(), more.begin(), more.end());
-    std::sort(odd.begin(), odd.end());
-  }
-  if (without->verdict == GapVerdict::NoGap)
-  {
-    report->notes.insert(
-      report->notes.begin(), oddSamplesNote(all.data(), odd, ", without which there is no gap"));
-  }
-  else if (unknown(*without) < 0.5 * unknown(*report))
-  {
-    return without;
-  }
-  return report;
+  };
+  return diagnoseWithoutOdd(
+    diagnose, [](GapReport& report) -> GapReport& { return report; },
+    [&] { return !mixUpOf(last->data()).empty(); },
+    [&] { return oddSamplesNote(last->data(), leftOut, ", without which there is no gap"); });
 }
 
 } // namespace msi

@@ -104,6 +104,18 @@ TEST_F(MixUps, ReadingsOfOtherSamples)
   EXPECT_NE(found().front().find("hardly go with the samples"), std::string::npos);
 }
 
+TEST_F(MixUps, ADeadChannel)
+{
+  const msi::CounterRandom random(5);
+  for (Eigen::Index i = 0; i < Count; ++i)
+  {
+    Observed(2, i) = 0.01 + 0.002 * random.normal(static_cast<std::uint64_t>(i));
+  }
+  EXPECT_EQ(found(),
+    Texts{ "Dead? Channel C does not change with the scene as the others do: is it connected, and "
+           "nothing before it?" });
+}
+
 // A flat field has nothing to go together with.
 TEST_F(MixUps, AFlatFieldHasNone)
 {

@@ -134,7 +134,7 @@ def print_summary(gap):
 
 def mistakes(gap):
     """Notes on what seems to be wrong with the capture itself: look at these first."""
-    return [row["note"] for row in gap.records("notes") if row["note"].startswith(("Mixed up?", "Odd?", "Noise?"))]
+    return [row["note"] for row in gap.records("notes") if row["note"].startswith(("Mixed up?", "Dead?", "Odd?", "Noise?"))]
 
 
 def next_capture(figures, gap):

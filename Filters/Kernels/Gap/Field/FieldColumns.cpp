@@ -240,7 +240,9 @@ public:
   {
     const auto pixels = static_cast<int>(block.window.pixels());
     const FieldFactor factor(model);
-    for (int i = 0; i < pixels; ++i)
+    const bool needed = std::any_of(Steps.begin(), Steps.end(),
+      [](const ChannelStep& step) { return step.placed->from != nullptr; });
+    for (int i = 0; needed && i < pixels; ++i)
     {
       addElsewhere(data.pair, data.scene(), factor, placeOf(i), Channel, Others);
     }
@@ -270,6 +272,7 @@ public:
     pixel.mean = Glare;
     return pixel;
   }
+  const ChannelSteps& steps() const noexcept { return Steps; }
   // The light on the detector; with its derivatives also by the steps that are asked for.
   const double& signal(int number) const { return Signal[static_cast<std::size_t>(number)]; }
   double signal(int number, ImagePixel& pixel, StepDerivatives& derivatives) const
@@ -342,11 +345,23 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     const FieldLines rows(model, true, channel, block.fold, window.y, window.height);
     const FieldLines columns(model, false, channel, block.fold, window.x, window.width);
     const auto count = static_cast<Eigen::Index>(found.pixel.size());
-    found.columns.resize(count, FieldColumn::count());
-    found.level.resize(count);
     const ChannelSteps behind =
       model.steps(ImageStage::Exposure, ImageStage::Detector, channel, asked);
+    ChannelSteps steps = light->steps();
+    steps.insert(steps.end(), behind.begin(), behind.end());
+    found.there.clear();
+    for (const ChannelStep& step : steps)
+    {
+      for (std::size_t c = 0; c < step.placed->step->width(); ++c)
+      {
+        found.there.push_back(static_cast<Eigen::Index>(step.placed->column + c));
+      }
+    }
+    found.there.push_back(FieldColumn::residual());
+    found.columns.resize(count, static_cast<Eigen::Index>(found.there.size()));
+    found.level.resize(count);
     by = StepDerivatives();
+    by.values.push_back(0.0); // the residual
     for (Eigen::Index n = 0; n < count; ++n)
     {
       const int i = found.pixel[static_cast<std::size_t>(n)];
@@ -357,9 +372,13 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
       pixel.column = columns[i % window.width];
       pixel.self = light->signal(i, pixel, by);
       const double answer = run(behind, pixel, nullptr, pixel.self, &by);
-      by.chain();
-      found.columns.row(n) << Eigen::RowVectorXd::Map(by.values.data(), FieldColumn::residual()),
-        static_cast<double>(real[static_cast<std::size_t>(i) * K]) - answer;
+      by.chain(steps);
+      by.values.back() = static_cast<double>(real[static_cast<std::size_t>(i) * K]) - answer;
+      for (std::size_t c = 0; c < found.there.size(); ++c)
+      {
+        found.columns(n, static_cast<Eigen::Index>(c)) =
+          by.values[static_cast<std::size_t>(found.there[c])];
+      }
       found.level[n] = answer;
     }
     act(channel, found);
@@ -384,8 +403,10 @@ std::vector<FieldResidual> fieldResiduals(
       forColumns(data, model, glare, block, asked,
         [&](Eigen::Index k, const ChannelColumns& found)
         {
+          const auto gain = std::find(found.there.begin(), found.there.end(), FieldColumn::gain()) -
+            found.there.begin();
           residuals[static_cast<std::size_t>(b * K + k)] = { found.pixel, found.level,
-            found.columns.col(FieldColumn::gain()), found.columns.col(FieldColumn::residual()) };
+            found.columns.col(gain), found.residual() };
         });
     });
   return residuals;

@@ -36,14 +36,16 @@ Eigen::VectorXd columnsChanged(
 // Those of the usable pixels of a block in one channel.
 struct ChannelColumns
 {
-  // Pixels x FieldColumn::count().
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> columns;
+  std::vector<Eigen::Index> there; // which columns; the others are 0
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> columns; // pixels x those
   Eigen::ArrayXd level;   // predicted, of each
   std::vector<int> pixel; // number in the block, of each
+
+  auto residual() const { return columns.col(columns.cols() - 1); }
 };
 
-// Calls act(channel, columns) for each channel of a block in turn; act may change the columns. Columns of steps that change
-// nothing and are not asked for are 0.
+// Calls act(channel, columns) for each channel of a block in turn; act may change the columns. There are those of steps that change
+// something or are asked for.
 // Exact in the model but for one thing: the surround of the tail is that of the unmoved, unblurred image, and the
 // factors over the field come after the neighbourhood.
 void forColumns(const FieldData& data, const FieldModel& model, const Eigen::ArrayXd& glare,

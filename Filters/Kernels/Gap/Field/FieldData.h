@@ -18,6 +18,10 @@ namespace msi
 // are none.
 std::vector<float> filledScene(const FieldPair& pair);
 
+// An image with NaN where a frame around it is 0 in all channels, as registration leaves it; empty where the other image is as
+// dark there.
+std::vector<float> withoutFrame(const FieldPair& pair, const float* image, const float* other);
+
 // The simulated image in 64 x 64 cells: what each adds to the mean of the scene and the place of its light, cells x K.
 // A smooth factor of the field may be taken at that place.
 struct SceneCells
@@ -54,11 +58,14 @@ struct FieldBlock
 
 struct FieldData
 {
-  FieldPair pair;
-  std::vector<float> filled; // filledScene()
-  Eigen::ArrayXd unit;       // of the real image's channels, K; FieldBlock::real is divided by it
+  FieldPair pair;                     // without frames
+  std::vector<float> real, simulated; // withoutFrame()
+  std::vector<float> filled;          // filledScene()
+  Eigen::ArrayXd unit; // of the real image's channels, K; FieldBlock::real is divided by it
   std::vector<FieldBlock> blocks;
-  double usablePart = 0.0; // of the image's pixels
+  std::vector<ImageWindow> leftOut; // blocks
+  double usablePart = 0.0;          // of the image's pixels
+  double framePart = 0.0;           // of the pixels, withoutFrame()
   SceneCells cells;
 
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
@@ -73,6 +80,9 @@ struct FieldData
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.
 // Errors: std::invalid_argument for an empty image, no channel, or too few usable pixels.
 FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop);
+
+// Blocks that take no part from here on.
+void leaveOut(FieldData& data, const std::vector<Eigen::Index>& blocks);
 
 // Draws at most `most` blocks and deals them to folds and test, whole groups at a time: what errs in one block (a material whose
 // color is simulated wrongly) errs in its neighbours, too, and may not vouch for itself.

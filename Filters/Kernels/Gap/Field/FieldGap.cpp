@@ -6,6 +6,7 @@
 #include "Kernels/Gap/Field/FieldObservation.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/MixUps.h"
+#include "Kernels/Gap/OddOnes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
@@ -48,8 +49,8 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   const FieldStart& start, int maximumEffects, const FieldLoop& loop,
   const std::function<bool()>& stop)
 {
-  finding.weights =
-    fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop, AskedSteps{}));
+  finding.weights = fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop,
+    AskedSteps{ &FieldColumn::stepOf(FieldColumn::gain()) }));
   const auto observe = [&]
   {
     finding.observation =
@@ -67,12 +68,17 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   finding.found = searchSets(*finding.observation, limits, stop);
 }
 
-// On the test blocks.
-GapFigures heldOutFigures(const FieldData& data, const FieldStatistics& before,
+// On the test blocks; on all where nothing was fitted.
+GapFigures figuresOn(const FieldData& data, bool all, const FieldStatistics& before,
   const FieldStatistics& after, std::uint64_t seed)
 {
-  const auto sums = [&data](const FieldStatistics& statistics, double BlockSums::*number)
-  { return groupSums(data, statistics.ofBlocks(number), false); };
+  const auto sums = [&](const FieldStatistics& statistics, double BlockSums::*number)
+  {
+    std::vector<double> values = groupSums(data, statistics.ofBlocks(number), false);
+    const std::vector<double> others = groupSums(data, statistics.ofBlocks(number), true);
+    values.insert(values.end(), others.begin(), all ? others.end() : others.begin());
+    return values;
+  };
   return figuresOf({ sums(before, &BlockSums::energy), sums(after, &BlockSums::energy),
                      sums(after, &BlockSums::noise) },
     std::fmax(sumOf(sums(after, &BlockSums::pixels)), 1.0), seed);
@@ -111,7 +117,7 @@ void addRest(FieldGap& gap, const FieldData& data, const FieldWeights& weights,
     model[step.number + n] = numbers.col(static_cast<Eigen::Index>(n));
   }
   const FieldStatistics less = fieldStatistics(data, model, &weights, loop, AskedSteps{});
-  const GapFigures figures = heldOutFigures(data, left, less, options.seed);
+  const GapFigures figures = figuresOn(data, false, left, less, options.seed);
   if (!(figures.shrinkInterval[0] > 0.0))
   {
     return;
@@ -124,14 +130,14 @@ void addRest(FieldGap& gap, const FieldData& data, const FieldWeights& weights,
   }
 }
 
-// Mean over test blocks and channels of the squared block mean of the residual over what white noise allows.
-double blockMeanExcess(const FieldData& data, const FieldStatistics& statistics)
+// Mean over test blocks (or all) and channels of the squared block mean of the residual over what white noise allows.
+double blockMeanExcess(const FieldData& data, bool all, const FieldStatistics& statistics)
 {
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t b = 0; b < data.blocks.size(); ++b)
   {
-    for (Eigen::Index k = 0; data.blocks[b].fold < 0 && k < data.channels(); ++k)
+    for (Eigen::Index k = 0; (all || data.blocks[b].fold < 0) && k < data.channels(); ++k)
     {
       const BlockSums& sums = statistics.at(b, k);
       if (sums.pixels > 0.0)
@@ -209,6 +215,30 @@ std::string mixUpOf(const FieldPair& pair)
     rasterOf(pair, pair.simulated, width, height), arrangements, pair.channels);
 }
 
+// Which blocks, one of those that lie near each other, from the first on.
+std::string oddBlocksNote(const FieldData& data, const std::string& consequence)
+{
+  constexpr std::size_t MostPlaces = 3;
+  std::vector<Eigen::Vector2d> places;
+  std::string text;
+  for (const ImageWindow& window : data.leftOut)
+  {
+    const Eigen::Vector2d place = middleOf(data.pair, window);
+    const bool named = std::any_of(places.begin(), places.end(),
+      [&](const Eigen::Vector2d& other) { return (place - other).norm() < 4.0 * window.width; });
+    if (!named && places.size() < MostPlaces)
+    {
+      places.push_back(place);
+      text +=
+        textOf(2, text.empty() ? "" : "; ", "x ", data.pair.fieldX(window.x + 0.5 * window.width),
+          ", y ", data.pair.fieldY(window.y + 0.5 * window.height));
+    }
+  }
+  return textOf(3, "Odd? ", data.leftOut.size(), " of ", data.leftOut.size() + data.blocks.size(),
+    " blocks of pixels", consequence, ": far from what is found in all others. Look near ", text,
+    " of the field for dust, glare, a shadow or something that moved.");
+}
+
 std::vector<std::string> notesOn(
   const FieldData& data, const FieldFinding& finding, const std::vector<FieldChoice>& choices)
 {
@@ -216,6 +246,16 @@ std::vector<std::string> notesOn(
   if (std::string note = mixUpOf(data.pair); !note.empty())
   {
     notes.push_back(std::move(note));
+  }
+  if (!data.leftOut.empty())
+  {
+    notes.push_back(oddBlocksNote(data, " left out"));
+  }
+  if (data.framePart > 0.0)
+  {
+    notes.push_back(textOf(2, "a frame of ", 100.0 * data.framePart,
+      " % of the pixels is 0 in all channels of one image, as registration leaves it, and takes no "
+      "part"));
   }
   const FieldSet& set = finding.set();
   for (const std::string& effect : indistinctEffects(data, finding.before(), choices))
@@ -283,13 +323,26 @@ std::vector<std::string> notesOn(
   }
   return notes;
 }
+
+// Of each block what is left with or without the effects found, over noise.
+Eigen::VectorXd leftOfBlocks(const FieldFinding& finding)
+{
+  const FieldStatistics& before = finding.before();
+  const FieldStatistics& after = finding.after();
+  Eigen::VectorXd left = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(before.blocks()));
+  for (std::size_t i = 0; i < before.sums.size(); ++i)
+  {
+    const double energy = std::fmin(before.sums[i].energy, after.sums[i].energy);
+    left[static_cast<Eigen::Index>(i) / before.channels] +=
+      energy > 0.0 ? energy / before.sums[i].noise : 0.0;
+  }
+  return left / static_cast<double>(before.channels);
 }
 
-std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options)
+// odd: the blocks that are once it is done.
+std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldChoice>& choices,
+  const GapOptions& options, const FieldLoop& loop, IndexList& odd)
 {
-  const std::vector<FieldChoice> choices = fieldChoices(options.without);
-  const FieldLoop loop = [&options](int count, const std::function<void(int)>& body)
-  { options.forAll(count, body); };
   double done = 0.0;
   bool stopped = false;
   const auto say = [&](double fraction, const char* what)
@@ -298,8 +351,6 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     stopped = stopped || (options.progress && !options.progress(done, what));
     return stopped;
   };
-  say(0.0, "reading the images");
-  const FieldData data = prepareFieldData(pair, options.seed, loop);
   if (say(0.2, "searching for effects"))
   {
     return std::nullopt;
@@ -312,12 +363,14 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   {
     return std::nullopt;
   }
+  odd = oddOnes(leftOfBlocks(finding), data.leftOut.size());
 
   std::optional<FieldGap> gap(std::in_place);
   gap->model = finding.after().model;
   gap->unit = data.unit;
   GapReport& report = gap->report;
-  report.gap = heldOutFigures(data, finding.before(), finding.after(), options.seed);
+  report.gap =
+    figuresOn(data, finding.set().empty(), finding.before(), finding.after(), options.seed);
   // The stripes and the end of the range that were found are on the axes of the gap before, too.
   FieldModel nominal = finding.before().model;
   nominal.rows = gap->model.rows;
@@ -328,7 +381,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   const auto beyondNoise = [&](double rms, const FieldStatistics& statistics)
   {
     return rms > Decision::BeyondNoise * report.gap.noiseFloor ||
-      blockMeanExcess(data, statistics) > Decision::EstimateFactor;
+      blockMeanExcess(data, finding.set().empty(), statistics) > Decision::EstimateFactor;
   };
   Evidence evidence;
   if (!finding.set().empty() && report.gap.shrink > 0.0)
@@ -337,7 +390,7 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
     evidence.explained =
       beyondNoise(report.gap.rmsAfter, finding.after()) ? report.gap.shrink : 1.0;
     evidence.rest = fieldAxes(data, finding.after(), loop);
-    report.correction = fieldCorrection(finding.set(), gap->model, pair.channels);
+    report.correction = fieldCorrection(finding.set(), gap->model, data.pair.channels);
   }
   else
   {
@@ -356,6 +409,28 @@ std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& o
   noteDoubts(report.notes, report);
   say(1.0, "done");
   return gap;
+}
+}
+
+std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options)
+{
+  const std::vector<FieldChoice> choices = fieldChoices(options.without);
+  const FieldLoop loop = [&options](int count, const std::function<void(int)>& body)
+  { options.forAll(count, body); };
+  if (options.progress && !options.progress(0.0, "reading the images"))
+  {
+    return std::nullopt;
+  }
+  FieldData data = prepareFieldData(pair, options.seed, loop);
+  return diagnoseWithoutOdd(
+    [&](IndexList& odd)
+    {
+      leaveOut(data, odd);
+      return diagnose(data, choices, options, loop, odd);
+    },
+    [](FieldGap& gap) -> GapReport& { return gap.report; },
+    [&] { return !mixUpOf(data.pair).empty(); },
+    [&] { return oddBlocksNote(data, ", without which there is no gap"); });
 }
 
 } // namespace msi

@@ -3,6 +3,7 @@
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Numerics/Angle.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace msi
@@ -32,19 +33,15 @@ StepDerivatives::StepDerivatives()
 {
 }
 
-void StepDerivatives::chain() noexcept
+void StepDerivatives::chain(const ChannelSteps& steps) noexcept
 {
   double slope = 1.0;
-  std::size_t end = values.size();
-  for (std::size_t s = slopes.size(); s-- > 0;)
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
   {
-    const std::size_t first = imageSteps()[s].column;
-    for (std::size_t i = first; i < end; ++i)
-    {
-      values[i] *= slope;
-    }
-    slope *= slopes[s];
-    end = first;
+    double* own = values.data() + step->placed->column;
+    std::for_each(
+      own, own + step->placed->step->width(), [slope](double& value) { value *= slope; });
+    slope *= slopes[step->place];
   }
 }
 

@@ -35,16 +35,6 @@ struct FieldStripes
   std::shared_ptr<const FieldProfile> profile; // null: none
 };
 
-// Derivatives of a pixel's answer: those of every step (PlacedStep::column), and each step's own by its signal.
-struct StepDerivatives
-{
-  std::vector<double> values, slopes;
-
-  StepDerivatives();
-  // From derivatives of each step's result to those of the last one's.
-  void chain() noexcept;
-};
-
 // A step with its numbers of one channel.
 struct ChannelStep
 {
@@ -54,6 +44,16 @@ struct ChannelStep
   std::size_t light; // among those that bring light from elsewhere
 };
 using ChannelSteps = std::vector<ChannelStep>;
+
+// Derivatives of a pixel's answer: those of every step (PlacedStep::column), and each step's own by its signal.
+struct StepDerivatives
+{
+  std::vector<double> values, slopes;
+
+  StepDerivatives();
+  // From derivatives of the result of each of these steps to those of the last one's.
+  void chain(const ChannelSteps& steps) noexcept;
+};
 
 // Of all steps, those whose derivatives are asked for where they change nothing; elsewhere they are always given.
 using AskedSteps = std::set<const PlacedStep*>;

@@ -73,6 +73,10 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
   const FieldFitter fitter(data, *hypothesis.statistics);
   hypothesis.fit = fitter.fit({});
   NoiseEnergy = fitter.chance();
+  for (const std::vector<Eigen::MatrixXd>& fold : fitter.folds())
+  {
+    InexactEnergy += energyBesideGain(fold).sum();
+  }
   Elements = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true));
   Nominal = described(std::move(hypothesis));
 }
@@ -217,6 +221,11 @@ FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview&
 
 FitPointer FieldObservation::reduced(const ObservedFit& from, std::size_t positions) const
 {
+  FitPointer& known = static_cast<const FieldObservedFit&>(from).reduced[positions];
+  if (known)
+  {
+    return known;
+  }
   const FieldHypothesis& all = hypothesisOf(from);
   FieldSet set;
   for (std::size_t e = 0; e < all.set.size(); ++e)
@@ -226,7 +235,7 @@ FitPointer FieldObservation::reduced(const ObservedFit& from, std::size_t positi
       set.push_back(all.set[e]);
     }
   }
-  return described(refit(set, FieldFitter(Data, *all.statistics).fit(set).next));
+  return known = described(refit(set, FieldFitter(Data, *all.statistics).fit(set).next));
 }
 
 void FieldObservation::describe(

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ class FieldObservedFit : public ObservedFit
 {
 public:
   FieldHypothesis hypothesis;
-  mutable std::optional<FieldHypothesis>
-    started; // with the starts that its residual shows, once they are asked for
+  // Once they are asked for: with the starts that its residual shows; without some of its effects.
+  mutable std::optional<FieldHypothesis> started;
+  mutable std::map<std::size_t, FitPointer> reduced;
 };
 
 // Groups of training blocks are the groups. A fit's residual is looked at for stripes, clipping and displacements before
@@ -35,6 +37,7 @@ public:
   Eigen::Index channels() const override { return Data.channels(); }
   double elements() const override { return Elements; }
   double noiseEnergy() const override { return NoiseEnergy; }
+  double inexactEnergy() const override { return InexactEnergy; }
   FitPointer nominal() const override { return Nominal; }
   std::vector<GapPreview> previews(const ObservedFit& from) const override;
   FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
@@ -61,7 +64,7 @@ private:
   const FieldLoop& Loop;
   std::vector<GapOption> Options;
   double Elements = 0.0;
-  double NoiseEnergy = 0.0;
+  double NoiseEnergy = 0.0, InexactEnergy = 0.0;
   FitPointer Nominal;
 };
 

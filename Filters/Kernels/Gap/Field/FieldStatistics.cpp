@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Numerics/LowerTriangle.h"
 
 #include <algorithm>
@@ -14,14 +15,18 @@ namespace msi
 namespace
 {
 constexpr double Trimmed = 0.1; // on each side
+constexpr double Unusual = 4.0; // times the median: not noise
 constexpr std::size_t LevelBins = 4;
 constexpr double Unequal = 1.1; // differences along one axis this much above the other's: banding
 constexpr double LeastNoise = 1e-5;
 constexpr double FewestPairs = 4.0; // in a block that tells the noise
 
+// Of those that are noise.
 double trimmedMean(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());
+  values.erase(std::upper_bound(values.begin(), values.end(), Unusual * values[values.size() / 2]),
+    values.end());
   const auto cut = static_cast<std::ptrdiff_t>(Trimmed * static_cast<double>(values.size()));
   return std::accumulate(values.begin() + cut, values.end() - cut, 0.0) /
     static_cast<double>(values.end() - values.begin() - 2 * cut);
@@ -31,7 +36,7 @@ double trimmedMean(std::vector<double> values)
 void addDifferences(const ChannelColumns& found, const ImageWindow& window, BlockSums& sums)
 {
   constexpr Eigen::Index lag = 2;
-  const auto residual = found.columns.col(FieldColumn::residual());
+  const auto residual = found.residual();
   // Of every pixel of the block, NaN where it is not usable.
   Eigen::ArrayXXd left = Eigen::ArrayXXd::Constant(
     window.width, window.height, std::numeric_limits<double>::quiet_NaN());
@@ -137,29 +142,50 @@ std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
   return noise;
 }
 
+Eigen::ArrayXd energyBesideGain(const std::vector<Eigen::MatrixXd>& normals)
+{
+  double square = 0.0; // of the response
+  double gained = 0.0; // times the residual
+  for (const Eigen::MatrixXd& normal : normals)
+  {
+    square += normal(FieldColumn::gain(), FieldColumn::gain());
+    gained += normal(FieldColumn::gain(), FieldColumn::residual());
+  }
+  const double gain = gained / std::fmax(square, 1e-30);
+  const double large = gain - std::clamp(gain, -Decision::SmallPart, Decision::SmallPart);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(FieldColumn::residual());
+  change[FieldColumn::gain()] = large;
+  Eigen::ArrayXd energy(static_cast<Eigen::Index>(normals.size()));
+  std::transform(normals.begin(), normals.end(), energy.begin(),
+    [&change](const Eigen::MatrixXd& normal) { return energyLeft(normal, change); });
+  return energy;
+}
+
 FieldWeights fieldWeights(const FieldStatistics& statistics)
 {
   FieldWeights weights;
   weights.noise = fieldNoise(statistics);
-  weights.limit.resize(statistics.channels);
-  weights.tolerance.resize(statistics.channels);
+  std::vector<Eigen::MatrixXd> normals;
+  Eigen::ArrayXd noise = Eigen::ArrayXd::Zero(statistics.channels);
+  Eigen::ArrayXd pixels = noise;
   for (Eigen::Index k = 0; k < statistics.channels; ++k)
   {
-    double energy = 0.0;
-    double noise = 0.0;
-    double pixels = 0.0;
+    normals.emplace_back(Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count()));
     for (std::size_t b = 0; b < statistics.blocks(); ++b)
     {
       const BlockSums& sums = statistics.at(b, k);
-      energy += sums.energy;
-      noise += sums.pixels * noiseVariance(weights.noise[static_cast<std::size_t>(k)], sums.level);
-      pixels += sums.pixels;
+      normals.back() += sums.normal();
+      noise[k] +=
+        sums.pixels * noiseVariance(weights.noise[static_cast<std::size_t>(k)], sums.level);
+      pixels[k] += sums.pixels;
     }
-    const double variance = energy / std::fmax(pixels, 1.0);
-    weights.limit[k] = Decision::OutlierDeviations * std::sqrt(variance);
-    weights.tolerance[k] =
-      Decision::FormPart * std::fmax(variance - noise / std::fmax(pixels, 1.0), 0.0);
+    weights.limit.conservativeResize(k + 1);
+    weights.limit[k] = Decision::OutlierDeviations *
+      std::sqrt(normals.back()(FieldColumn::residual(), FieldColumn::residual()) /
+        std::fmax(pixels[k], 1.0));
   }
+  weights.tolerance =
+    Decision::FormPart * (energyBesideGain(normals) - noise).max(0.0) / pixels.max(1.0);
   return weights;
 }
 
@@ -177,7 +203,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
     {
       const auto k = static_cast<std::size_t>(channel);
       BlockSums& sums = statistics.sums[static_cast<std::size_t>(b) * K + k];
-      const auto residual = found.columns.col(FieldColumn::residual());
+      const auto residual = found.residual();
       sums.pixels = static_cast<double>(found.pixel.size());
       sums.energy = residual.squaredNorm();
       if (sums.pixels > 0.0)
@@ -198,16 +224,8 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
         sums.chance = (variance * weight).sum();
         found.columns.array().colwise() *= weight.sqrt();
       }
-      const Eigen::Array<bool, 1, Eigen::Dynamic> any =
-        (found.columns.array() != 0.0).colwise().any();
-      for (Eigen::Index c = 0; c < FieldColumn::count(); ++c)
-      {
-        if (any[c])
-        {
-          sums.there.push_back(c);
-        }
-      }
-      const Eigen::MatrixXd columns = found.columns(Eigen::all, sums.there).transpose();
+      sums.there = found.there;
+      const Eigen::MatrixXd columns = found.columns.transpose();
       sums.products.setZero(columns.rows(), columns.rows());
       addOuterProduct(sums.products, columns, columns);
       sums.products.triangularView<Eigen::StrictlyUpper>() = sums.products.transpose();

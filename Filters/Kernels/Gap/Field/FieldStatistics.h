@@ -17,7 +17,7 @@ struct BlockSums
 {
   // Weighted columns' products, FieldColumn::count()^2; the last is the residual.
   Eigen::MatrixXd normal() const;
-  // Those of the columns that are not zero throughout: all blocks in full are more than memory is fast for.
+  // Those of ChannelColumns::there: all blocks in full are more than memory is fast for.
   std::vector<Eigen::Index> there;
   Eigen::MatrixXd products;
   double pixels = 0.0; // usable
@@ -60,7 +60,11 @@ struct FieldStatistics
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked = everyStep());
 
-// Weights that go by a model's residual.
+// The squares of the residual, of each channel, without the part of a gain of all channels beyond Decision::SmallPart: that has an
+// exact form, and another exposure does not make the forms of other effects worse. normals: of each channel, with a column of the gain.
+Eigen::ArrayXd energyBesideGain(const std::vector<Eigen::MatrixXd>& normals);
+
+// Weights that go by a model's residual. Statistics: not weighted, with a column of the gain.
 FieldWeights fieldWeights(const FieldStatistics& statistics);
 
 // Noise from differences of residuals two pixels apart, in the smoother half of the blocks: a variance for each

@@ -78,9 +78,10 @@ LabelSums labelSums(const FieldData& data, const FieldBlock& block, const FieldM
   LabelSums all;
   const auto sum = [&](Eigen::Index k, const ChannelColumns& found)
   {
-    const Eigen::VectorXd residual = found.columns.col(FieldColumn::residual());
-    const Eigen::VectorXd left = residual -
-      found.columns.leftCols(FieldColumn::residual()) * change[static_cast<std::size_t>(k)];
+    const Eigen::VectorXd residual = found.residual();
+    Eigen::VectorXd weight = Eigen::VectorXd::Zero(FieldColumn::count());
+    weight.head(FieldColumn::residual()) = change[static_cast<std::size_t>(k)];
+    const Eigen::VectorXd left = residual - found.columns * weight(found.there);
     for (Eigen::Index n = 0; n < left.size(); ++n)
     {
       const int pixel = found.pixel[static_cast<std::size_t>(n)];

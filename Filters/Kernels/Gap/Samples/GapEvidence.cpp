@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Samples/GapEvidence.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Numerics/OrderStatistic.h"
+#include "Kernels/Gap/OddOnes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,6 @@ namespace msi
 namespace
 {
 constexpr Eigen::Index FewSamples = 3;
-constexpr double MuchOfLeft = 0.25;
-constexpr Eigen::Index OddOneIn = 20; // samples, at the most
 
 // Energy explained over energy left where the gap shrinks by Decision::SmallPart.
 double leastOverLeft()
@@ -93,27 +91,16 @@ double noticed(const GapData& data, const Eigen::MatrixXd& before, const Eigen::
 SampleList oddSamples(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
 {
-  // Of each usable sample. Causes that odd samples have led astray leave more of the others.
+  // Causes that odd samples have led astray leave more of the others.
   const Eigen::MatrixXd least = before.cwiseAbs2().cwiseMin(after.cwiseAbs2());
-  const Eigen::VectorXd left =
-    data.weight.cwiseProduct(least)(Eigen::all, data.usable).colwise().mean();
-  const double usual = std::fmax(orderStatistic(left, left.size() / 2), 1.0);
-  const double far =
-    std::fmax(std::pow(Decision::SureDeviations, 2) * usual, Decision::SmallPart * left.maxCoeff());
-  SampleList odd;
-  double ofOdd = 0.0;
-  for (Eigen::Index n = 0; n < left.size(); ++n)
+  SampleList odd =
+    oddOnes(data.weight.cwiseProduct(least)(Eigen::all, data.usable).colwise().mean().transpose(),
+      data.leftOut.size());
+  for (Eigen::Index& sample : odd)
   {
-    if (left[n] > far)
-    {
-      odd.push_back(data.usable[static_cast<std::size_t>(n)]);
-      ofOdd += left[n];
-    }
+    sample = data.usable[static_cast<std::size_t>(sample)];
   }
-  const auto all = static_cast<Eigen::Index>(data.leftOut.size()) + left.size();
-  const auto notUsed = static_cast<Eigen::Index>(data.leftOut.size() + odd.size());
-  const bool few = notUsed <= std::max(FewSamples, all / OddOneIn);
-  return few && ofOdd > MuchOfLeft * left.sum() ? odd : SampleList{};
+  return odd;
 }
 
 bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)

@@ -36,8 +36,7 @@ double negligibleEnergy(
 double noticed(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
   const Eigen::MatrixXd& integration);
 
-// Samples whose readings fit nothing: few, and far beyond most others in what is left of them with and without the causes found; much
-// of all that is left. A wrong label, dust or glare makes such samples.
+// oddOnes() by what is left of them with and without the causes found.
 SampleList oddSamples(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
 

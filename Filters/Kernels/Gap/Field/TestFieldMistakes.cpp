@@ -1,0 +1,155 @@
+// What goes wrong with captured image pairs every day.
+#include "Kernels/Gap/Field/TestFieldReport.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace
+{
+using msi::GapReport;
+using msi::GapVerdict;
+using namespace msi::test;
+
+bool says(const GapReport& report, const std::string& words)
+{
+  return std::any_of(report.notes.begin(), report.notes.end(),
+    [&words](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+double exponent(double u)
+{
+  return std::pow(u, 0.93);
+}
+
+bool isInSpot(int x, int y)
+{
+  return std::hypot(x - 40.0, y - 60.0) < 7.0;
+}
+
+void setPixel(TestPair& pair, int x, int y, float value)
+{
+  const std::size_t channels = pair.channels.size();
+  const auto first =
+    pair.real.begin() + static_cast<std::ptrdiff_t>(pair.pair().index(x, y) * channels);
+  std::fill_n(first, channels, value);
+}
+}
+
+TEST(FieldMistakes, ASpotIsNamedAndLeftOut)
+{
+  const TestScene scene(61);
+  const GapReport report = diagnose(changed(scene, 71,
+    [](double u, int, int x, int y, double) { return isInSpot(x, y) ? 0.95 : exponent(u); }));
+  SCOPED_TRACE(describe(report));
+  expectFirst(report, "detector_nonlinearity", "level");
+  expectParameter(report, "detector_nonlinearity", "exponent", 0.93, 0.003);
+  EXPECT_TRUE(says(report, "Odd? "));
+  EXPECT_TRUE(says(report, "blocks of pixels left out: far from what is found in all others"));
+  EXPECT_TRUE(says(report, "x -0.5")); // the spot's middle is at -0.54, -0.13
+}
+
+TEST(FieldMistakes, ASpotAloneIsTheGap)
+{
+  const TestScene scene(62);
+  const GapReport report = diagnose(changed(
+    scene, 72, [](double u, int, int x, int y, double) { return isInSpot(x, y) ? 0.95 : u; }));
+  SCOPED_TRACE(describe(report));
+  EXPECT_NE(report.verdict, GapVerdict::NoGap);
+  EXPECT_NE(report.verdict, GapVerdict::Explained);
+  EXPECT_TRUE(says(report, "blocks of pixels, without which there is no gap: far"));
+}
+
+// Registration moves an image and fills what comes in from outside with 0.
+TEST(FieldMistakes, AFrameOfZerosTakesNoPart)
+{
+  const TestScene scene(63);
+  TestPair pair = changed(scene, 73, [](double u, int, int, int, double) { return exponent(u); });
+  for (int y = 0; y < scene.height(); ++y)
+  {
+    for (int x = 0; x < scene.width(); ++x)
+    {
+      if (x < 18 || y >= scene.height() - 12)
+      {
+        setPixel(pair, x, y, 0.0F);
+      }
+    }
+  }
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  expectFirst(report, "detector_nonlinearity", "level");
+  EXPECT_TRUE(says(report, "a frame of 18 % of the pixels is 0 in all channels"));
+  // Dark where the simulated image is dark, too, it is none.
+  for (std::size_t i = 0; i < pair.real.size(); ++i)
+  {
+    pair.simulated[i] = pair.real[i] == 0.0F ? 0.001F : pair.simulated[i];
+  }
+  EXPECT_FALSE(says(diagnose(pair), "a frame of"));
+}
+
+// In percent or in counts of full scale, effects are what they are relative to white.
+TEST(FieldMistakes, OtherUnitsChangeNothing)
+{
+  const TestScene scene(64);
+  const TestPair pair =
+    changed(scene, 74, [](double u, int, int, int, double) { return 1.05 * u; });
+  for (const float scale : { 100.0F, 65535.0F })
+  {
+    TestPair other = pair;
+    for (float& value : other.real)
+    {
+      value *= scale;
+    }
+    const GapReport report = diagnose(other);
+    SCOPED_TRACE(describe(report));
+    expectFirst(report, "exposure_gain", "level");
+    expectParameter(report, "exposure_gain", "gain", 1.05, 0.002);
+    EXPECT_TRUE(says(report, "the real image is not in units of white"));
+  }
+}
+
+// Another exposure must not hide what else there is.
+TEST(FieldMistakes, AnEffectBesideALargeGain)
+{
+  const TestScene scene(65);
+  for (const double gain : { 0.5, 3.0 })
+  {
+    const GapReport report = diagnose(changed(scene, 75,
+      [&scene, gain](double u, int, int x, int y, double)
+      {
+        return gain * u *
+          (1.0 - 0.08 * (std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2)));
+      }));
+    SCOPED_TRACE(describe(report));
+    ASSERT_EQ(report.causes.size(), 2U);
+    EXPECT_EQ(report.causes[0].effect, "exposure_gain");
+    EXPECT_EQ(report.causes[1].effect, "vignetting");
+    EXPECT_GT(report.causes[1].probability, 0.9);
+  }
+}
+
+TEST(FieldMistakes, ADeadChannelIsNamed)
+{
+  const TestScene scene(66);
+  const GapReport report = diagnose(changed(
+    scene, 76, [](double u, int k, int, int, double) { return k == 1 ? 0.0 : exponent(u); }));
+  EXPECT_TRUE(says(report, "Dead? Channel C2 does not change with the scene")) << describe(report);
+}
+
+// A scene without contrast has no slope by which its unit could be told.
+TEST(FieldMistakes, AFlatField)
+{
+  const TestScene scene(67, 3, 96, 80);
+  TestPair pair = changed(scene, 77, [](double u, int, int, int, double) { return u; });
+  const msi::CounterRandom random(5);
+  for (std::size_t i = 0; i < pair.real.size(); ++i)
+  {
+    pair.simulated[i] = 0.4F;
+    pair.real[i] = static_cast<float>(0.4 + 0.003 * random.normal(i));
+  }
+  const GapReport report = diagnose(pair);
+  EXPECT_EQ(report.verdict, GapVerdict::NoGap) << describe(report);
+  EXPECT_FALSE(says(report, "units of white"));
+}

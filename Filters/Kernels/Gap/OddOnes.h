@@ -1,0 +1,54 @@
+// Samples or blocks of pixels that fit nothing, and a diagnosis without them. A wrong label, dust or glare makes such ones.
+#pragma once
+
+#include "Kernels/Gap/GapReport.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace msi
+{
+
+using IndexList = std::vector<Eigen::Index>;
+
+// Numbers of those that are few, with those left out before, and far beyond most others in what is left of them, which is much
+// of all that is left. left: of each, over what noise allows.
+IndexList oddOnes(const Eigen::VectorXd& left, std::size_t leftOut);
+
+// Where something unknown is more likely than not, the diagnosis is done again without those that are odd, until none are; that
+// counts where it makes something unknown half as likely.
+//   diagnose(odd): empties where it was stopped; without `odd`, too, which is then what is odd after it.
+//   reportOf(result): its report. mixedUp(): whether all is in disorder.
+//   note(): what is said of all that are left out, where without them there is no gap.
+template <typename Diagnose, typename ReportOf, typename MixedUp, typename Note>
+auto diagnoseWithoutOdd(const Diagnose& diagnose, const ReportOf& reportOf, const MixedUp& mixedUp,
+  const Note& note) -> decltype(diagnose(std::declval<IndexList&>()))
+{
+  IndexList odd;
+  auto all = diagnose(odd);
+  const auto unknown = [&](auto& result) { return reportOf(*result).probabilityOf("unknown"); };
+  if (!all || odd.empty() || unknown(all) <= 0.5 || mixedUp())
+  {
+    return all;
+  }
+  decltype(all) others;
+  while (!odd.empty())
+  {
+    others = diagnose(odd);
+    if (!others)
+    {
+      return others;
+    }
+  }
+  if (reportOf(*others).verdict == GapVerdict::NoGap)
+  {
+    std::vector<std::string>& notes = reportOf(*all).notes;
+    notes.insert(notes.begin(), note());
+    return all;
+  }
+  return unknown(others) < 0.5 * unknown(all) ? std::move(others) : std::move(all);
+}
+
+} // namespace msi

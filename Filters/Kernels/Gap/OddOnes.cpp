@@ -12,7 +12,7 @@ namespace msi
 namespace
 {
 constexpr std::size_t Few = 3;
-constexpr std::size_t OneIn = 20; // at the most
+constexpr std::size_t OneIn = 8; // at the most
 constexpr double MuchOfLeft = 0.25;
 }
 

@@ -1,6 +1,7 @@
 #include "ResponseRange.h"
 
 #include "ImagePieces.h"
+#include "Kernels/Spectra/Counted.h"
 #include "ThreadedParts.h"
 
 #include "vtkDataArray.h"
@@ -57,16 +58,6 @@ std::string nameOf(const SpectralAxis& channels, std::size_t k)
   return channels.names[k] + (channels.wavelengths ? " nm" : "");
 }
 
-std::string listOf(const std::vector<std::string>& names)
-{
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  }
-  return list;
-}
-
 std::string zeroChannels(const Eigen::Array<bool, Eigen::Dynamic, 1>& isZero,
   const SpectralAxis& channels, const std::string& where)
 {
@@ -79,7 +70,7 @@ std::string zeroChannels(const Eigen::Array<bool, Eigen::Dynamic, 1>& isZero,
     }
   }
   return names.empty() ? std::string()
-                       : (names.size() == 1 ? "channel " : "channels ") + listOf(names) +
+                       : (names.size() == 1 ? "channel " : "channels ") + listed(names) +
       (names.size() == 1 ? " is 0 in " : " are 0 in ") + where;
 }
 

@@ -59,9 +59,9 @@ std::optional<CameraNoise> noiseOf(const JsonText& reader, const Json& json)
   }
   reader.requireType(noise->is_object(), "noise", "an object with read and shot, or null");
   const auto value = [&](const char* key) { return reader.numberFromZero(*noise, key); };
-  return CameraNoise{ value("read").value_or(0.0), value("shot").value_or(0.0),
-    value("fixed_pattern_gain").value_or(0.0), value("fixed_pattern_offset").value_or(0.0),
-    value("quantisation_step").value_or(0.0) };
+  return CameraNoise{ reader.deviation(*noise, "read").value_or(0.0),
+    reader.deviation(*noise, "shot").value_or(0.0), value("fixed_pattern_gain").value_or(0.0),
+    value("fixed_pattern_offset").value_or(0.0), value("quantisation_step").value_or(0.0) };
 }
 
 void noteUnknownKeys(const std::string& path, const Json& json, std::vector<std::string>& notes)

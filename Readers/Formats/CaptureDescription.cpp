@@ -9,8 +9,6 @@ namespace msi
 
 namespace
 {
-constexpr double LargestNoise = 0.5; // relative to white; a deviation in counts is larger
-
 void noteUnknownKeys(const JsonText::Json& json, CaptureDescription& capture)
 {
   for (const auto& [key, value] : json.items())
@@ -41,14 +39,7 @@ CaptureDescription parseCaptureDescription(const std::string& file, const std::s
   if (const JsonText::Json* noise = JsonText::find(json, "noise"))
   {
     reader.requireType(noise->is_object(), "noise", "an object with read and shot, or null");
-    const auto deviation = [&](const char* key)
-    {
-      const std::optional<double> value = reader.numberFromZero(*noise, key);
-      reader.requireType(!value || *value <= LargestNoise, key,
-        "a standard deviation relative to white, up to 0.5 (counts over the white level), or null");
-      return value;
-    };
-    capture.noise = { deviation("read"), deviation("shot") };
+    capture.noise = { reader.deviation(*noise, "read"), reader.deviation(*noise, "shot") };
   }
   noteUnknownKeys(json, capture);
   return capture;

@@ -219,6 +219,11 @@ TEST_F(CameraDescriptions, DescriptionErrors)
   EXPECT_EQ(cameraError("{\"noise\": {\"shot\": -1}}"),
     "camera.json:1:12: 'shot' has a value that cannot be used; expected a number from 0 up, or "
     "null; correct the value");
+  EXPECT_NE(
+    cameraError("{\"noise\": {\"read\": 12}}")
+      .find("'read' has a value that cannot be used; expected a standard deviation relative "
+            "to white, up to 0.5 (counts over the white level)"),
+    std::string::npos);
   EXPECT_EQ(cameraError("{\"white_after_effects\": 1}"),
     "camera.json:1:2: 'white_after_effects' has a value that cannot be used; expected true or "
     "false; correct the value");

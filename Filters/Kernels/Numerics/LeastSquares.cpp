@@ -1,6 +1,7 @@
 #include "Kernels/Numerics/LeastSquares.h"
 
 #include "Kernels/Numerics/ThinSvd.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,16 +82,12 @@ double rootMeanSquare(const Eigen::MatrixXd& values)
 
 std::string listOfRows(const std::vector<Eigen::Index>& rows)
 {
-  std::string text;
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  std::vector<std::string> numbers;
+  for (const Eigen::Index row : rows)
   {
-    if (i > 0)
-    {
-      text += i + 1 == rows.size() ? " and " : ", ";
-    }
-    text += std::to_string(rows[i] + 1);
+    numbers.push_back(std::to_string(row + 1));
   }
-  return text;
+  return listed(numbers);
 }
 
 } // namespace msi

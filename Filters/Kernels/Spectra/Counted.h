@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace msi
 {
@@ -10,6 +11,17 @@ namespace msi
 inline std::string counted(std::ptrdiff_t count, const char* noun)
 {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+// "a, b and c"
+inline std::string listed(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+  }
+  return text;
 }
 
 } // namespace msi

@@ -120,6 +120,15 @@ std::optional<double> JsonText::numberFromZero(const Json& object, const char* k
   return value;
 }
 
+std::optional<double> JsonText::deviation(const Json& object, const char* key) const
+{
+  constexpr double Largest = 0.5;
+  const auto value = numberFromZero(object, key);
+  requireType(!value || *value <= Largest, key,
+    "a standard deviation relative to white, up to 0.5 (counts over the white level), or null");
+  return value;
+}
+
 std::optional<bool> JsonText::truth(const Json& object, const char* key) const
 {
   const Json* value = find(object, key);

@@ -32,6 +32,8 @@ public:
   std::optional<std::string> text(const Json& object, const char* key) const;
   std::optional<double> number(const Json& object, const char* key) const;
   std::optional<double> numberFromZero(const Json& object, const char* key) const;
+  // Of noise, relative to white; counts are larger.
+  std::optional<double> deviation(const Json& object, const char* key) const;
   std::optional<bool> truth(const Json& object, const char* key) const;
   // One number, or one per channel; empty where the key is missing or null.
   std::vector<double> channelNumbers(const Json& object, const char* key) const;

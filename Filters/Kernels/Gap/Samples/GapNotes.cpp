@@ -5,6 +5,7 @@
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/EffectSet.h"
 #include "Kernels/Gap/Samples/GapEvidence.h"
+#include "Kernels/Spectra/Counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,17 +16,6 @@ namespace msi
 
 namespace
 {
-// "a, b and c"
-std::string enumerated(const std::vector<std::string>& names)
-{
-  std::string all = names.front();
-  for (std::size_t i = 1; i < names.size(); ++i)
-  {
-    all += (i + 1 < names.size() ? ", " : " and ") + names[i];
-  }
-  return all;
-}
-
 constexpr double ClippedReadings = 0.01; // of all at the largest value
 constexpr double FarFromWhite = 2.0;     // factor
 constexpr double FarBelowModel = 0.5;    // scatter of the repeats
@@ -94,7 +84,7 @@ std::string namesOf(EffectNeed need)
       std::replace(names.back().begin(), names.back().end(), '_', ' ');
     }
   }
-  return enumerated(names);
+  return listed(names);
 }
 
 void noteUnknown(std::vector<std::string>& notes, const Eigen::ArrayXd& column, const char* what,
@@ -316,7 +306,7 @@ std::string oddSamplesNote(
   {
     names.push_back(data.names[static_cast<std::size_t>(i)]);
   }
-  return textOf(3, "Odd? ", enumerated(names), " (", samples.size(), " of ", data.samples(),
+  return textOf(3, "Odd? ", listed(names), " (", samples.size(), " of ", data.samples(),
     " samples)", consequence,
     ": far from what is found in all others. Look at label, patch and readings.");
 }

@@ -172,13 +172,14 @@ Eigen::MatrixXd band(const Eigen::ArrayXd& weight, Eigen::Index count)
   return matrix;
 }
 
-// The scene in a block, moved and blurred, and its derivatives by displacement and blur: width x height, by pixel number, too.
+// The scene in a block, moved and blurred, and, where they are asked for (0 otherwise), its derivatives by displacement and blur:
+// width x height, by pixel number, too.
 struct Neighbourhood
 {
   Eigen::MatrixXd value, right, down, blur;
 
   Neighbourhood(const FieldData& data, const ImageWindow& window, Eigen::Index channel,
-    const Eigen::Vector2d& displacement, double variance)
+    const Eigen::Vector2d& displacement, double variance, bool derivatives)
   {
     const AxisKernel x(displacement.x(), variance);
     const AxisKernel y(displacement.y(), variance);
@@ -198,6 +199,11 @@ struct Neighbourhood
     const Eigen::MatrixXd along = band(x.value, window.width) * scene;
     const Eigen::MatrixXd across = band(y.value, window.height).transpose();
     value = along * across;
+    if (!derivatives)
+    {
+      right = down = blur = Eigen::MatrixXd::Zero(window.width, window.height);
+      return;
+    }
     right = band(x.shift, window.width) * scene * across;
     down = along * band(y.shift, window.height).transpose();
     blur =
@@ -235,7 +241,9 @@ public:
     , Glare(glare[channel])
     , Middle(middleOf(data.pair, block.window))
     , Where(model.displacement(channel))
-    , Near(data, block.window, channel, Where.at(Middle), model.blurVariance(channel))
+    , Near(data, block.window, channel, Where.at(Middle), model.blurVariance(channel),
+        std::any_of(Steps.begin(), Steps.end(),
+          [](const ChannelStep& step) { return step.placed->step->stage == ImageStage::Scene; }))
     , TailWeights(model.tailWeights(channel))
   {
     const auto pixels = static_cast<int>(block.window.pixels());

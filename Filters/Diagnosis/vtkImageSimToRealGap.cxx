@@ -19,6 +19,7 @@
 #include "vtkTable.h"
 
 #include "Kernels/Gap/Field/FieldCorrection.h"
+#include "Kernels/Gap/Field/FieldFrame.h"
 
 #include <algorithm>
 #include <array>
@@ -224,7 +225,9 @@ int vtkImageSimToRealGap::RequestData(
       const auto gap = newArray("Gap", real);
       const auto after = newArray("GapAfter", real);
       const auto corrected = newArray("Corrected", real);
-      writeGap(pair, found, gap->GetPointer(0), after->GetPointer(0), corrected->GetPointer(0));
+      const msi::FramelessPair inside(pair);
+      writeGap(
+        inside.pair(), found, gap->GetPointer(0), after->GetPointer(0), corrected->GetPointer(0));
       for (vtkFloatArray* array : { corrected.Get(), after.Get(), gap.Get() })
       {
         msi::setAxis(output, array, axis);

@@ -6,7 +6,6 @@
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -115,7 +114,6 @@ constexpr double UsablePart = 0.25;
 constexpr double MostMean = 2.0;    // white
 constexpr double OtherUnit = 5.0;   // times
 constexpr double SameScale = 1.1;   // times
-constexpr double DarkFrame = 0.25;  // of the mean of all
 constexpr double Correlated = 0.25; // squared
 
 // Of each channel.
@@ -336,76 +334,6 @@ void addTails(FieldData& data, const Region& region)
 }
 }
 
-std::vector<float> withoutFrame(const FieldPair& pair, const float* image, const float* other)
-{
-  const std::size_t K = pair.channels.size();
-  const int width = pair.extent.width;
-  const int height = pair.extent.height;
-  std::vector<char> inFrame(pair.pixels(), 0);
-  std::vector<std::size_t> frame;
-  const auto look = [&](int x, int y)
-  {
-    if (x < 0 || y < 0 || x >= width || y >= height || inFrame[pair.index(x, y)] != 0)
-    {
-      return;
-    }
-    const float* values = image + pair.index(x, y) * K;
-    if (std::all_of(values, values + K, [](float value) { return value == 0.0F; }))
-    {
-      inFrame[pair.index(x, y)] = 1;
-      frame.push_back(pair.index(x, y));
-    }
-  };
-  for (int x = 0; x < width; ++x)
-  {
-    look(x, 0);
-    look(x, height - 1);
-  }
-  for (int y = 0; y < height; ++y)
-  {
-    look(0, y);
-    look(width - 1, y);
-  }
-  for (std::size_t next = 0; next < frame.size();)
-  {
-    const std::size_t pixel = frame[next++];
-    const int x = static_cast<int>(pixel % static_cast<std::size_t>(width));
-    const int y = static_cast<int>(pixel / static_cast<std::size_t>(width));
-    look(x - 1, y);
-    look(x + 1, y);
-    look(x, y - 1);
-    look(x, y + 1);
-  }
-  if (2 * frame.size() < static_cast<std::size_t>(std::min(width, height)) ||
-    2 * frame.size() > pair.pixels())
-  {
-    return {};
-  }
-  // Of the other image, in the frame and in all.
-  std::array<double, 2> light{}, count{};
-  for (std::size_t i = 0; i < pair.pixels() * K; ++i)
-  {
-    const auto value = static_cast<double>(other[i]);
-    for (const std::size_t part : { 0, 1 })
-    {
-      const bool counts = std::isfinite(value) && (part == 1 || inFrame[i / K] != 0);
-      light[part] += counts ? value : 0.0;
-      count[part] += counts ? 1.0 : 0.0;
-    }
-  }
-  if (light[0] * count[1] < DarkFrame * light[1] * count[0])
-  {
-    return {};
-  }
-  std::vector<float> without(image, image + pair.pixels() * K);
-  for (const std::size_t pixel : frame)
-  {
-    std::fill_n(without.begin() + static_cast<std::ptrdiff_t>(pixel * K), K,
-      std::numeric_limits<float>::quiet_NaN());
-  }
-  return without;
-}
-
 void leaveOut(FieldData& data, const std::vector<Eigen::Index>& blocks)
 {
   for (auto b = blocks.rbegin(); b != blocks.rend(); ++b)
@@ -424,19 +352,8 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
       pair.channels.size(), " channels; expected at least one of each");
   }
   FieldData data;
-  data.pair = pair;
-  data.real = withoutFrame(pair, pair.real, pair.simulated);
-  data.simulated = withoutFrame(pair, pair.simulated, pair.real);
-  for (auto [own, image] :
-    { std::pair(&data.real, &data.pair.real), std::pair(&data.simulated, &data.pair.simulated) })
-  {
-    const auto count = static_cast<double>(own->size());
-    for (std::size_t i = 0; i < own->size(); ++i)
-    {
-      data.framePart += std::isnan((*own)[i]) && !std::isnan((*image)[i]) ? 1.0 / count : 0.0;
-    }
-    *image = own->empty() ? *image : own->data();
-  }
+  data.inside = FramelessPair(pair);
+  data.pair = data.inside.pair();
   const std::vector<PairSums> sums = channelSums(data.pair);
   requireRelativeToWhite(sums);
   data.filled = filledScene(data.pair);

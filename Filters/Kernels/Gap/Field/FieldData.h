@@ -1,6 +1,7 @@
 // An image pair made ready for fitting: blocks of usable pixels, the tail of their surround, folds.
 #pragma once
 
+#include "Kernels/Gap/Field/FieldFrame.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/Field/FieldPair.h"
 
@@ -17,10 +18,6 @@ namespace msi
 // The simulated image without gaps: gaps take the values at both sides in their row. Empty where there
 // are none.
 std::vector<float> filledScene(const FieldPair& pair);
-
-// An image with NaN where a frame around it is 0 in all channels, as registration leaves it; empty where the other image is as
-// dark there.
-std::vector<float> withoutFrame(const FieldPair& pair, const float* image, const float* other);
 
 // The simulated image in 64 x 64 cells: what each adds to the mean of the scene and the place of its light, cells x K.
 // A smooth factor of the field may be taken at that place.
@@ -58,14 +55,13 @@ struct FieldBlock
 
 struct FieldData
 {
-  FieldPair pair;                     // without frames
-  std::vector<float> real, simulated; // withoutFrame()
-  std::vector<float> filled;          // filledScene()
-  Eigen::ArrayXd unit; // of the real image's channels, K; FieldBlock::real is divided by it
+  FramelessPair inside;
+  FieldPair pair;            // of that
+  std::vector<float> filled; // filledScene()
+  Eigen::ArrayXd unit;       // of the real image's channels, K; FieldBlock::real is divided by it
   std::vector<FieldBlock> blocks;
   std::vector<ImageWindow> leftOut; // blocks
   double usablePart = 0.0;          // of the image's pixels
-  double framePart = 0.0;           // of the pixels, withoutFrame()
   SceneCells cells;
 
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }

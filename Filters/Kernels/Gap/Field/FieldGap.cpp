@@ -251,9 +251,9 @@ std::vector<std::string> notesOn(
   {
     notes.push_back(oddBlocksNote(data, " left out"));
   }
-  if (data.framePart > 0.0)
+  if (data.inside.part() > 0.0)
   {
-    notes.push_back(textOf(2, "a frame of ", 100.0 * data.framePart,
+    notes.push_back(textOf(2, "a frame of ", 100.0 * data.inside.part(),
       " % of the pixels is 0 in all channels of one image, as registration leaves it, and takes no "
       "part"));
   }

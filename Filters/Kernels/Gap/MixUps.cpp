@@ -69,7 +69,7 @@ std::string deadChannel(
   for (std::size_t k = 0; k < channels.size(); ++k)
   {
     if (!channels[k].isFlat() && contrast[static_cast<Eigen::Index>(k)] < Dead * usual &&
-      correlationOf(channels[k]) < HardlyTogether)
+      (channels[k].isSteady() || correlationOf(channels[k]) < HardlyTogether))
     {
       return "Dead? Channel " + names[k] +
         " does not change with the scene as the others do: is it connected, and nothing before it?";

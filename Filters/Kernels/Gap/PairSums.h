@@ -33,12 +33,15 @@ struct PairSums
   double ofBoth() const noexcept { return products - real * simulated / count(); }
   // The deviation of what is simulated is small beside it.
   bool isFlat() const noexcept { return ofSimulated() <= Flat * Flat * simulatedSquares; }
+  // What is real is the same everywhere but for rounding.
+  bool isSteady() const noexcept { return ofReal() <= Rounding * realSquares; }
   // Of the straight line through the origin: its slope, and the squares that it leaves.
   double gain() const noexcept { return products / std::fmax(simulatedSquares, 1e-30); }
   double left() const noexcept { return realSquares - gain() * products; }
 
 private:
   static constexpr double Flat = 0.05;
+  static constexpr double Rounding = 1e-9;
   double count() const noexcept { return std::fmax(n, 1.0); }
 };
 

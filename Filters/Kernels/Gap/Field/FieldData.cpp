@@ -151,34 +151,48 @@ void requireRelativeToWhite(const std::vector<PairSums>& sums)
 }
 
 // The unit of each channel of the real image, where it is not that of the simulated one (white = 1): counts, say. 1 where the
-// images agree within a factor of five, else the same for all channels where that is enough.
+// images agree within a factor of five, else the same for all channels where that is enough. A channel that does not go with the
+// simulated one (a dead one) has that of the others.
 Eigen::ArrayXd fieldUnits(const std::vector<PairSums>& sums)
 {
-  Eigen::ArrayXd ratio(static_cast<Eigen::Index>(sums.size()));
-  for (std::size_t k = 0; k < sums.size(); ++k)
+  const auto channels = static_cast<Eigen::Index>(sums.size());
+  Eigen::ArrayXd ratio(channels);
+  std::vector<double> slopes; // of straight lines where the images go together
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index k = 0; k < channels; ++k)
   {
-    const PairSums& sum = sums[k];
+    const PairSums& sum = sums[static_cast<std::size_t>(k)];
     const double both = sum.ofBoth();
-    // A straight line where the images go together, else through the origin.
-    const bool line =
-      !sum.isFlat() && both > 0.0 && both * both > Correlated * sum.ofReal() * sum.ofSimulated();
-    ratio[static_cast<Eigen::Index>(k)] =
-      line ? both / std::fmax(sum.ofSimulated(), 1e-30) : sum.gain();
+    if (!sum.isFlat() && !sum.isSteady() && both > 0.0 &&
+      both * both > Correlated * sum.ofReal() * sum.ofSimulated())
+    {
+      ratio[k] = both / sum.ofSimulated();
+      slopes.push_back(ratio[k]);
+    }
+    else
+    {
+      ratio[k] = sum.gain();
+      others.push_back(k);
+    }
+  }
+  if (!slopes.empty())
+  {
+    ratio(others).setConstant(
+      orderStatistic(slopes, static_cast<std::ptrdiff_t>(slopes.size() / 2)));
   }
   const auto alike = [](const Eigen::ArrayXd& values)
   { return (values >= 1.0 / OtherUnit).all() && (values <= OtherUnit).all(); };
   if (alike(ratio) || !(ratio > 0.0).all())
   {
-    return Eigen::ArrayXd::Ones(ratio.size());
+    return Eigen::ArrayXd::Ones(channels);
   }
-  double common = orderStatistic(ratio, ratio.size() / 2);
+  double common = orderStatistic(ratio, channels / 2);
   // Full scale of percent and of files of 8 to 16 bits, if it is that; not what is brighter or darker by an effect.
   for (const double scale : { 100.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0 })
   {
     common = std::fmax(common / scale, scale / common) < SameScale ? scale : common;
   }
-  return alike(ratio / common) ? Eigen::ArrayXd(Eigen::ArrayXd::Constant(ratio.size(), common))
-                               : ratio;
+  return alike(ratio / common) ? Eigen::ArrayXd(Eigen::ArrayXd::Constant(channels, common)) : ratio;
 }
 
 struct Region

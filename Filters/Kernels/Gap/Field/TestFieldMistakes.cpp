@@ -133,9 +133,20 @@ TEST(FieldMistakes, AnEffectBesideALargeGain)
 TEST(FieldMistakes, ADeadChannelIsNamed)
 {
   const TestScene scene(66);
-  const GapReport report = diagnose(changed(
-    scene, 76, [](double u, int k, int, int, double) { return k == 1 ? 0.0 : exponent(u); }));
-  EXPECT_TRUE(says(report, "Dead? Channel C2 does not change with the scene")) << describe(report);
+  for (const float dead : { 0.0F, 0.001F }) // with noise, and the same everywhere
+  {
+    TestPair pair = changed(
+      scene, 76, [](double u, int k, int, int, double) { return k == 1 ? 0.0 : exponent(u); });
+    for (std::size_t i = 1; dead > 0.0F && i < pair.real.size(); i += 3)
+    {
+      pair.real[i] = dead;
+    }
+    const GapReport report = diagnose(pair);
+    SCOPED_TRACE(describe(report));
+    EXPECT_TRUE(says(report, "Dead? Channel C2 does not change with the scene"));
+    EXPECT_FALSE(says(report, "units of white"));
+    EXPECT_LT(report.gap.rmsBefore, 1.0);
+  }
 }
 
 // A scene without contrast has no slope by which its unit could be told.

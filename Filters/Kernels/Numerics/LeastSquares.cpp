@@ -83,6 +83,7 @@ double rootMeanSquare(const Eigen::MatrixXd& values)
 std::string listOfRows(const std::vector<Eigen::Index>& rows)
 {
   std::vector<std::string> numbers;
+  numbers.reserve(rows.size());
   for (const Eigen::Index row : rows)
   {
     numbers.push_back(std::to_string(row + 1));

@@ -49,13 +49,10 @@ double leftOf(const std::vector<PairSums>& channels)
     [](double sum, const PairSums& channel) { return sum + channel.left(); });
 }
 
-// Squared and with its sign; 1 where what is simulated is flat.
+// 1 where what is simulated is flat.
 double correlationOf(const PairSums& sums)
 {
-  const double both = sums.ofBoth();
-  return sums.n < 3.0 || sums.isFlat()
-    ? 1.0
-    : both * std::fabs(both) / (sums.ofSimulated() * std::fmax(sums.ofReal(), 1e-300));
+  return sums.n < 3.0 || sums.isFlat() ? 1.0 : sums.correlation();
 }
 
 // A channel that does not change with the scene as the others do.

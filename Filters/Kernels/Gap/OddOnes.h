@@ -5,7 +5,8 @@
 
 #include <Eigen/Core>
 
-#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace msi

@@ -31,6 +31,11 @@ struct PairSums
   double ofReal() const noexcept { return realSquares - real * real / count(); }
   double ofSimulated() const noexcept { return simulatedSquares - simulated * simulated / count(); }
   double ofBoth() const noexcept { return products - real * simulated / count(); }
+  // Squared and with its sign.
+  double correlation() const noexcept
+  {
+    return ofBoth() * std::fabs(ofBoth()) / (ofSimulated() * std::fmax(ofReal(), 1e-300));
+  }
   // The deviation of what is simulated is small beside it.
   bool isFlat() const noexcept { return ofSimulated() <= Flat * Flat * simulatedSquares; }
   // What is real is the same everywhere but for rounding.

@@ -162,11 +162,9 @@ Eigen::ArrayXd fieldUnits(const std::vector<PairSums>& sums)
   for (Eigen::Index k = 0; k < channels; ++k)
   {
     const PairSums& sum = sums[static_cast<std::size_t>(k)];
-    const double both = sum.ofBoth();
-    if (!sum.isFlat() && !sum.isSteady() && both > 0.0 &&
-      both * both > Correlated * sum.ofReal() * sum.ofSimulated())
+    if (!sum.isFlat() && !sum.isSteady() && sum.correlation() > Correlated)
     {
-      ratio[k] = both / sum.ofSimulated();
+      ratio[k] = sum.ofBoth() / sum.ofSimulated();
       slopes.push_back(ratio[k]);
     }
     else

@@ -151,10 +151,8 @@ Eigen::ArrayXd energyBesideGain(const std::vector<Eigen::MatrixXd>& normals)
     square += normal(FieldColumn::gain(), FieldColumn::gain());
     gained += normal(FieldColumn::gain(), FieldColumn::residual());
   }
-  const double gain = gained / std::fmax(square, 1e-30);
-  const double large = gain - std::clamp(gain, -Decision::SmallPart, Decision::SmallPart);
   Eigen::VectorXd change = Eigen::VectorXd::Zero(FieldColumn::residual());
-  change[FieldColumn::gain()] = large;
+  change[FieldColumn::gain()] = Decision::largeGain(gained / std::fmax(square, 1e-30));
   Eigen::ArrayXd energy(static_cast<Eigen::Index>(normals.size()));
   std::transform(normals.begin(), normals.end(), energy.begin(),
     [&change](const Eigen::MatrixXd& normal) { return energyLeft(normal, change); });
@@ -168,6 +166,7 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
   std::vector<Eigen::MatrixXd> normals;
   Eigen::ArrayXd noise = Eigen::ArrayXd::Zero(statistics.channels);
   Eigen::ArrayXd pixels = noise;
+  Eigen::ArrayXd energy = noise;
   for (Eigen::Index k = 0; k < statistics.channels; ++k)
   {
     normals.emplace_back(Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count()));
@@ -179,13 +178,11 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
         sums.pixels * noiseVariance(weights.noise[static_cast<std::size_t>(k)], sums.level);
       pixels[k] += sums.pixels;
     }
-    weights.limit.conservativeResize(k + 1);
-    weights.limit[k] = Decision::OutlierDeviations *
-      std::sqrt(normals.back()(FieldColumn::residual(), FieldColumn::residual()) /
-        std::fmax(pixels[k], 1.0));
+    energy[k] = normals.back()(FieldColumn::residual(), FieldColumn::residual());
   }
-  weights.tolerance =
-    Decision::FormPart * (energyBesideGain(normals) - noise).max(0.0) / pixels.max(1.0);
+  pixels = pixels.max(1.0);
+  weights.limit = Decision::OutlierDeviations * (energy / pixels).sqrt();
+  weights.tolerance = Decision::FormPart * (energyBesideGain(normals) - noise).max(0.0) / pixels;
   return weights;
 }
 

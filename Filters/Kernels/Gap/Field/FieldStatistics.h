@@ -60,8 +60,7 @@ struct FieldStatistics
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked = everyStep());
 
-// The squares of the residual, of each channel, without the part of a gain of all channels beyond Decision::SmallPart: that has an
-// exact form, and another exposure does not make the forms of other effects worse. normals: of each channel, with a column of the gain.
+// The squares of the residual, of each channel, without Decision::largeGain. normals: of each channel, with a column of the gain.
 Eigen::ArrayXd energyBesideGain(const std::vector<Eigen::MatrixXd>& normals);
 
 // Weights that go by a model's residual. Statistics: not weighted, with a column of the gain.

@@ -175,8 +175,7 @@ double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight)
   const Eigen::ArrayXXd u = data.simulated.array();
   const double square = sum(u.square());
   const double gain = square > 0.0 ? sum(u * data.observed.array()) / square : 1.0;
-  const double large =
-    gain - std::clamp(gain, 1.0 - Decision::SmallPart, 1.0 + Decision::SmallPart);
+  const double large = Decision::largeGain(gain - 1.0);
   return sum((data.observed.array() - (1.0 + large) * u).square());
 }
 

@@ -45,8 +45,7 @@ void fillInUnknown(SceneSamples& samples);
 GapData prepareGapData(
   const GapCapture& capture, const GapOptions& options, SampleList leftOut = {});
 
-// Of the weighted gap, where of a gain of all readings no more than Decision::SmallPart counts: it has an exact form, and other
-// units or another exposure do not make the forms of other effects worse.
+// Of the weighted gap, without Decision::largeGain.
 double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight);
 // Weights 1 / (variance + Decision::FormPart x mean square of that): the library's forms are approximations of the
 // physics, and below that part of the gap no element is trusted more than another.

@@ -95,12 +95,7 @@ int vtkMetamerismCorrection::RequestData(
         msi::requireMeasuredSamples(vtkTable::GetData(inputs[0]), "the calibration table");
       const auto medium =
         msi::requireMeasuredSamples(vtkTable::GetData(inputs[1]), "the tuning table");
-      msi::requireSameChannels(
-        chart.channels, "the calibration table", medium.channels, "the tuning table");
-      msi::requireSameBands(chart.bands, "the calibration table", medium.bands, "the tuning table");
-      msi::requireSameUnit(chart, "the calibration table", medium, "the tuning table");
-      const auto dead =
-        msi::deadChannels(chart.samples.response, chart.channels, "the calibration table");
+      msi::requireAlike(chart, medium);
       msi::writeResponseRange(
         vtkTable::GetData(outputs, 0), { chart.samples.response, medium.samples.response });
       msi::EstimationOptions options;
@@ -140,9 +135,9 @@ int vtkMetamerismCorrection::RequestData(
         vtkTable::GetData(outputs, 1));
       msi::write(name, fit.summary, vtkTable::GetData(outputs, 2));
       writeHistory(fit.history, vtkTable::GetData(outputs, 3));
-      if (!dead.empty())
+      for (const auto& doubt : msi::doubtsOf(chart, &medium))
       {
-        vtkWarningMacro(<< dead);
+        vtkWarningMacro(<< doubt);
       }
     });
 }

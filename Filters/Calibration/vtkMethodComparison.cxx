@@ -3,7 +3,6 @@
 #include "AlgorithmSupport.h"
 #include "HeldOutFigures.h"
 #include "NameList.h"
-#include "ResponseRange.h"
 #include "SampleColumns.h"
 #include "ThreadedParts.h"
 
@@ -104,18 +103,6 @@ private:
   vtkNew<vtkStringArray> Illuminant;
   vtkNew<vtkDoubleArray> Values[msi::FigureCount];
 };
-
-// The names of the target's samples; their numbers where it has none.
-std::vector<std::string> sampleNames(vtkTable* table)
-{
-  auto* names = table->GetColumnByName("sample");
-  std::vector<std::string> result;
-  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
-  {
-    result.push_back(names ? names->GetVariantValue(row).ToString() : std::to_string(row + 1));
-  }
-  return result;
-}
 
 std::string titleOf(const msi::ErrorName& name)
 {
@@ -252,7 +239,7 @@ void writeSamples(vtkTable* target, const std::vector<msi::ErrorName>& metrics,
 {
   vtkNew<vtkStringArray> names;
   names->SetName("sample");
-  for (const auto& name : sampleNames(target))
+  for (const auto& name : msi::sampleNames(target))
   {
     names->InsertNextValue(name);
   }
@@ -444,14 +431,7 @@ int vtkMethodComparison::RequestData(
         msi::requireMeasuredSamples(vtkTable::GetData(inputs[0]), "the calibration table");
       const auto medium =
         msi::requireMeasuredSamples(vtkTable::GetData(inputs[1]), "the target table");
-      msi::requireSameChannels(
-        chart.channels, "the calibration table", medium.channels, "the target table");
-      msi::requireSameBands(chart.bands, "the calibration table", medium.bands, "the target table");
-      msi::requireSameUnit(chart, "the calibration table", medium, "the target table");
-      const auto dead =
-        msi::deadChannels(chart.samples.response, chart.channels, "the calibration table");
-      const auto deadOfTarget =
-        msi::deadChannels(medium.samples.response, medium.channels, "the target table");
+      msi::requireAlike(chart, medium);
       msi::ComparisonOptions options;
       options.methods = msi::namesIn(this->Methods);
       if (options.methods == std::vector<std::string>{ "all" })
@@ -650,12 +630,9 @@ int vtkMethodComparison::RequestData(
       }
       writeSpectra(
         *chart.bands.wavelengths, std::move(firstDraw), target, vtkTable::GetData(outputs, 2));
-      for (const auto& warning : { dead, deadOfTarget })
+      for (const auto& doubt : msi::doubtsOf(chart, &medium))
       {
-        if (!warning.empty())
-        {
-          vtkWarningMacro(<< warning);
-        }
+        vtkWarningMacro(<< doubt);
       }
       for (std::size_t method = 0; method < options.methods.size(); ++method)
       {

@@ -55,11 +55,9 @@ int vtkReflectanceCalibration::RequestData(
       {
         vtkWarningMacro(<< fit.summary.status);
       }
-      const auto dead =
-        msi::deadChannels(measured.samples.response, measured.channels, "the calibration table");
-      if (!dead.empty())
+      for (const auto& doubt : msi::doubtsOf(measured))
       {
-        vtkWarningMacro(<< dead);
+        vtkWarningMacro(<< doubt);
       }
       msi::writeResponseRange(vtkTable::GetData(outputs, 0), { measured.samples.response });
       msi::write(msi::ReflectanceTransform{ measured.bands, measured.channels, fit.transform },

@@ -53,13 +53,8 @@ std::string percent(double share)
   return text.str();
 }
 
-std::string nameOf(const SpectralAxis& channels, std::size_t k)
-{
-  return channels.names[k] + (channels.wavelengths ? " nm" : "");
-}
-
-std::string zeroChannels(const Eigen::Array<bool, Eigen::Dynamic, 1>& isZero,
-  const SpectralAxis& channels, const std::string& where)
+std::string zeroChannels(
+  const Eigen::Array<bool, Eigen::Dynamic, 1>& isZero, const SpectralAxis& channels)
 {
   std::vector<std::string> names;
   for (Eigen::Index k = 0; k < isZero.size(); ++k)
@@ -71,7 +66,7 @@ std::string zeroChannels(const Eigen::Array<bool, Eigen::Dynamic, 1>& isZero,
   }
   return names.empty() ? std::string()
                        : (names.size() == 1 ? "channel " : "channels ") + listed(names) +
-      (names.size() == 1 ? " is 0 in " : " are 0 in ") + where;
+      (names.size() == 1 ? " is" : " are") + " 0 in every pixel of the image";
 }
 
 double quantile(std::vector<double>& values, double share)
@@ -264,7 +259,7 @@ ResponseJudgement judgeResponses(vtkInformation* input, vtkImageData* image,
   }
   ResponseJudgement judgement = range ? besideRange(pixels, *range, trusted) : ResponseJudgement{};
   judgement.missing = missing;
-  const std::string dead = zeroChannels(zero, channels, "every pixel of the image");
+  const std::string dead = zeroChannels(zero, channels);
   if (!dead.empty())
   {
     judgement.warning = dead + (judgement.warning.empty() ? "" : "; " + judgement.warning);
@@ -299,13 +294,6 @@ bool isWhole(vtkInformation* information, vtkImageData* image)
   std::array<int, 6> whole{};
   information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
   return std::equal(whole.begin(), whole.end(), image->GetExtent());
-}
-
-std::string deadChannels(
-  const Eigen::MatrixXd& responses, const SpectralAxis& channels, const std::string& nameOfTable)
-{
-  return zeroChannels(
-    (responses.array() == 0.0).rowwise().all(), channels, "every sample of " + nameOfTable);
 }
 
 } // namespace msi

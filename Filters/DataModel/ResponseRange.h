@@ -52,10 +52,6 @@ double excessOverRange(
 // True where the image is not a piece of a larger one: what is true of all its pixels is true of the image.
 bool isWhole(vtkInformation* information, vtkImageData* image);
 
-// The same channel that is 0 in every sample, as a warning; empty where there is none.
-std::string deadChannels(
-  const Eigen::MatrixXd& responses, const SpectralAxis& channels, const std::string& nameOfTable);
-
 } // namespace msi
 
 #endif

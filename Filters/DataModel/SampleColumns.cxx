@@ -9,6 +9,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
 
+#include "Kernels/Doubts/SampleDoubts.h"
 #include "Kernels/Spectra/PossibleValues.h"
 
 #include <algorithm>
@@ -207,8 +208,8 @@ MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameO
 {
   auto reflectance = requireSpectra(table, SampleQuantity::Reflectance, nameOfTable);
   auto response = requireSpectra(table, SampleQuantity::Response, nameOfTable);
-  MeasuredSamples measured{ std::move(reflectance.axis), std::move(response.axis),
-    { std::move(reflectance.values), std::move(response.values) } };
+  MeasuredSamples measured{ nameOfTable, std::move(reflectance.axis), std::move(response.axis),
+    { std::move(reflectance.values), std::move(response.values) }, sampleNames(table) };
   requireValid(measured.samples, nameOfTable);
   requirePossibleReflectance(measured.samples.reflectance, nameOfTable);
   requirePossibleResponse(measured.samples.response, nameOfTable);
@@ -216,21 +217,70 @@ MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameO
   return measured;
 }
 
-void requireSameUnit(const MeasuredSamples& a, const std::string& nameOfA, const MeasuredSamples& b,
-  const std::string& nameOfB)
+void requireAlike(const MeasuredSamples& a, const MeasuredSamples& b)
 {
+  requireSameChannels(a.channels, a.table, b.channels, b.table);
+  requireSameBands(a.bands, a.table, b.bands, b.table);
   const double ofA = typicalLevel(a.samples.response);
   const double ofB = typicalLevel(b.samples.response);
   if ((ofA > LargestRelativeLevel) != (ofB > LargestRelativeLevel))
   {
     std::ostringstream message;
-    message << "the responses of " << nameOfA << " reach " << ofA << ", those of " << nameOfB << " "
+    message << "the responses of " << a.table << " reach " << ofA << ", those of " << b.table << " "
             << ofB
             << " (median of the channels); expected both relative to white, or both in counts; "
                "divide the counts "
             << "by those of the perfect white";
     throw std::invalid_argument(message.str());
   }
+}
+
+namespace
+{
+// Those with finite values.
+NamedSamples named(const MeasuredSamples& samples)
+{
+  NamedSamples finite{ {}, samples.table, {} };
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index i = 0; i < samples.samples.size(); ++i)
+  {
+    if (samples.samples.reflectance.col(i).allFinite() &&
+      samples.samples.response.col(i).allFinite())
+    {
+      columns.push_back(i);
+      finite.names.push_back(samples.names[static_cast<std::size_t>(i)]);
+    }
+  }
+  finite.set = samples.samples.subset(columns);
+  return finite;
+}
+}
+
+std::vector<std::string> doubtsOf(const MeasuredSamples& chart, const MeasuredSamples* medium)
+{
+  std::vector<std::string> channels;
+  for (std::size_t k = 0; k < chart.channels.size(); ++k)
+  {
+    channels.push_back(nameOf(chart.channels, k));
+  }
+  if (medium == nullptr)
+  {
+    return doubtsOf(named(chart), channels);
+  }
+  const NamedSamples ofMedium = named(*medium);
+  return doubtsOf(named(chart), channels, &ofMedium);
+}
+
+std::vector<std::string> sampleNames(vtkTable* table)
+{
+  auto* column = table->GetColumnByName("sample");
+  std::vector<std::string> names;
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    names.push_back(
+      column ? column->GetVariantValue(row).ToString() : "row " + std::to_string(row + 1));
+  }
+  return names;
 }
 
 void copyRows(vtkTable* from, const std::vector<Eigen::Index>& rows, vtkTable* to)

@@ -63,16 +63,25 @@ void setNumbers(
 // A table's reflectance and response together, as the estimation kernels take them.
 struct MeasuredSamples
 {
+  std::string table; // by which name it is called
   SpectralAxis bands;
   SpectralAxis channels;
   SampleSet samples;
+  std::vector<std::string> names; // of the samples
 };
 // Throws std::invalid_argument also for values that no instrument gives (Kernels/Spectra/PossibleValues.h).
 MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameOfTable);
 
-// Throws std::invalid_argument where the responses of one table are counts and those of the other relative to white.
-void requireSameUnit(const MeasuredSamples& a, const std::string& nameOfA, const MeasuredSamples& b,
-  const std::string& nameOfB);
+// Throws std::invalid_argument where channels or bands differ, or the responses of one table are counts and those of the other
+// relative to white.
+void requireAlike(const MeasuredSamples& a, const MeasuredSamples& b);
+
+// What is doubted of them, as warnings (Kernels/Doubts/SampleDoubts.h). medium: may be null.
+std::vector<std::string> doubtsOf(
+  const MeasuredSamples& chart, const MeasuredSamples* medium = nullptr);
+
+// The column "sample" as text; without it "row 1", ..
+std::vector<std::string> sampleNames(vtkTable* table);
 
 // Copies the chosen rows, all columns, in the given order.
 void copyRows(vtkTable* from, const std::vector<Eigen::Index>& rows, vtkTable* to);

@@ -57,6 +57,11 @@ std::string describe(const SpectralAxis& axis, const char* what)
   return text.str();
 }
 
+std::string nameOf(const SpectralAxis& axis, std::size_t component)
+{
+  return axis.names[component] + (axis.wavelengths ? " nm" : "");
+}
+
 void requireSameChannels(const SpectralAxis& a, const std::string& nameOfA, const SpectralAxis& b,
   const std::string& nameOfB)
 {

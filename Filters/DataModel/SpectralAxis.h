@@ -26,6 +26,9 @@ std::string wavelengthText(double nanometres);
 
 SpectralAxis axisOf(const WavelengthGrid& wavelengths);
 
+// "400 nm", "C1"
+std::string nameOf(const SpectralAxis& axis, std::size_t component);
+
 // "16 channels (400, 420, .., 700 nm)" for error messages.
 std::string describe(const SpectralAxis& axis, const char* what);
 

@@ -3,7 +3,6 @@
 #include "AlgorithmSupport.h"
 #include "CameraFitTables.h"
 #include "CameraTable.h"
-#include "ResponseRange.h"
 #include "SampleColumns.h"
 #include "UsefulData.h"
 
@@ -82,7 +81,6 @@ int vtkCameraModelFit::RequestData(
       msi::requirePossibleReflectance(reflectance.values, name);
       msi::requirePossibleResponse(response.values, name);
       msi::requireResponsesThatChange(response.values, name);
-      const auto dead = msi::deadChannels(response.values, response.axis, name);
       msi::CameraModelFitOptions options;
       options.channels = columnsOf(response.axis);
       options.passbandWidth = this->PassbandWidth;
@@ -121,9 +119,10 @@ int vtkCameraModelFit::RequestData(
       msi::writeUncertainty(fit, vtkTable::GetData(outputs, 1));
       msi::writeSummary(fit, vtkTable::GetData(outputs, 2));
       msi::writeChannels(fit, vtkTable::GetData(outputs, 3));
-      if (!dead.empty())
+      for (const auto& doubt : msi::doubtsOf({ name, reflectance.axis, response.axis,
+             { reflectance.values, response.values }, msi::sampleNames(chart) }))
       {
-        vtkWarningMacro(<< dead);
+        vtkWarningMacro(<< doubt);
       }
     });
 }

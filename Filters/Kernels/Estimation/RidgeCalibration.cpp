@@ -26,6 +26,7 @@ struct CenteredSystem
   Eigen::VectorXd singular; // r
   Eigen::MatrixXd right;    // K x r
   Eigen::MatrixXd outputs;  // L x N
+  Eigen::MatrixXd along;    // r x N, outputs along the singular directions
   double singularLargest;
 };
 
@@ -62,6 +63,7 @@ CenteredSystem centeredSystem(const SampleSet& samples)
       system.right.row(k).setZero(); // free of the rounding of the decomposition
     }
   }
+  system.along = system.left.transpose() * system.outputs;
   return system;
 }
 
@@ -73,29 +75,33 @@ Eigen::VectorXd shrinkage(const CenteredSystem& system, double penalty)
   return squared / (squared + added);
 }
 
+Eigen::VectorXd leverageAt(const CenteredSystem& system, double penalty)
+{
+  return (system.left.cwiseAbs2() * shrinkage(system, penalty)).array() +
+    1.0 / static_cast<double>(system.outputs.rows());
+}
+
+// What the fit to all others leaves of each sample; L x N.
+Eigen::MatrixXd leftOutAt(const CenteredSystem& system, double penalty)
+{
+  const Eigen::MatrixXd residual =
+    system.outputs - system.left * (shrinkage(system, penalty).asDiagonal() * system.along);
+  return (1.0 - leverageAt(system, penalty).array()).inverse().matrix().asDiagonal() * residual;
+}
+
 double leaveOneOutRms(const CenteredSystem& system, double penalty)
 {
-  const Eigen::VectorXd kept = shrinkage(system, penalty);
-  const Eigen::MatrixXd residual =
-    system.outputs - system.left * (kept.asDiagonal() * (system.left.transpose() * system.outputs));
-  const Eigen::VectorXd leverage =
-    (system.left.cwiseAbs2() * kept).array() + 1.0 / static_cast<double>(system.outputs.rows());
   // A leverage of one says nothing about its sample: the system has no freedom left.
   constexpr double LargestLeverage = 1.0 - 1e-10;
-  if (leverage.maxCoeff() > LargestLeverage)
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-  const Eigen::MatrixXd leftOut =
-    (1.0 - leverage.array()).inverse().matrix().asDiagonal() * residual;
-  return std::sqrt(leftOut.cwiseAbs2().mean());
+  return leverageAt(system, penalty).maxCoeff() > LargestLeverage
+    ? std::numeric_limits<double>::infinity()
+    : std::sqrt(leftOutAt(system, penalty).cwiseAbs2().mean());
 }
 
 AffineTransform transformAt(const CenteredSystem& system, double penalty)
 {
   const Eigen::VectorXd weight = shrinkage(system, penalty).cwiseQuotient(system.singular);
-  const Eigen::MatrixXd scaled =
-    (system.right * (weight.asDiagonal() * (system.left.transpose() * system.outputs))).transpose();
+  const Eigen::MatrixXd scaled = (system.right * (weight.asDiagonal() * system.along)).transpose();
   Eigen::MatrixXd coefficients(scaled.rows(), scaled.cols() + 1);
   coefficients.leftCols(scaled.cols()) = scaled * system.responseScale.cwiseInverse().asDiagonal();
   coefficients.rightCols(1) =
@@ -140,7 +146,8 @@ RidgeFit fitRidge(const SampleSet& samples)
   status.precision(2);
   status << "penalty " << best << ", leave-one-out rms " << bestRms;
   fit.summary.status = status.str();
-  return { std::move(fit), best, bestRms };
+  return { std::move(fit), best, bestRms, leftOutAt(system, best).transpose(),
+    leverageAt(system, best) };
 }
 
 } // namespace msi

@@ -12,6 +12,9 @@ struct RidgeFit
   CalibrationFit fit;
   double penalty;        // lambda that was chosen; 0 where least squares is best
   double leaveOneOutRms; // rms over bands and left-out samples at that penalty
+  Eigen::MatrixXd
+    leftOut; // N x L, what the fit to all others leaves of each sample at that penalty
+  Eigen::VectorXd leverage; // L, of each sample on its own estimate: 0 .. 1
 };
 
 // W with the least ||R - W U~||^2 + lambda L ||W_s scale||^2: the channels are centered and divided by

@@ -65,10 +65,15 @@ TEST(RidgeCalibration, ClosedFormLeaveOneOutIsLeavingOneOut)
     const Eigen::MatrixXd w = (normal.inverse() * u * r.transpose()).transpose();
     Eigen::VectorXd left(4);
     left << samples.response.col(out).cwiseQuotient(scale), 1.0;
-    squared += (w * left - samples.reflectance.col(out)).squaredNorm();
+    const Eigen::VectorXd expected = samples.reflectance.col(out) - w * left;
+    EXPECT_LT((ridge.leftOut.col(out) - expected).norm(), 1e-9);
+    squared += expected.squaredNorm();
   }
   EXPECT_NEAR(ridge.leaveOneOutRms, std::sqrt(squared / static_cast<double>(4 * count)), 1e-9);
   EXPECT_GT(ridge.penalty, 0.0);
+  const Eigen::MatrixXd residual = samples.reflectance - ridge.fit.transform(samples.response);
+  const Eigen::VectorXd part = (1.0 - ridge.leverage.array()).matrix();
+  EXPECT_LT((ridge.leftOut * part.asDiagonal() - residual).norm(), 1e-9);
 }
 
 TEST(RidgeCalibration, GainOfAChannelDoesNotMatter)

@@ -2,7 +2,6 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
-#include "Kernels/Gap/OddOnes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
@@ -14,6 +13,7 @@
 #include "Kernels/Gap/Samples/SampleObservation.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
+#include "Kernels/Gap/WithoutOddOnes.h"
 
 #include <algorithm>
 #include <cmath>

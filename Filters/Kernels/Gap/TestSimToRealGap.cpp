@@ -746,4 +746,16 @@ TEST(DegenerateCapture, ImpossibleReadingsGiveNumbersOrAnError)
   }
 }
 
+TEST(SimToRealGap, AChartTurnedByHalfATurnIsMixedUp)
+{
+  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 0.9 } } });
+  EXPECT_FALSE(says(diagnosisOf(capture).notes, "Mixed up?"));
+  for (int& sample : capture.sampleOf)
+  {
+    sample = 95 - sample;
+  }
+  // rasterSamples() has a row after the other, so that turned is in reverse order, too.
+  EXPECT_TRUE(says(diagnosisOf(capture).notes, "Mixed up? The samples fit much better in reverse"));
+}
+
 } // namespace

@@ -24,4 +24,16 @@ inline std::string listed(const std::vector<std::string>& names)
   return text;
 }
 
+// The first few of many.
+inline std::string listedFew(std::vector<std::string> names, std::size_t most = 5)
+{
+  if (names.size() > most + 1)
+  {
+    const std::size_t others = names.size() - most;
+    names.resize(most);
+    names.push_back(std::to_string(others) + " others");
+  }
+  return listed(names);
+}
+
 } // namespace msi

@@ -18,6 +18,7 @@ else:
 _messages = vtkStringOutputWindow()
 _MESSAGE = re.compile(r"(ERROR|Warning): In [^\n]*, line \d+\n[^\n]*? \(0x[0-9a-f]+\): (.*?)\n\n", re.DOTALL)
 _noted = set()
+_readers = []  # that have notes on what they recognized in their files
 warnings = []  # of the filters, for the report
 
 
@@ -41,9 +42,7 @@ def fail_on_error():
         line = " ".join(text.split())
         if kind == "ERROR":
             raise Failure(line)
-        if line not in _noted and rank() == 0:
-            print(f"multispectral: note: {printable(line)}", file=sys.stderr, flush=True)
-        _noted.add(line)
+        _tell(line)
         if kind == "Warning" and line not in warnings:
             warnings.append(line)
 
@@ -60,6 +59,8 @@ def create(name, **properties):
     proxy = getattr(simple, name)(registrationName=name, **properties)
     fail_on_error()
     watch(proxy)
+    if proxy.GetProperty("Notes"):
+        _readers.append(proxy)
     return proxy
 
 
@@ -83,6 +84,17 @@ def update(*proxies):
     for proxy in proxies:
         proxy.UpdatePipeline()
         fail_on_error()
+    for reader in _readers:
+        reader.UpdatePropertyInformation()
+        for note in filter(None, str(reader.GetProperty("Notes").GetData() or "").split("\n")):
+            _tell(note)
+
+
+def _tell(note):
+    """Once."""
+    if note not in _noted and rank() == 0:
+        print(f"multispectral: note: {printable(note)}", file=sys.stderr, flush=True)
+    _noted.add(note)
 
 
 def port(proxy, index):
@@ -138,15 +150,6 @@ def number_of_rows(source):
 
 def _value(column, row):
     return column.GetValue(row)
-
-
-def tell_notes(reader):
-    """What a reader recognized, told once."""
-    reader.UpdatePropertyInformation()
-    for note in filter(None, str(reader.GetProperty("Notes").GetData() or "").split("\n")):
-        if note not in _noted and rank() == 0:
-            print(f"multispectral: note: {printable(note)}", file=sys.stderr, flush=True)
-        _noted.add(note)
 
 
 def save_table(source, path):

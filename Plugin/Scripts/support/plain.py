@@ -149,7 +149,8 @@ class Proxy:
         self._algorithm.UpdateInformation()
 
     def GetProperty(self, name):
-        return _Text(getattr(self._algorithm, self._description.information[name])())
+        command = self._description.information.get(name)
+        return _Text(getattr(self._algorithm, command)()) if command else None
 
 
 def _classes():

@@ -1,5 +1,5 @@
 #include "Kernels/Gap/Field/FieldData.h"
-#include "Kernels/Gap/PairSums.h"
+#include "Kernels/Doubts/PairSums.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Numerics/OrderStatistic.h"

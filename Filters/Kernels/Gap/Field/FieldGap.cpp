@@ -1,15 +1,15 @@
 #include "Kernels/Gap/Field/FieldGap.h"
 
+#include "Kernels/Doubts/MixUps.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldObservation.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
-#include "Kernels/Gap/MixUps.h"
-#include "Kernels/Gap/OddOnes.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
+#include "Kernels/Gap/WithoutOddOnes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "Kernels/Gap/Field/FieldStarts.h"
-#include "Kernels/Gap/PairSums.h"
+#include "Kernels/Doubts/PairSums.h"
 
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Numerics/Angle.h"

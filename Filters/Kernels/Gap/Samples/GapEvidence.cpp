@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Samples/GapEvidence.h"
 
+#include "Kernels/Doubts/OddOnes.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/OddOnes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Samples/GapNotes.h"
 
+#include "Kernels/Doubts/MixUps.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/MixUps.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Samples/EffectSet.h"
 #include "Kernels/Gap/Samples/GapEvidence.h"
@@ -294,8 +294,14 @@ void addExcessNoise(
 std::string mixUpOf(const GapData& data)
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  return mixUp(data.measured().select(data.observed, none), data.simulated,
-    arrangementsOf(data.scene), data.camera.channels(), data.names);
+  std::vector<Arrangement> arrangements = otherOrders(data.samples());
+  if (data.scene.hasPositions())
+  {
+    const std::vector<Arrangement> turned = turnedPlaces(data.scene.fieldX(), data.scene.fieldY());
+    arrangements.insert(arrangements.end(), turned.begin(), turned.end());
+  }
+  return mixUp(data.measured().select(data.observed, none), data.simulated, arrangements,
+    data.camera.channels(), data.names);
 }
 
 std::string oddSamplesNote(

@@ -1,6 +1,5 @@
-#include "Kernels/Gap/OddOnes.h"
+#include "Kernels/Doubts/OddOnes.h"
 
-#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
@@ -11,6 +10,8 @@ namespace msi
 
 namespace
 {
+constexpr double Far = 4.0;           // deviations of the usual one
+constexpr double BesideLargest = 0.1; // of the largest
 constexpr std::size_t Few = 3;
 constexpr std::size_t OneIn = 8; // at the most
 constexpr double MuchOfLeft = 0.25;
@@ -19,8 +20,7 @@ constexpr double MuchOfLeft = 0.25;
 IndexList oddOnes(const Eigen::VectorXd& left, std::size_t leftOut)
 {
   const double usual = std::fmax(orderStatistic(left, left.size() / 2), 1.0);
-  const double far =
-    std::fmax(std::pow(Decision::SureDeviations, 2) * usual, Decision::SmallPart * left.maxCoeff());
+  const double far = std::fmax(Far * Far * usual, BesideLargest * left.maxCoeff());
   IndexList odd;
   double ofOdd = 0.0;
   for (Eigen::Index n = 0; n < left.size(); ++n)

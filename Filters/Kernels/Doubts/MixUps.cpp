@@ -1,8 +1,6 @@
-#include "Kernels/Gap/MixUps.h"
+#include "Kernels/Doubts/MixUps.h"
 
-#include "Kernels/Camera/SampleScene.h"
-#include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/PairSums.h"
+#include "Kernels/Doubts/PairSums.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
@@ -17,6 +15,7 @@ namespace
 {
 constexpr double MuchBetter = 0.25;    // of the squares left
 constexpr double HardlyTogether = 0.5; // squared correlation
+constexpr double Outlier = 6.0;        // deviations of the usual one
 constexpr double Dead = 0.01;      // variance over that of the others, each over what is simulated
 constexpr double SamePlace = 1e-3; // squared distance
 constexpr std::size_t PairsNamed = 3;
@@ -144,16 +143,26 @@ std::string exchangedSamples(const Eigen::MatrixXd& observed, const Eigen::Matri
     own.push_back(off(i, i));
   }
   const double typical = orderStatistic(own, static_cast<std::ptrdiff_t>(own.size() / 2));
-  const double outlier = std::pow(Decision::OutlierDeviations, 2) * typical;
+  const double outlier = Outlier * Outlier * typical;
+  std::vector<Eigen::Index> outliers;
+  for (Eigen::Index i = 0; i < observed.cols(); ++i)
+  {
+    if (own[static_cast<std::size_t>(i)] > outlier)
+    {
+      outliers.push_back(i);
+    }
+  }
   Pairs pairs;
   std::set<Eigen::Index> taken;
-  for (Eigen::Index a = 0; a < observed.cols(); ++a)
+  for (auto first = outliers.begin(); first != outliers.end(); ++first)
   {
-    for (Eigen::Index b = a + 1; b < observed.cols(); ++b)
+    for (auto second = first + 1; second != outliers.end(); ++second)
     {
+      const Eigen::Index a = *first;
+      const Eigen::Index b = *second;
       const double both =
         std::fmin(own[static_cast<std::size_t>(a)], own[static_cast<std::size_t>(b)]);
-      if (both > outlier && taken.count(a) + taken.count(b) == 0 &&
+      if (taken.count(a) + taken.count(b) == 0 &&
         std::fmax(off(a, b), off(b, a)) < std::fmin(MuchBetter * both, outlier))
       {
         pairs.emplace_back(a, b);
@@ -188,6 +197,10 @@ std::string betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixX
   {
     found = exchangedChannels(observed, simulated, channels);
   }
+  if (found.empty() && !images)
+  {
+    found = exchangedSamples(observed, simulated, asTold, columns);
+  }
   if (!found.empty())
   {
     return found;
@@ -197,14 +210,10 @@ std::string betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixX
   {
     together += correlationOf(channel) / static_cast<double>(asTold.size());
   }
-  if (together < HardlyTogether)
-  {
-    return images ? "The real image hardly goes with the simulated one: is it the same scene, in "
-                    "the same place?"
-                  : "The readings hardly go with the samples: do they belong to these, in this "
-                    "order?";
-  }
-  return images ? std::string() : exchangedSamples(observed, simulated, asTold, columns);
+  return together >= HardlyTogether ? std::string()
+    : images ? "The real image hardly goes with the simulated one: is it the same scene, in the "
+               "same place?"
+             : "The readings hardly go with the samples: do they belong to these, in this order?";
 }
 }
 
@@ -238,9 +247,8 @@ std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::Arra
   return all;
 }
 
-std::vector<Arrangement> arrangementsOf(const SampleScene& scene)
+std::vector<Arrangement> otherOrders(Eigen::Index S)
 {
-  const Eigen::Index S = scene.size();
   std::vector<Arrangement> all{ { "in reverse order", {} },
     { "shifted by one, each taken for the one behind it", {} },
     { "shifted by one, each taken for the one before it", {} } };
@@ -249,11 +257,6 @@ std::vector<Arrangement> arrangementsOf(const SampleScene& scene)
     all[0].instead.push_back(S - 1 - i);
     all[1].instead.push_back((i + 1) % S);
     all[2].instead.push_back((i + S - 1) % S);
-  }
-  if (scene.hasPositions())
-  {
-    const std::vector<Arrangement> turned = turnedPlaces(scene.fieldX(), scene.fieldY());
-    all.insert(all.end(), turned.begin(), turned.end());
   }
   return all;
 }

@@ -1,6 +1,5 @@
-#include "Kernels/Gap/MixUps.h"
+#include "Kernels/Doubts/MixUps.h"
 
-#include "Kernels/Gap/Samples/GapTestData.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +9,6 @@
 
 namespace
 {
-
-using namespace msi::test;
 
 // 4 channels of 60 drawn samples; each channel is seen with a gain of its own and a little noise.
 class MixUps : public ::testing::Test
@@ -125,27 +122,19 @@ TEST_F(MixUps, AFlatFieldHasNone)
   EXPECT_EQ(found(), Texts());
 }
 
-TEST(MixUpsOfPlaces, AChartTurnedByHalfATurn)
+TEST(MixUpsOfPlaces, AFieldThatTurnsOntoItself)
 {
-  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 0.9 } } });
-  EXPECT_FALSE(says(diagnosisOf(capture).notes, "Mixed up?"));
-  // rasterSamples() has a row after the other, so that turned is in reverse order, too.
-  std::vector<std::string> turned;
-  for (const msi::Arrangement& one : msi::arrangementsOf(dataOf(capture).scene))
-  {
-    if (one.instead.front() == 95)
-    {
-      turned.push_back(one.what);
-    }
-  }
-  EXPECT_EQ(turned,
-    (Texts{ "in reverse order", "shifted by one, each taken for the one before it",
-      "turned by 180 degrees" }));
-  for (int& sample : capture.sampleOf)
-  {
-    sample = 95 - sample;
-  }
-  EXPECT_TRUE(says(diagnosisOf(capture).notes, "Mixed up? The samples fit much better in reverse"));
+  // A row after the other: turned is in reverse order, too.
+  const Eigen::Array<double, 6, 1> x{ 0, 1, 2, 0, 1, 2 };
+  const Eigen::Array<double, 6, 1> y{ 0, 0, 0, 1, 1, 1 };
+  const std::vector<msi::Arrangement> turned = msi::turnedPlaces(x, y);
+  ASSERT_EQ(turned.size(), 3u);
+  EXPECT_EQ(turned[0].instead, (std::vector<Eigen::Index>{ 2, 1, 0, 5, 4, 3 }));
+  EXPECT_EQ(turned[1].instead, (std::vector<Eigen::Index>{ 3, 4, 5, 0, 1, 2 }));
+  EXPECT_EQ(turned[2].what, "turned by 180 degrees");
+  EXPECT_EQ(turned[2].instead, msi::otherOrders(6).front().instead);
+  const Eigen::Array<double, 6, 1> uneven{ 0, 1, 2, 0, 1, 5 };
+  EXPECT_TRUE(msi::turnedPlaces(uneven, y).size() < 3u);
 }
 
 } // namespace

@@ -1,9 +1,8 @@
-// Samples or blocks of pixels that fit nothing, and a diagnosis without them. A wrong label, dust or glare makes such ones.
+// A diagnosis without samples or blocks of pixels that fit nothing.
 #pragma once
 
+#include "Kernels/Doubts/OddOnes.h"
 #include "Kernels/Gap/GapReport.h"
-
-#include <Eigen/Core>
 
 #include <string>
 #include <utility>
@@ -11,12 +10,6 @@
 
 namespace msi
 {
-
-using IndexList = std::vector<Eigen::Index>;
-
-// Numbers of those that are few, with those left out before, and far beyond most others in what is left of them, which is much
-// of all that is left. left: of each, over what noise allows.
-IndexList oddOnes(const Eigen::VectorXd& left, std::size_t leftOut);
 
 // Where something unknown is more likely than not, the diagnosis is done again without those that are odd, until none are; that
 // counts where it makes something unknown half as likely.

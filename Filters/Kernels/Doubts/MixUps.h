@@ -10,16 +10,14 @@
 namespace msi
 {
 
-class SampleScene;
-
 // Another order of samples or places. instead: of each column the one that it is taken for.
 struct Arrangement
 {
   std::string what; // "in reverse order"
   std::vector<Eigen::Index> instead;
 };
-// In reverse order, shifted by one; where there are positions, turnedPlaces().
-std::vector<Arrangement> arrangementsOf(const SampleScene& scene);
+// Of so many: in reverse order, shifted by one.
+std::vector<Arrangement> otherOrders(Eigen::Index samples);
 // Mirrored, upside down, turned by 180 degrees; those alone that take every place to another one. x, y: in any unit in which
 // places are at least 0.04 apart.
 std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);

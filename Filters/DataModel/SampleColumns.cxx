@@ -204,16 +204,22 @@ void setSpectra(vtkTable* table, SampleQuantity quantity, const SpectralAxis& ax
   }
 }
 
-MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameOfTable)
+MeasuredSamples readSamples(vtkTable* table, const std::string& nameOfTable)
 {
   auto reflectance = requireSpectra(table, SampleQuantity::Reflectance, nameOfTable);
   auto response = requireSpectra(table, SampleQuantity::Response, nameOfTable);
   MeasuredSamples measured{ nameOfTable, std::move(reflectance.axis), std::move(response.axis),
     { std::move(reflectance.values), std::move(response.values) }, sampleNames(table) };
-  requireValid(measured.samples, nameOfTable);
   requirePossibleReflectance(measured.samples.reflectance, nameOfTable);
   requirePossibleResponse(measured.samples.response, nameOfTable);
   requireResponsesThatChange(measured.samples.response, nameOfTable);
+  return measured;
+}
+
+MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameOfTable)
+{
+  MeasuredSamples measured = readSamples(table, nameOfTable);
+  requireValid(measured.samples, nameOfTable);
   return measured;
 }
 

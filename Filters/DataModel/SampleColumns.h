@@ -69,14 +69,17 @@ struct MeasuredSamples
   SampleSet samples;
   std::vector<std::string> names; // of the samples
 };
-// Throws std::invalid_argument also for values that no instrument gives (Kernels/Spectra/PossibleValues.h).
+// Throws std::invalid_argument for values that no instrument gives (Kernels/Spectra/PossibleValues.h) and responses that never change;
+// values may be not finite.
+MeasuredSamples readSamples(vtkTable* table, const std::string& nameOfTable);
+// And for those.
 MeasuredSamples requireMeasuredSamples(vtkTable* table, const std::string& nameOfTable);
 
 // Throws std::invalid_argument where channels or bands differ, or the responses of one table are counts and those of the other
 // relative to white.
 void requireAlike(const MeasuredSamples& a, const MeasuredSamples& b);
 
-// What is doubted of them, as warnings (Kernels/Doubts/SampleDoubts.h). medium: may be null.
+// What is doubted of those with finite values, as warnings (Kernels/Doubts/SampleDoubts.h). medium: may be null.
 std::vector<std::string> doubtsOf(
   const MeasuredSamples& chart, const MeasuredSamples* medium = nullptr);
 

@@ -4,7 +4,6 @@
 #include "CameraFitTables.h"
 #include "CameraTable.h"
 #include "SampleColumns.h"
-#include "UsefulData.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
@@ -12,7 +11,6 @@
 #include "Formats/EffectList.h"
 #include "Kernels/Camera/CameraModelFit.h"
 #include "Kernels/Camera/CameraResampling.h"
-#include "Kernels/Spectra/PossibleValues.h"
 
 #include <cstdint>
 #include <stdexcept>
@@ -74,15 +72,9 @@ int vtkCameraModelFit::RequestData(
   return msi::runAlgorithm(this, outputs,
     [&]
     {
-      const std::string name = "the chart";
-      auto* chart = vtkTable::GetData(inputs[0]);
-      const auto reflectance = msi::requireSpectra(chart, msi::SampleQuantity::Reflectance, name);
-      const auto response = msi::requireSpectra(chart, msi::SampleQuantity::Response, name);
-      msi::requirePossibleReflectance(reflectance.values, name);
-      msi::requirePossibleResponse(response.values, name);
-      msi::requireResponsesThatChange(response.values, name);
+      const auto chart = msi::readSamples(vtkTable::GetData(inputs[0]), "the chart");
       msi::CameraModelFitOptions options;
-      options.channels = columnsOf(response.axis);
+      options.channels = columnsOf(chart.channels);
       options.passbandWidth = this->PassbandWidth;
       options.folds = this->Folds;
       options.draws = this->Draws;
@@ -93,7 +85,7 @@ int vtkCameraModelFit::RequestData(
       {
         const auto nominal = msi::readCamera(table, "the nominal camera");
         whiteLevel = nominal.whiteLevel;
-        options.nominal = msi::resampled(nominal.camera, *reflectance.axis.wavelengths);
+        options.nominal = msi::resampled(nominal.camera, *chart.bands.wavelengths);
       }
       if (this->KeepDark)
       {
@@ -106,7 +98,7 @@ int vtkCameraModelFit::RequestData(
         options.dark = options.nominal->dark();
       }
       const auto fit = msi::fitCameraModel(
-        *reflectance.axis.wavelengths, reflectance.values, response.values, options);
+        *chart.bands.wavelengths, chart.samples.reflectance, chart.samples.response, options);
       msi::CameraTable camera{ fit.camera };
       camera.whiteLevel = whiteLevel;
       if (this->DetectorCurve && fit.curve && fit.curve->found())
@@ -119,8 +111,7 @@ int vtkCameraModelFit::RequestData(
       msi::writeUncertainty(fit, vtkTable::GetData(outputs, 1));
       msi::writeSummary(fit, vtkTable::GetData(outputs, 2));
       msi::writeChannels(fit, vtkTable::GetData(outputs, 3));
-      for (const auto& doubt : msi::doubtsOf({ name, reflectance.axis, response.axis,
-             { reflectance.values, response.values }, msi::sampleNames(chart) }))
+      for (const auto& doubt : msi::doubtsOf(chart))
       {
         vtkWarningMacro(<< doubt);
       }

@@ -54,7 +54,7 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import pictures, pipeline, report  # noqa: E402
+from support import estimation, pictures, pipeline, report  # noqa: E402
 
 
 def find(options, image, reference):
@@ -105,6 +105,7 @@ def main():
     samples = pipeline.create("PatchSampler", Input=image, Labels=pipeline.port(found, 0),
                               PatchTable=pipeline.port(found, 1))
     pipeline.update(samples)
+    estimation.check_samples(samples, "the chart")
     pipeline.save_table(samples, os.path.join(folder, "chart.csv"))
     pipeline.save_png(found, "Label", os.path.join(folder, "labels.png"))
     pipeline.save_png(found, "Overlay", os.path.join(folder, "overlay.png"))

@@ -143,6 +143,7 @@ def main():
         labels = estimation.read_labels(options.labels)
         sampled = pipeline.create("PatchSampler", Input=image, Labels=labels, PatchTable=patches)
         pipeline.update(sampled)
+        estimation.check_samples(sampled, "the patches in the image", calibration)
         held_out = sampled
         if calibration is None or tuning is None:
             # The patches in the image serve: every other one, the rest is held out.

@@ -152,6 +152,45 @@ def units_that_differ(launcher, base):
             launcher, "evaluate", "--calibration", counts, "--target", FABRIC, "--output", base / "out")
 
 
+def mistakes(launcher, base):
+    """What is possible, and probably wrong: done, with a question."""
+    rows = read(FABRIC)
+    camera = [i for i, title in enumerate(rows[0]) if title[0] == "C" and title[1:].isdigit()]
+
+    def evaluate(what, parts, name, target):
+        remarked(f"evaluate: {what}", parts, launcher, "evaluate", "--calibration", CHART, "--target", write(base / name, target),
+                 "--methods", "direct", "--draws", "1", "--output", base / "out")
+
+    def with_readings(of):
+        """Sample i has the responses of sample of(i)."""
+        return [rows[0]] + [[rows[1 + of(i)][c] if c in camera else cell for c, cell in enumerate(row)]
+                            for i, row in enumerate(rows[1:])]
+    last = len(rows) - 2
+    evaluate("samples in reverse order", ["the target table: Mixed up?", "in reverse order"], "reversed.csv",
+             with_readings(lambda i: last - i))
+    evaluate("two samples exchanged", ["Samples fabric-011 and fabric-091 fit much better when they are exchanged"],
+             "exchanged.csv", with_readings(lambda i: {10: 90, 90: 10}.get(i, i)))
+    evaluate("another sample's readings", ["the target table: Odd? fabric-031 (1 of 120 samples)"], "odd.csv",
+             with_readings(lambda i: 70 if i == 30 else i))
+    evaluate("two channels exchanged", ["Channels 460 nm and 540 nm fit much better when they are exchanged"], "channels.csv",
+             [rows[0]] + [[row[{camera[3]: camera[7], camera[7]: camera[3]}.get(c, c)] for c in range(len(row))]
+                          for row in rows[1:]])
+    evaluate("another exposure", ["the target table: Exposure? Its responses are 0.4"], "exposure.csv",
+             read(changed(base, "half.csv", lambda v, *_: 0.5 * v, FABRIC)))
+    evaluate("the chart as target", ["the target table: Twice?", "140 of 140 samples"], "twice.csv", read(CHART))
+    images = {name: sorted((IMAGE / name).glob("channel_*.tif")) for name in ("", "white", "dark")}
+    patches = ["--calibration", CHART, "--labels", IMAGE / "labels.png", "--patches", IMAGE / "patches.csv"]
+    remarked("estimate: no dark image", ["the patches in the image: Dark? Its responses are 0.0"], launcher, "estimate",
+             "--image", *images[""], "--white", *images["white"], *patches, "--output", base / "dark")
+    remarked("estimate: channels of the image in reverse order", ["the patches in the image: Mixed up? The channels fit"],
+             launcher, "estimate", "--image", *reversed(images[""]), "--white", *reversed(images["white"]), "--dark",
+             *reversed(images["dark"]), "--wavelengths", *range(400, 701, 20), *patches, "--output", base / "channels")
+    done = run(launcher, "evaluate", "--calibration", CHART, "--target", FABRIC, "--methods", "direct", "--draws", "1",
+               "--output", base / "right")
+    if done.returncode != 0 or "?" in done.stderr:
+        faults.append(f"evaluate: a question about the demo's own tables: {done.stderr}")
+
+
 def methods_that_cannot_run(launcher, base):
     """They are left out and named, in the command's notes; the others are compared."""
     output = base / "few"
@@ -197,7 +236,7 @@ def main():
     launcher, base = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(base, ignore_errors=True)
     base.mkdir(parents=True)
-    for test in (marks_of_missing_values, nothing_but_zero, cameras_that_see_nothing, too_few, units_that_differ,
+    for test in (marks_of_missing_values, nothing_but_zero, cameras_that_see_nothing, too_few, units_that_differ, mistakes,
                  methods_that_cannot_run, large_captures):
         if len(sys.argv) < 4 or test.__name__ in sys.argv[3:]:
             folder = base / test.__name__

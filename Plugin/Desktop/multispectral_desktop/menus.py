@@ -13,7 +13,7 @@ GROUPS = (
     ("Tables", "table", ("SampleTableReader", "CurveReader")),
     ("Cameras", "camera", ("CameraReader", "CaptureReader")),
     ("Prepare", "chart", ("FlatFieldCorrection", "ChannelDisplacement", "ChannelRegistration", "ChannelSelection", "ChartFinder", "PatchSampler")),
-    ("Samples", "table", ("SampleSplit", "SampleChoice")),
+    ("Samples", "table", ("SampleSplit", "SampleChoice", "SampleCheck")),
     ("Estimate", "estimate", ("ReflectanceCalibration", "MetamerismCorrection", "ReflectanceEstimation", "MethodComparison")),
     ("Judge", "compare", ("PatchReferenceImage", "CIEDE2000Evaluator", "ErrorSummary")),
     ("Look", "see", ("SpectralToColor", "SpectralProfile", "SpectralCubeVolume")),

@@ -81,6 +81,14 @@ def estimate(image, transforms, folder, trust=False):
     return pipeline.create("ReflectanceEstimation", Input=image, Preview=0, TrustResponses=int(trust), **transforms)
 
 
+def check_samples(samples, name, calibration=None):
+    """Notes what is to be doubted about samples, beside the chart's where it is given; nothing where channels have no number."""
+    if not any(re.fullmatch(r"C\d+(\.\d+)?", name) for name in pipeline.column_names(samples)):
+        return
+    chart = {"Calibration": calibration} if calibration else {}
+    pipeline.update(pipeline.create("SampleCheck", Input=samples, SamplesName=name, **chart))
+
+
 def require_plausible(image, transforms, trust=False):
     """The filter's judgement of responses, which it gives of whole images only: before a large one is worked through in
     pieces. image: every n-th pixel of it. Returns the estimate with its quality maps, the share of the pixels whose

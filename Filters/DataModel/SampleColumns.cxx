@@ -209,7 +209,19 @@ MeasuredSamples readSamples(vtkTable* table, const std::string& nameOfTable)
   auto reflectance = requireSpectra(table, SampleQuantity::Reflectance, nameOfTable);
   auto response = requireSpectra(table, SampleQuantity::Response, nameOfTable);
   MeasuredSamples measured{ nameOfTable, std::move(reflectance.axis), std::move(response.axis),
-    { std::move(reflectance.values), std::move(response.values) }, sampleNames(table) };
+    { std::move(reflectance.values), std::move(response.values) }, sampleNames(table), {}, {} };
+  auto* x = vtkDataArray::SafeDownCast(table->GetColumnByName("x"));
+  auto* y = vtkDataArray::SafeDownCast(table->GetColumnByName("y"));
+  if (x && y)
+  {
+    measured.x.resize(measured.samples.size());
+    measured.y.resize(measured.samples.size());
+    for (Eigen::Index i = 0; i < measured.x.size(); ++i)
+    {
+      measured.x[i] = x->GetComponent(i, 0);
+      measured.y[i] = y->GetComponent(i, 0);
+    }
+  }
   requirePossibleReflectance(measured.samples.reflectance, nameOfTable);
   requirePossibleResponse(measured.samples.response, nameOfTable);
   requireResponsesThatChange(measured.samples.response, nameOfTable);
@@ -246,7 +258,7 @@ namespace
 // Those with finite values.
 NamedSamples named(const MeasuredSamples& samples)
 {
-  NamedSamples finite{ {}, samples.table, {} };
+  NamedSamples finite{ {}, samples.table, {}, {}, {} };
   std::vector<Eigen::Index> columns;
   for (Eigen::Index i = 0; i < samples.samples.size(); ++i)
   {
@@ -258,6 +270,12 @@ NamedSamples named(const MeasuredSamples& samples)
     }
   }
   finite.set = samples.samples.subset(columns);
+  if (samples.x.size() > 0 && samples.x(columns).isFinite().all() &&
+    samples.y(columns).isFinite().all())
+  {
+    finite.x = samples.x(columns);
+    finite.y = samples.y(columns);
+  }
   return finite;
 }
 }

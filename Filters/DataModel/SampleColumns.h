@@ -68,6 +68,7 @@ struct MeasuredSamples
   SpectralAxis channels;
   SampleSet samples;
   std::vector<std::string> names; // of the samples
+  Eigen::ArrayXd x, y;            // columns "x" and "y"; empty without one of them
 };
 // Throws std::invalid_argument for values that no instrument gives (Kernels/Spectra/PossibleValues.h) and responses that never change;
 // values may be not finite.

@@ -175,12 +175,12 @@ def mistakes(launcher, base):
     evaluate("two channels exchanged", ["Channels 460 nm and 540 nm fit much better when they are exchanged"], "channels.csv",
              [rows[0]] + [[row[{camera[3]: camera[7], camera[7]: camera[3]}.get(c, c)] for c in range(len(row))]
                           for row in rows[1:]])
-    evaluate("another exposure", ["the target table: Exposure? Its responses are 0.4"], "exposure.csv",
+    evaluate("another exposure", ["the target table: Exposure? The responses are 0.4"], "exposure.csv",
              read(changed(base, "half.csv", lambda v, *_: 0.5 * v, FABRIC)))
     evaluate("the chart as target", ["the target table: Twice?", "140 of 140 samples"], "twice.csv", read(CHART))
     images = {name: sorted((IMAGE / name).glob("channel_*.tif")) for name in ("", "white", "dark")}
     patches = ["--calibration", CHART, "--labels", IMAGE / "labels.png", "--patches", IMAGE / "patches.csv"]
-    remarked("estimate: no dark image", ["the patches in the image: Dark? Its responses are 0.0"], launcher, "estimate",
+    remarked("estimate: no dark image", ["the patches in the image: Dark? The responses are 0.0"], launcher, "estimate",
              "--image", *images[""], "--white", *images["white"], *patches, "--output", base / "dark")
     remarked("estimate: channels of the image in reverse order", ["the patches in the image: Mixed up? The channels fit"],
              launcher, "estimate", "--image", *reversed(images[""]), "--white", *reversed(images["white"]), "--dark",

@@ -163,18 +163,33 @@ std::string levelQuestion(
   text.precision(2);
   if (gain.maxCoeff() > OtherExposure || gain.minCoeff() < 1.0 / OtherExposure)
   {
-    text << "Exposure? Its responses are " << gain.minCoeff() << " to " << gain.maxCoeff()
+    text << "Exposure? The responses are " << gain.minCoeff() << " to " << gain.maxCoeff()
          << " times those of the chart's camera to the same reflectance: the same exposure times, "
             "white and light?";
   }
   else if (std::fabs(level) > std::fmax(OtherDark, 4.0 * error) &&
     ((offset > 0.0).all() || (offset < 0.0).all()))
   {
-    text << "Dark? Its responses are " << std::fabs(level) << (level > 0.0 ? " above" : " below")
+    text << "Dark? The responses are " << std::fabs(level) << (level > 0.0 ? " above" : " below")
          << " those of the chart's camera to the same reflectance, dark or bright: was the dark "
             "image taken off, and is there no gloss?";
   }
   return text.str();
+}
+
+// Other orders, and other places where these are known.
+std::vector<Arrangement> arrangementsOf(const NamedSamples& samples)
+{
+  std::vector<Arrangement> all = otherOrders(samples.set.size());
+  if (samples.x.size() > 1)
+  {
+    const double extent = std::fmax(
+      samples.x.maxCoeff() - samples.x.minCoeff(), samples.y.maxCoeff() - samples.y.minCoeff());
+    const std::vector<Arrangement> turned =
+      turnedPlaces(2.0 * samples.x / extent, 2.0 * samples.y / extent);
+    all.insert(all.end(), turned.begin(), turned.end());
+  }
+  return all;
 }
 
 using Numbers = std::vector<double>;
@@ -220,7 +235,7 @@ struct ChartCamera
     : camera(cameraOf(chart.set))
     , predicted(chart.set.response - camera.leftOut)
   {
-    const std::vector<Arrangement> orders = otherOrders(chart.set.size());
+    const std::vector<Arrangement> orders = arrangementsOf(chart);
     double least = camera.leaveOneOutRms;
     const double deviation = std::sqrt(deviations(chart.set.response).square().mean());
     for (std::size_t n = 0; least > HardlyPredicted * deviation && n < orders.size(); ++n)
@@ -309,7 +324,7 @@ std::vector<std::string> doubtsOf(const NamedSamples& chartInAll,
   const Eigen::MatrixXd predicted = seen.camera.fit.transform(medium.set.reflectance);
   ask(medium, saturationQuestion(medium.set.response, predicted, channels));
   const std::string mixedUp =
-    mixUp(medium.set.response, predicted, otherOrders(medium.set.size()), channels, medium.names);
+    mixUp(medium.set.response, predicted, arrangementsOf(medium), channels, medium.names);
   ask(medium, mixedUp);
   if (mixedUp.empty())
   {

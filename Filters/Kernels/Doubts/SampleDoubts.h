@@ -15,6 +15,7 @@ struct NamedSamples
   SampleSet set;
   std::string table;              // "the tuning table", by which it is called
   std::vector<std::string> names; // of the samples
+  Eigen::ArrayXd x{}, y{};        // where each is, in any unit; empty: not known
 };
 
 // Questions, each a sentence or two that begins with the table; empty: nothing is doubted.

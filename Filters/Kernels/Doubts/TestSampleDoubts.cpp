@@ -49,7 +49,7 @@ msi::SampleSet samplesOf(Eigen::Index count, std::uint64_t seed)
 
 msi::NamedSamples named(const std::string& table, msi::SampleSet set)
 {
-  msi::NamedSamples samples{ std::move(set), table, {} };
+  msi::NamedSamples samples{ std::move(set), table, {}, {}, {} };
   for (Eigen::Index i = 0; i < samples.set.size(); ++i)
   {
     samples.names.push_back("s" + std::to_string(i));
@@ -118,6 +118,16 @@ TEST_F(SampleDoubts, AnotherOrder)
   EXPECT_NE(ofChart().front().find("shifted by one"), std::string::npos);
 }
 
+TEST_F(SampleDoubts, PlacesThatAreTurned)
+{
+  // Three rows of four, in millimetres; a row after the other, upside down.
+  Medium.x = Eigen::ArrayXd::NullaryExpr(12, [](Eigen::Index i) { return 20.0 * (i % 4); });
+  Medium.y = Eigen::ArrayXd::NullaryExpr(12, [](Eigen::Index i) { return 15.0 * (i / 4); });
+  const Eigen::MatrixXd right = Medium.set.response;
+  Medium.set.response << right.rightCols(4), right.middleCols(4, 4), right.leftCols(4);
+  EXPECT_EQ(ofBoth(), (Texts{ "medium: Mixed up? The samples fit much better upside down." }));
+}
+
 TEST_F(SampleDoubts, ReadingsThatBelongToNoSample)
 {
   Chart.set.response = samplesOf(60, 9).response;
@@ -138,17 +148,17 @@ TEST_F(SampleDoubts, AnotherExposureOrDark)
   const msi::SampleSet right = Medium.set;
   Medium.set.response *= 0.5;
   ASSERT_EQ(ofBoth().size(), 1u);
-  EXPECT_EQ(ofBoth().front().find("medium: Exposure? Its responses are 0.5 to 0.5 times"), 0u);
+  EXPECT_EQ(ofBoth().front().find("medium: Exposure? The responses are 0.5 to 0.5 times"), 0u);
   Medium.set.response = right.response.array() + 0.05;
   ASSERT_EQ(ofBoth().size(), 1u);
-  EXPECT_EQ(ofBoth().front().find("medium: Dark? Its responses are 0.0"), 0u);
+  EXPECT_EQ(ofBoth().front().find("medium: Dark? The responses are 0.0"), 0u);
 }
 
 TEST_F(SampleDoubts, ExposureTimesOfChannels)
 {
   Medium.set.response.row(2) *= 1.4;
   ASSERT_EQ(ofBoth().size(), 1u);
-  EXPECT_EQ(ofBoth().front().find("medium: Exposure? Its responses are "), 0u);
+  EXPECT_EQ(ofBoth().front().find("medium: Exposure? The responses are "), 0u);
   EXPECT_NE(ofBoth().front().find(" to 1.4 times"), std::string::npos);
 }
 

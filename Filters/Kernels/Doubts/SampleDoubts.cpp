@@ -6,6 +6,7 @@
 #include "Kernels/Estimation/RidgeCalibration.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 #include "Kernels/Spectra/Counted.h"
+#include "Kernels/Spectra/PossibleValues.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,8 @@ constexpr Eigen::Index FewestOfMedium = 5;
 constexpr double HardlyPredicted = 0.5;  // of the deviation is left
 constexpr double LeastDeviation = 0.005; // of a channel's, below which nobody cares
 constexpr double OtherExposure = 1.25;   // times
-constexpr double OtherDark = 0.03;       // of white
+constexpr double OverError = 4.0;        // times what the chart's camera errs by
+constexpr double OtherDark = 0.035;      // of the channels' largest responses
 constexpr double SaturatedOneIn = 20.0;  // samples with the largest response
 constexpr double FewestSaturated = 3.0;
 constexpr double Different = 0.05; // of the largest response
@@ -140,9 +142,9 @@ std::string saturationQuestion(const Eigen::MatrixXd& responses, const Eigen::Ma
   return {};
 }
 
-// Another exposure or dark level than the camera that the chart shows. error: of what that predicts.
+// Another exposure or dark level than the camera that the chart shows.
 std::string levelQuestion(
-  const Eigen::MatrixXd& responses, const Eigen::MatrixXd& predicted, double error)
+  const Eigen::MatrixXd& responses, const Eigen::MatrixXd& predicted, double leastOffset)
 {
   // Gains: of the line through the origin or of the other one, whichever is nearer to 1.
   Eigen::ArrayXd gain(responses.rows());
@@ -167,8 +169,7 @@ std::string levelQuestion(
          << " times those of the chart's camera to the same reflectance: the same exposure times, "
             "white and light?";
   }
-  else if (std::fabs(level) > std::fmax(OtherDark, 4.0 * error) &&
-    ((offset > 0.0).all() || (offset < 0.0).all()))
+  else if (std::fabs(level) > leastOffset && ((offset > 0.0).all() || (offset < 0.0).all()))
   {
     text << "Dark? The responses are " << std::fabs(level) << (level > 0.0 ? " above" : " below")
          << " those of the chart's camera to the same reflectance, dark or bright: was the dark "
@@ -329,7 +330,9 @@ std::vector<std::string> doubtsOf(const NamedSamples& chartInAll,
   if (mixedUp.empty())
   {
     ask(medium, oddQuestion(leftBeside(chart.set, medium.set, predicted), deviation, medium));
-    ask(medium, levelQuestion(medium.set.response, predicted, seen.camera.leaveOneOutRms));
+    const double leastOffset = std::fmax(
+      OtherDark * typicalLevel(chart.set.response), OverError * seen.camera.leaveOneOutRms);
+    ask(medium, levelQuestion(medium.set.response, predicted, leastOffset));
   }
   return questions;
 }

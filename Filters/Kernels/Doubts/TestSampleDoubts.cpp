@@ -75,6 +75,9 @@ TEST_F(SampleDoubts, RightOnesHaveNone)
     Chart = named("chart", samplesOf(10 + static_cast<Eigen::Index>(seed), seed));
     Medium = named("medium", samplesOf(3 + static_cast<Eigen::Index>(seed), 100 + seed));
     EXPECT_EQ(ofBoth(), Texts()) << seed;
+    Chart.set.response *= 4000.0; // in counts
+    Medium.set.response = 4000.0 * Medium.set.response.array() + 8.0;
+    EXPECT_EQ(ofBoth(), Texts()) << seed;
   }
 }
 

@@ -396,7 +396,7 @@ def help_page(window):
 
 def menus(window):
     """The plugin's sources and filters stand in groups, each entry with an icon."""
-    for menu, first, count in (("Sources", "Synthetic Scene", 2), ("Filters", "Flat Field Correction", 23)):
+    for menu, first, count in (("Sources", "Synthetic Scene", 2), ("Filters", "Flat Field Correction", 24)):
         window.click(window.state()["named"][menu])
         state = window.wait(f"the menu {menu}", lambda s: "Multispectral menu" in s["named"])
         x, y = state["named"]["Multispectral menu"]

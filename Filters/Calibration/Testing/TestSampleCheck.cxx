@@ -53,8 +53,8 @@ TEST(SampleCheck, SaysWhatIsMissing)
 {
   vtkNew<vtkSampleCheck> filter;
   filter->SetInputData(0, newTable({ { "R400", { 0.1, 0.2 } }, { "R410", { 0.1, 0.2 } } }));
-  EXPECT_NE(errorOf(filter).find("the sample table has no columns of camera responses"),
-    std::string::npos)
+  EXPECT_NE(
+    errorOf(filter).find("the sample table has no columns of camera responses"), std::string::npos)
     << errorOf(filter);
 }
 

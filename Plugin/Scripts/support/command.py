@@ -177,6 +177,9 @@ def run(main):
         painter = sys.modules.get(f"{__package__}.painter")
         if painter is not None:
             painter.finish()  # no command ends before its pictures are there
+        pipeline = sys.modules.get(f"{__package__}.pipeline")
+        if pipeline is not None:
+            pipeline.tell_notes()
     except Failure as failure:
         leave(str(failure), 1)
     except BrokenPipeError:  # nobody reads on, as behind `| head`

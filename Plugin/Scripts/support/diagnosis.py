@@ -92,6 +92,7 @@ def folder_of(capture):
 def read_capture(folder, further=()):
     capture = pipeline.create("CaptureReader", FileName=folder, FurtherCaptures=list(further))
     pipeline.update(capture)
+    pipeline.tell_notes(capture)
     return capture
 
 

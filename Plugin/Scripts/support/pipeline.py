@@ -18,7 +18,7 @@ else:
 _messages = vtkStringOutputWindow()
 _MESSAGE = re.compile(r"(ERROR|Warning): In [^\n]*, line \d+\n[^\n]*? \(0x[0-9a-f]+\): (.*?)\n\n", re.DOTALL)
 _noted = set()
-_readers = []  # that have notes on what they recognized in their files
+_tables = []  # readers, which may have notes on what they recognized
 warnings = []  # of the filters, for the report
 
 
@@ -59,8 +59,8 @@ def create(name, **properties):
     proxy = getattr(simple, name)(registrationName=name, **properties)
     fail_on_error()
     watch(proxy)
-    if proxy.GetProperty("Notes"):
-        _readers.append(proxy)
+    if name == "SampleTableReader":
+        _tables.append(proxy)
     return proxy
 
 
@@ -84,7 +84,11 @@ def update(*proxies):
     for proxy in proxies:
         proxy.UpdatePipeline()
         fail_on_error()
-    for reader in _readers:
+
+
+def tell_notes(*readers):
+    """What readers recognized; all that read tables, once the work is done and an error would have been the only line."""
+    for reader in readers or _tables:
         reader.UpdatePropertyInformation()
         for note in filter(None, str(reader.GetProperty("Notes").GetData() or "").split("\n")):
             _tell(note)

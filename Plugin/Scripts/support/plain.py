@@ -149,8 +149,7 @@ class Proxy:
         self._algorithm.UpdateInformation()
 
     def GetProperty(self, name):
-        command = self._description.information.get(name)
-        return _Text(getattr(self._algorithm, command)()) if command else None
+        return _Text(getattr(self._algorithm, self._description.information[name])())
 
 
 def _classes():

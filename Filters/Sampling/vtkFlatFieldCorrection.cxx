@@ -15,6 +15,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -240,7 +241,8 @@ int vtkFlatFieldCorrection::RequestUpdateExtent(
 // What the values are like, in all pieces of the image.
 struct vtkFlatFieldCorrection::Judgement
 {
-  static constexpr double Unlikely = 1.5; // times the white
+  static constexpr double Unlikely = 1.5;  // times the white
+  static constexpr vtkIdType OneIn = 1000; // values are at the end of their range
   enum
   {
     VALUES,
@@ -248,9 +250,13 @@ struct vtkFlatFieldCorrection::Judgement
     FINITE,
     BELOW_DARK,
     FAR_ABOVE_WHITE,
+    AT_LARGEST,
+    WHITE_VALUES,
+    WHITE_AT_LARGEST,
     SIZE
   };
   std::array<vtkIdType, SIZE> counts{};
+  std::array<float, 2> largest{}; // of raw and white
   bool hasWhite = false;
   bool hasDark = false;
 
@@ -264,6 +270,17 @@ struct vtkFlatFieldCorrection::Judgement
       counts[FAR_ABOVE_WHITE] += values[i] > static_cast<float>(Unlikely * white) ? 1 : 0;
     }
   }
+  // How many of these values are the largest one.
+  static vtkIdType countLargest(vtkFloatArray* array, float& largest)
+  {
+    const float* values = array->GetPointer(0);
+    const float* end = values + array->GetNumberOfValues();
+    for (const float* value = values; value != end; ++value)
+    {
+      largest = *value > largest ? *value : largest;
+    }
+    return std::count(values, end, largest);
+  }
   vtkIdType percent(int part, int of) const
   {
     return (200 * counts[static_cast<std::size_t>(part)] + counts[static_cast<std::size_t>(of)]) /
@@ -271,15 +288,38 @@ struct vtkFlatFieldCorrection::Judgement
   }
 };
 
+namespace
+{
+// Of 8 to 16 bits, as counts or relative to those of the file.
+bool isFullScale(float value)
+{
+  constexpr double Rounding = 1e-6;
+  const auto is = [value](double end)
+  { return std::fabs(static_cast<double>(value) / end - 1.0) < Rounding; };
+  for (const double end : { 1023.0, 4095.0, 16383.0, 65535.0 })
+  {
+    if (is(end) || is(end / 65535.0))
+    {
+      return true;
+    }
+  }
+  return is(255.0);
+}
+}
+
 // Frames in each other's place give numbers all the same.
 void vtkFlatFieldCorrection::Judge(
   const Judgement& judgement, vtkMultiProcessController* controller)
 {
   std::array<vtkIdType, Judgement::SIZE> counts = judgement.counts;
+  std::array<float, 2> largest = judgement.largest;
   if (controller)
   {
-    controller->AllReduce(
-      judgement.counts.data(), counts.data(), Judgement::SIZE, vtkCommunicator::SUM_OP);
+    controller->AllReduce(judgement.largest.data(), largest.data(), 2, vtkCommunicator::MAX_OP);
+    counts[Judgement::AT_LARGEST] *= judgement.largest[0] == largest[0] ? 1 : 0;
+    counts[Judgement::WHITE_AT_LARGEST] *= judgement.largest[1] == largest[1] ? 1 : 0;
+    const std::array<vtkIdType, Judgement::SIZE> mine = counts;
+    controller->AllReduce(mine.data(), counts.data(), Judgement::SIZE, vtkCommunicator::SUM_OP);
   }
   Judgement all = judgement;
   all.counts = counts;
@@ -311,6 +351,22 @@ void vtkFlatFieldCorrection::Judge(
                     << " % of the raw values exceed the white " << Judgement::Unlikely
                     << " times; are the images swapped, or exposed differently (Exposure Times)?");
   }
+  const auto warnOfSaturated = [&](float end, int part, int of, const char* name)
+  {
+    const vtkIdType count = counts[static_cast<std::size_t>(part)];
+    const vtkIdType values = counts[static_cast<std::size_t>(of)];
+    // All of them: a drawn image.
+    if (this->SaturationLevel <= 0.0 && isFullScale(end) && Judgement::OneIn * count > values &&
+      count < values)
+    {
+      vtkWarningMacro(<< "Saturated? " << count << " values of " << name
+                      << " are at the end of their range (" << end
+                      << "): a shorter exposure keeps what differs; Saturation Level (estimate: "
+                         "--saturation) takes them out");
+    }
+  };
+  warnOfSaturated(largest[0], Judgement::AT_LARGEST, Judgement::VALUES, NameOfRaw);
+  warnOfSaturated(largest[1], Judgement::WHITE_AT_LARGEST, Judgement::WHITE_VALUES, NameOfFrame[1]);
   if (all.hasDark && !all.hasWhite && this->WhiteLevel == 1.0)
   {
     vtkWarningMacro(<< "no white image is connected and White Level is 1: the responses are not "
@@ -433,6 +489,13 @@ vtkFlatFieldCorrection::Judgement vtkFlatFieldCorrection::Correct(
     judgement.counts[Judgement::VALUES] = raw->GetNumberOfTuples() * channels;
     judgement.counts[Judgement::DEAD_VALUES] = dead;
     judgement.count(responses, this->WhiteReflectance);
+    judgement.counts[Judgement::AT_LARGEST] = Judgement::countLargest(raw, judgement.largest[0]);
+    if (white.values)
+    {
+      judgement.counts[Judgement::WHITE_VALUES] = white.values->GetNumberOfValues();
+      judgement.counts[Judgement::WHITE_AT_LARGEST] =
+        Judgement::countLargest(white.values, judgement.largest[1]);
+    }
   }
   this->DeadCount = dead;
   this->SaturatedCount = saturated;

@@ -73,6 +73,35 @@ TEST_F(Frames, RawAndWhiteSwapped)
     "(Exposure Times)?");
 }
 
+TEST_F(Frames, ValuesAtTheEndOfTheirRange)
+{
+  const auto saturated = [](double value, double end)
+  {
+    auto image = flat(value);
+    auto* scalars = image->GetPointData()->GetScalars();
+    for (vtkIdType i = 0; i < scalars->GetNumberOfTuples() / 4; ++i)
+    {
+      scalars->SetComponent(i, 0, end);
+    }
+    return image;
+  };
+  this->connect(1000.0, 3000.0, 100.0);
+  this->Correction->SetInputData(0, saturated(1000.0, 4095.0));
+  EXPECT_NE(this->warning().find("values of the raw image are at the end of their range (4095)"),
+    std::string::npos)
+    << this->warning();
+  this->connect(0.5, 0.9, 0.1);
+  this->Correction->SetInputData(1, saturated(0.9, 1.0));
+  EXPECT_NE(this->warning().find("values of the white image are at the end of their range (1)"),
+    std::string::npos)
+    << this->warning();
+  this->Correction->SetSaturationLevel(1.0);
+  EXPECT_EQ(this->warning(), "");
+  this->Correction->SetSaturationLevel(0.0);
+  this->Correction->SetInputData(1, saturated(0.9, 0.95));
+  EXPECT_EQ(this->warning(), "");
+}
+
 TEST_F(Frames, Missing)
 {
   this->Correction->SetInputData(0, flat(0.5));

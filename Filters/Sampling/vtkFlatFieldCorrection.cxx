@@ -356,11 +356,11 @@ void vtkFlatFieldCorrection::Judge(
     const vtkIdType count = counts[static_cast<std::size_t>(part)];
     const vtkIdType values = counts[static_cast<std::size_t>(of)];
     // All of them: a drawn image.
-    if (this->SaturationLevel <= 0.0 && isFullScale(end) && Judgement::OneIn * count > values &&
-      count < values)
+    if (this->SaturationLevel <= 0.0 && isFullScale(end) && count < values &&
+      Judgement::OneIn * count > values)
     {
-      vtkWarningMacro(<< "Saturated? " << count << " values of " << name
-                      << " are at the end of their range (" << end
+      vtkWarningMacro(<< "Saturated? " << (100 * count + values - 1) / values
+                      << " % of the values of " << name << " are at the end of their range (" << end
                       << "): a shorter exposure keeps what differs; Saturation Level (estimate: "
                          "--saturation) takes them out");
     }

@@ -20,28 +20,6 @@ constexpr double Dead = 0.01;      // variance over that of the others, each ove
 constexpr double SamePlace = 1e-3; // squared distance
 constexpr std::size_t PairsNamed = 3;
 
-PairSums sumsOf(const Eigen::VectorXd& observed, const Eigen::VectorXd& simulated)
-{
-  PairSums sums;
-  for (Eigen::Index i = 0; i < observed.size(); ++i)
-  {
-    sums.add(observed[i], simulated[i]);
-  }
-  return sums;
-}
-
-// Of each channel.
-std::vector<PairSums> sumsOfChannels(
-  const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated)
-{
-  std::vector<PairSums> sums;
-  for (Eigen::Index k = 0; k < observed.rows(); ++k)
-  {
-    sums.push_back(sumsOf(observed.row(k), simulated.row(k)));
-  }
-  return sums;
-}
-
 double leftOf(const std::vector<PairSums>& channels)
 {
   return std::accumulate(channels.begin(), channels.end(), 0.0,

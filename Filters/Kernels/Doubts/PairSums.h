@@ -1,7 +1,10 @@
 // What a real and a simulated series of values have in common.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cmath>
+#include <vector>
 
 namespace msi
 {
@@ -49,5 +52,27 @@ private:
   static constexpr double Rounding = 1e-9;
   double count() const noexcept { return std::fmax(n, 1.0); }
 };
+
+inline PairSums sumsOf(const Eigen::VectorXd& observed, const Eigen::VectorXd& simulated)
+{
+  PairSums sums;
+  for (Eigen::Index i = 0; i < observed.size(); ++i)
+  {
+    sums.add(observed[i], simulated[i]);
+  }
+  return sums;
+}
+
+// Of each channel, K x S.
+inline std::vector<PairSums> sumsOfChannels(
+  const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated)
+{
+  std::vector<PairSums> sums;
+  for (Eigen::Index k = 0; k < observed.rows(); ++k)
+  {
+    sums.push_back(sumsOf(observed.row(k), simulated.row(k)));
+  }
+  return sums;
+}
 
 } // namespace msi

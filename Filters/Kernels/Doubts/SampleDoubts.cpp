@@ -20,7 +20,9 @@ namespace
 {
 constexpr Eigen::Index FewestOfChart = 8;
 constexpr Eigen::Index FewestOfMedium = 5;
-constexpr double HardlyPredicted = 0.5;  // of the deviation is left
+constexpr double HardlyPredicted = 0.5; // of the deviation is left
+constexpr double MuchLess = 0.25;
+constexpr double Gamma = 2.2;
 constexpr double LeastDeviation = 0.005; // of a channel's, below which nobody cares
 constexpr double OtherExposure = 1.25;   // times
 constexpr double OverError = 4.0;        // times what the chart's camera errs by
@@ -47,6 +49,11 @@ Eigen::ArrayXd deviations(const Eigen::MatrixXd& responses)
     (responses.colwise() - responses.rowwise().mean()).rowwise().squaredNorm().array().sqrt() /
     std::sqrt(static_cast<double>(responses.cols()));
   return (deviation > 0.0).select(deviation, 1.0);
+}
+
+double scatterOf(const Eigen::MatrixXd& responses)
+{
+  return std::sqrt(deviations(responses).square().mean());
 }
 
 // "a and b (2 of 16 samples)"
@@ -133,10 +140,8 @@ std::string saturationQuestion(const Eigen::MatrixXd& responses, const Eigen::Ma
       count < static_cast<double>(responses.cols()))
     {
       return "Saturated? Channel " + channels[static_cast<std::size_t>(k)] +
-        " has its largest "
-        "response in " +
-        std::to_string(std::lround(count)) + " of " + counted(responses.cols(), "sample") +
-        ": a shorter exposure keeps what differs.";
+        " has its largest response in " + std::to_string(std::lround(count)) + " of " +
+        counted(responses.cols(), "sample") + ": a shorter exposure keeps what differs.";
     }
   }
   return {};
@@ -147,15 +152,12 @@ std::string levelQuestion(
   const Eigen::MatrixXd& responses, const Eigen::MatrixXd& predicted, double leastOffset)
 {
   // Gains: of the line through the origin or of the other one, whichever is nearer to 1.
+  const std::vector<PairSums> channels = sumsOfChannels(responses, predicted);
   Eigen::ArrayXd gain(responses.rows());
   Eigen::ArrayXd offset(responses.rows());
   for (Eigen::Index k = 0; k < responses.rows(); ++k)
   {
-    PairSums sums;
-    for (Eigen::Index i = 0; i < responses.cols(); ++i)
-    {
-      sums.add(responses(k, i), predicted(k, i));
-    }
+    const PairSums& sums = channels[static_cast<std::size_t>(k)];
     const double slope = sums.isFlat() ? 1.0 : sums.ofBoth() / sums.ofSimulated();
     offset[k] = (sums.real - slope * sums.simulated) / sums.n;
     gain[k] = std::clamp(1.0, std::fmin(slope, sums.gain()), std::fmax(slope, sums.gain()));
@@ -221,8 +223,7 @@ std::string twiceQuestion(const NamedSamples& samples, const SampleSet& other)
   return twice.empty() ? std::string()
                        : "Twice? " + partOf(twice, samples) +
       ": the same numbers as another sample, there or in the chart. Where one of both is held out "
-      "the "
-      "error is too small.";
+      "the error is too small.";
 }
 
 // A chart's camera, and the responses that it predicts of each sample by all others; in another order where that fits better.
@@ -238,8 +239,8 @@ struct ChartCamera
   {
     const std::vector<Arrangement> orders = arrangementsOf(chart);
     double least = camera.leaveOneOutRms;
-    const double deviation = std::sqrt(deviations(chart.set.response).square().mean());
-    for (std::size_t n = 0; least > HardlyPredicted * deviation && n < orders.size(); ++n)
+    const double hardly = HardlyPredicted * scatterOf(chart.set.response);
+    for (std::size_t n = 0; least > hardly && n < orders.size(); ++n)
     {
       const std::vector<Eigen::Index>& instead = orders[n].instead;
       const RidgeFit other =
@@ -254,6 +255,44 @@ struct ChartCamera
   }
 };
 
+// Of the squares about the mean what the camera that the chart shows leaves; each sample by all others.
+double partLeft(const SampleSet& chart)
+{
+  return std::pow(cameraOf(chart).leaveOneOutRms / scatterOf(chart.response), 2);
+}
+
+// The same of what is predicted of a medium, after a straight line in each channel.
+double partLeft(const Eigen::MatrixXd& responses, const Eigen::MatrixXd& predicted)
+{
+  double together = 0.0;
+  for (const PairSums& channel : sumsOfChannels(responses, predicted))
+  {
+    together += channel.correlation() / static_cast<double>(responses.rows());
+  }
+  return 1.0 - together;
+}
+
+// Responses of which much less is left once they are raised to a power. left(responses): what part of the squares.
+template <typename Left>
+std::string curveQuestion(const Eigen::MatrixXd& responses, const Left& left)
+{
+  const double asTold = left(responses);
+  std::ostringstream text;
+  text.precision(2);
+  for (const double power : { Gamma, 1.0 / Gamma })
+  {
+    if (left(responses.cwiseMax(0.0).array().pow(power).matrix()) < MuchLess * asTold)
+    {
+      text << "Curved? The responses go with the reflectance much better once raised to the power "
+           << power
+           << ": are they gamma-encoded, as in JPEG files? Expected are responses in "
+              "proportion to the light.";
+      break;
+    }
+  }
+  return text.str();
+}
+
 // What all others leave of a medium's samples beside the chart's, from which they may differ by gains and by an offset that may go with
 // the reflectance.
 Eigen::MatrixXd leftBeside(
@@ -262,8 +301,8 @@ Eigen::MatrixXd leftBeside(
   SampleSet both = joined(chart, medium);
   for (Eigen::Index k = 0; k < medium.channels(); ++k)
   {
-    const double gain = median(medium.response.row(k).cwiseQuotient(predicted.row(k)));
-    both.response.row(k).tail(medium.size()) /= gain > 0.0 ? gain : 1.0;
+    const double gain = median(medium.response.row(k)) / median(predicted.row(k));
+    both.response.row(k).tail(medium.size()) /= std::isfinite(gain) && gain > 0.0 ? gain : 1.0;
   }
   both.reflectance.conservativeResize(both.bands() + 2, Eigen::NoChange);
   both.reflectance.bottomRows(2).setZero();
@@ -317,6 +356,11 @@ std::vector<std::string> doubtsOf(const NamedSamples& chartInAll,
     return questions;
   }
   ask(chart, oddQuestion(standardized(seen.camera), deviation, chart));
+  const std::string curved = curveQuestion(chart.set.response,
+    [&chart](const Eigen::MatrixXd& responses) {
+      return partLeft({ chart.set.reflectance, responses });
+    });
+  ask(chart, curved);
   if (medium.set.size() < FewestOfMedium)
   {
     return questions;
@@ -332,7 +376,16 @@ std::vector<std::string> doubtsOf(const NamedSamples& chartInAll,
     ask(medium, oddQuestion(leftBeside(chart.set, medium.set, predicted), deviation, medium));
     const double leastOffset = std::fmax(
       OtherDark * typicalLevel(chart.set.response), OverError * seen.camera.leaveOneOutRms);
-    ask(medium, levelQuestion(medium.set.response, predicted, leastOffset));
+    const std::string curvedHere = !curved.empty()
+      ? std::string()
+      : curveQuestion(medium.set.response,
+          [&predicted](const Eigen::MatrixXd& responses)
+          { return partLeft(responses, predicted); });
+    ask(medium, curvedHere);
+    ask(medium,
+      curved.empty() && curvedHere.empty()
+        ? levelQuestion(medium.set.response, predicted, leastOffset)
+        : std::string());
   }
   return questions;
 }

@@ -177,6 +177,21 @@ TEST_F(SampleDoubts, DeadChannelsBesideAnOddSample)
   EXPECT_EQ(ofBoth()[2].find("medium: Odd? s3 (1 of 12 samples)"), 0u);
 }
 
+TEST_F(SampleDoubts, GammaEncoded)
+{
+  for (msi::NamedSamples* samples : { &Chart, &Medium })
+  {
+    samples->set.response = samples->set.response.cwiseMax(0.0).array().pow(1.0 / 2.2);
+  }
+  ASSERT_EQ(ofBoth().size(), 1u);
+  EXPECT_EQ(ofBoth().front().find("chart: Curved? The responses go with the reflectance much "
+                                  "better once raised to the power 2.2"),
+    0u);
+  Chart = named("chart", samplesOf(60, 1));
+  ASSERT_EQ(ofBoth().size(), 1u);
+  EXPECT_EQ(ofBoth().front().find("medium: Curved? "), 0u);
+}
+
 TEST_F(SampleDoubts, Saturated)
 {
   Chart.set.response.row(2) = Chart.set.response.row(2).cwiseMin(0.35);

@@ -5,7 +5,7 @@ import os
 from PyQt5 import QtCore, QtWidgets
 from paraview import servermanager, simple
 
-from . import messages, pixel, view_choice
+from . import messages, pixel, questions, view_choice
 from .marks import Marks
 
 # Columns and rows.
@@ -165,7 +165,8 @@ class Placement(QtWidgets.QDialog):
         rows = range(table.GetNumberOfRows())
         marked = [f"{label.GetVariantValue(row).ToString()} ({note.GetValue(row)})" for row in rows if note.GetValue(row)]
         self._say(first or f"{len(rows)} patches, outlined in the view. Drag a corner to correct it.",
-                  f"Patches to check: {', '.join(marked)}." if marked else "No patch is clipped or uneven.")
+                  f"Patches to check: {', '.join(marked)}." if marked else "No patch is clipped or uneven.",
+                  *questions.about(self.samples, "The chart"))
 
     def _show(self):
         simple.SetActiveSource(self._image)  # the finder's own handles would stand over the corners

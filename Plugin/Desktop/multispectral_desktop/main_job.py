@@ -5,7 +5,7 @@ import os
 
 from paraview import simple
 
-from . import captions, lights, messages
+from . import captions, lights, messages, questions
 from .messages import Missing
 
 METHOD = "Transfer"
@@ -52,7 +52,8 @@ def _build(folder, chart, swatches, method, light, observer):
         jobs.append(("corrected by swatches", fit, 1))
     reference = _reference(name, scene)
     if reference is not None:
-        _check_patches(scene, calibration)
+        warnings.extend(questions.about(
+            lambda: simple.PatchSampler(Input=scene[0], Labels=scene[1], PatchTable=scene[2]), "the patches in the image", calibration))
     rows = [_row(name, scene, title, fit, second, reference, conditions) for title, fit, second in jobs]
     return _show(name, rows, conditions)
 
@@ -90,17 +91,6 @@ def _reference(name, scene):
         return None
     return _make(lambda: simple.PatchReferenceImage(registrationName=f"{name}: measured patches", Input=scene[1],
                                                     PatchTable=scene[2]), 0, "The measured patches could not be placed")
-
-
-def _check_patches(scene, calibration):
-    """Warns of what is doubted about the patches beside the chart; where they cannot be compared, they are not."""
-    with messages.heard() as said:
-        sampled = simple.PatchSampler(Input=scene[0], Labels=scene[1], PatchTable=scene[2])
-        check = simple.SampleCheck(Input=sampled, Calibration=calibration, SamplesName="the patches in the image")
-        check.UpdatePipeline()
-    for source in (check, sampled):
-        simple.Delete(source)
-    warnings.extend(said.warnings)
 
 
 def _row(name, scene, title, fit, second, reference, conditions):

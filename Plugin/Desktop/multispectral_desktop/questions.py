@@ -17,7 +17,9 @@ def about(samples, name, calibration=None):
             samples = samples()
             made.append(samples)
         samples.UpdatePipeline()
-        if any(map(_RESPONSE.fullmatch, samples.RowData.keys())):
+        rows = samples.GetDataInformation(samples.Port).DataInformation.GetRowDataInformation()
+        columns = [rows.GetArrayInformation(i).GetName() for i in range(rows.GetNumberOfArrays())]
+        if any(map(_RESPONSE.fullmatch, columns)):
             chart = {"Calibration": calibration} if calibration else {}
             made.insert(0, simple.SampleCheck(Input=samples, SamplesName=name, **chart))
             made[0].UpdatePipeline()

@@ -5,7 +5,7 @@
  * Input 0 is a table of samples with measured reflectance and camera responses. Input 1 (optional) is the sample table of the
  * chart that the camera is calibrated with; then the samples are seen by the camera that it shows. The output has a row for each
  * question, column "question": samples in another order, exchanged or odd ones, exchanged or dead channels, another exposure,
- * saturation, samples that stand twice (see Kernels/Doubts/SampleDoubts.h). Each is a warning, too. No rows: nothing is doubted.
+ * gamma, saturation, samples that stand twice (see Kernels/Doubts/SampleDoubts.h). Each is a warning, too. No rows: nothing is doubted.
  */
 #ifndef vtkSampleCheck_h
 #define vtkSampleCheck_h

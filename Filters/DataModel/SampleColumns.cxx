@@ -209,7 +209,8 @@ MeasuredSamples readSamples(vtkTable* table, const std::string& nameOfTable)
   auto reflectance = requireSpectra(table, SampleQuantity::Reflectance, nameOfTable);
   auto response = requireSpectra(table, SampleQuantity::Response, nameOfTable);
   MeasuredSamples measured{ nameOfTable, std::move(reflectance.axis), std::move(response.axis),
-    { std::move(reflectance.values), std::move(response.values) }, sampleNames(table), {}, {} };
+    { std::move(reflectance.values), std::move(response.values) }, sampleNames(table, "row "), {},
+    {} };
   auto* x = vtkDataArray::SafeDownCast(table->GetColumnByName("x"));
   auto* y = vtkDataArray::SafeDownCast(table->GetColumnByName("y"));
   if (x && y)
@@ -295,14 +296,14 @@ std::vector<std::string> doubtsOf(const MeasuredSamples& chart, const MeasuredSa
   return doubtsOf(named(chart), channels, &ofMedium);
 }
 
-std::vector<std::string> sampleNames(vtkTable* table)
+std::vector<std::string> sampleNames(vtkTable* table, const std::string& beforeNumber)
 {
   auto* column = table->GetColumnByName("sample");
   std::vector<std::string> names;
   for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
   {
     names.push_back(
-      column ? column->GetVariantValue(row).ToString() : "row " + std::to_string(row + 1));
+      column ? column->GetVariantValue(row).ToString() : beforeNumber + std::to_string(row + 1));
   }
   return names;
 }

@@ -84,8 +84,8 @@ void requireAlike(const MeasuredSamples& a, const MeasuredSamples& b);
 std::vector<std::string> doubtsOf(
   const MeasuredSamples& chart, const MeasuredSamples* medium = nullptr);
 
-// The column "sample" as text; without it "row 1", ..
-std::vector<std::string> sampleNames(vtkTable* table);
+// The column "sample" as text; without it the rows' numbers, from 1, after some text.
+std::vector<std::string> sampleNames(vtkTable* table, const std::string& beforeNumber = "");
 
 // Copies the chosen rows, all columns, in the given order.
 void copyRows(vtkTable* from, const std::vector<Eigen::Index>& rows, vtkTable* to);

@@ -225,7 +225,8 @@ std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::Arra
   return all;
 }
 
-std::vector<Arrangement> otherOrders(Eigen::Index S)
+std::vector<Arrangement> arrangementsOf(
+  Eigen::Index S, const Eigen::ArrayXd& x, const Eigen::ArrayXd& y)
 {
   std::vector<Arrangement> all{ { "in reverse order", {} },
     { "shifted by one, each taken for the one behind it", {} },
@@ -235,6 +236,11 @@ std::vector<Arrangement> otherOrders(Eigen::Index S)
     all[0].instead.push_back(S - 1 - i);
     all[1].instead.push_back((i + 1) % S);
     all[2].instead.push_back((i + S - 1) % S);
+  }
+  if (x.size() > 0)
+  {
+    const std::vector<Arrangement> turned = turnedPlaces(x, y);
+    all.insert(all.end(), turned.begin(), turned.end());
   }
   return all;
 }

@@ -16,8 +16,9 @@ struct Arrangement
   std::string what; // "in reverse order"
   std::vector<Eigen::Index> instead;
 };
-// Of so many: in reverse order, shifted by one.
-std::vector<Arrangement> otherOrders(Eigen::Index samples);
+// Of so many samples: in reverse order, shifted by one; where x and y are not empty, turnedPlaces(), too.
+std::vector<Arrangement> arrangementsOf(
+  Eigen::Index samples, const Eigen::ArrayXd& x = {}, const Eigen::ArrayXd& y = {});
 // Mirrored, upside down, turned by 180 degrees; those alone that take every place to another one. x, y: in any unit in which
 // places are at least 0.04 apart.
 std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);

@@ -21,7 +21,7 @@ namespace
 constexpr Eigen::Index FewestOfChart = 8;
 constexpr Eigen::Index FewestOfMedium = 5;
 constexpr double HardlyPredicted = 0.5; // of the deviation is left
-constexpr double MuchLess = 0.25;
+constexpr double MuchLess = 0.25;       // of the squares left
 constexpr double Gamma = 2.2;
 constexpr double LeastDeviation = 0.005; // of a channel's, below which nobody cares
 constexpr double OtherExposure = 1.25;   // times
@@ -180,19 +180,16 @@ std::string levelQuestion(
   return text.str();
 }
 
-// Other orders, and other places where these are known.
-std::vector<Arrangement> arrangementsOf(const NamedSamples& samples)
+// Other orders of the samples, and other places where these are known: from -1 to 1.
+std::vector<Arrangement> ordersOf(const NamedSamples& samples)
 {
-  std::vector<Arrangement> all = otherOrders(samples.set.size());
-  if (samples.x.size() > 1)
+  if (samples.x.size() < 2)
   {
-    const double extent = std::fmax(
-      samples.x.maxCoeff() - samples.x.minCoeff(), samples.y.maxCoeff() - samples.y.minCoeff());
-    const std::vector<Arrangement> turned =
-      turnedPlaces(2.0 * samples.x / extent, 2.0 * samples.y / extent);
-    all.insert(all.end(), turned.begin(), turned.end());
+    return arrangementsOf(samples.set.size());
   }
-  return all;
+  const double extent = std::fmax(
+    samples.x.maxCoeff() - samples.x.minCoeff(), samples.y.maxCoeff() - samples.y.minCoeff());
+  return arrangementsOf(samples.set.size(), 2.0 * samples.x / extent, 2.0 * samples.y / extent);
 }
 
 using Numbers = std::vector<double>;
@@ -237,7 +234,7 @@ struct ChartCamera
     : camera(cameraOf(chart.set))
     , predicted(chart.set.response - camera.leftOut)
   {
-    const std::vector<Arrangement> orders = arrangementsOf(chart);
+    const std::vector<Arrangement> orders = ordersOf(chart);
     double least = camera.leaveOneOutRms;
     const double hardly = HardlyPredicted * scatterOf(chart.set.response);
     for (std::size_t n = 0; least > hardly && n < orders.size(); ++n)
@@ -255,10 +252,10 @@ struct ChartCamera
   }
 };
 
-// Of the squares about the mean what the camera that the chart shows leaves; each sample by all others.
-double partLeft(const SampleSet& chart)
+// Of the squares about the mean what the camera that a chart shows leaves; each sample by all others.
+double partLeft(const RidgeFit& camera, const Eigen::MatrixXd& responses)
 {
-  return std::pow(cameraOf(chart).leaveOneOutRms / scatterOf(chart.response), 2);
+  return std::pow(camera.leaveOneOutRms / scatterOf(responses), 2);
 }
 
 // The same of what is predicted of a medium, after a straight line in each channel.
@@ -272,11 +269,10 @@ double partLeft(const Eigen::MatrixXd& responses, const Eigen::MatrixXd& predict
   return 1.0 - together;
 }
 
-// Responses of which much less is left once they are raised to a power. left(responses): what part of the squares.
+// Responses of which much less is left once they are raised to a power. left(responses): what part of the squares; asTold: of these.
 template <typename Left>
-std::string curveQuestion(const Eigen::MatrixXd& responses, const Left& left)
+std::string curveQuestion(const Eigen::MatrixXd& responses, double asTold, const Left& left)
 {
-  const double asTold = left(responses);
   std::ostringstream text;
   text.precision(2);
   for (const double power : { Gamma, 1.0 / Gamma })
@@ -356,9 +352,9 @@ std::vector<std::string> doubtsOf(const NamedSamples& chartInAll,
     return questions;
   }
   ask(chart, oddQuestion(standardized(seen.camera), deviation, chart));
-  const std::string curved = curveQuestion(chart.set.response,
-    [&chart](const Eigen::MatrixXd& responses) {
-      return partLeft({ chart.set.reflectance, responses });
+  std::string curved = curveQuestion(chart.set.response, partLeft(seen.camera, chart.set.response),
+    [&chart](const Eigen::MatrixXd& raised) {
+      return partLeft(cameraOf({ chart.set.reflectance, raised }), raised);
     });
   ask(chart, curved);
   if (medium.set.size() < FewestOfMedium)
@@ -369,23 +365,24 @@ std::vector<std::string> doubtsOf(const NamedSamples& chartInAll,
   const Eigen::MatrixXd predicted = seen.camera.fit.transform(medium.set.reflectance);
   ask(medium, saturationQuestion(medium.set.response, predicted, channels));
   const std::string mixedUp =
-    mixUp(medium.set.response, predicted, arrangementsOf(medium), channels, medium.names);
+    mixUp(medium.set.response, predicted, ordersOf(medium), channels, medium.names);
   ask(medium, mixedUp);
-  if (mixedUp.empty())
+  if (!mixedUp.empty())
   {
-    ask(medium, oddQuestion(leftBeside(chart.set, medium.set, predicted), deviation, medium));
+    return questions;
+  }
+  ask(medium, oddQuestion(leftBeside(chart.set, medium.set, predicted), deviation, medium));
+  if (curved.empty())
+  {
+    curved = curveQuestion(medium.set.response, partLeft(medium.set.response, predicted),
+      [&predicted](const Eigen::MatrixXd& raised) { return partLeft(raised, predicted); });
+    ask(medium, curved);
+  }
+  if (curved.empty())
+  {
     const double leastOffset = std::fmax(
       OtherDark * typicalLevel(chart.set.response), OverError * seen.camera.leaveOneOutRms);
-    const std::string curvedHere = !curved.empty()
-      ? std::string()
-      : curveQuestion(medium.set.response,
-          [&predicted](const Eigen::MatrixXd& responses)
-          { return partLeft(responses, predicted); });
-    ask(medium, curvedHere);
-    ask(medium,
-      curved.empty() && curvedHere.empty()
-        ? levelQuestion(medium.set.response, predicted, leastOffset)
-        : std::string());
+    ask(medium, levelQuestion(medium.set.response, predicted, leastOffset));
   }
   return questions;
 }

@@ -1,5 +1,5 @@
 // What to doubt about measured samples before anything is computed from them: readings of another sample, an exchanged channel, another
-// exposure, saturation, samples that stand twice.
+// exposure, gamma, saturation, samples that stand twice.
 #pragma once
 
 #include "Kernels/Estimation/SampleSet.h"

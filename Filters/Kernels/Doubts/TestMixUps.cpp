@@ -132,7 +132,7 @@ TEST(MixUpsOfPlaces, AFieldThatTurnsOntoItself)
   EXPECT_EQ(turned[0].instead, (std::vector<Eigen::Index>{ 2, 1, 0, 5, 4, 3 }));
   EXPECT_EQ(turned[1].instead, (std::vector<Eigen::Index>{ 3, 4, 5, 0, 1, 2 }));
   EXPECT_EQ(turned[2].what, "turned by 180 degrees");
-  EXPECT_EQ(turned[2].instead, msi::otherOrders(6).front().instead);
+  EXPECT_EQ(turned[2].instead, msi::arrangementsOf(6).front().instead);
   const Eigen::Array<double, 6, 1> uneven{ 0, 1, 2, 0, 1, 5 };
   EXPECT_TRUE(msi::turnedPlaces(uneven, y).size() < 3u);
 }

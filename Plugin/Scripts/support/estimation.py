@@ -4,7 +4,7 @@ import collections
 import os
 import re
 
-from . import command, pictures, pipeline, report, state
+from . import cameras, command, pictures, pipeline, report, state
 from .colors import Colors
 
 # Images of more pixels than this are shown by every n-th one, so that a side has at most so many.
@@ -83,7 +83,7 @@ def estimate(image, transforms, folder, trust=False):
 
 def check_samples(samples, name, calibration=None):
     """Notes what is to be doubted about samples, beside the chart's where it is given; nothing where channels have no number."""
-    if not any(re.fullmatch(r"C\d+(\.\d+)?", name) for name in pipeline.column_names(samples)):
+    if not cameras.responses(samples):
         return
     chart = {"Calibration": calibration} if calibration else {}
     pipeline.update(pipeline.create("SampleCheck", Input=samples, SamplesName=name, **chart))

@@ -294,12 +294,9 @@ void addExcessNoise(
 std::string mixUpOf(const GapData& data)
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Arrangement> arrangements = otherOrders(data.samples());
-  if (data.scene.hasPositions())
-  {
-    const std::vector<Arrangement> turned = turnedPlaces(data.scene.fieldX(), data.scene.fieldY());
-    arrangements.insert(arrangements.end(), turned.begin(), turned.end());
-  }
+  const std::vector<Arrangement> arrangements = data.scene.hasPositions()
+    ? arrangementsOf(data.samples(), data.scene.fieldX(), data.scene.fieldY())
+    : arrangementsOf(data.samples());
   return mixUp(data.measured().select(data.observed, none), data.simulated, arrangements,
     data.camera.channels(), data.names);
 }

@@ -193,12 +193,27 @@ bool isOfLinearFit(const std::string& effect, const std::string& form)
   return found != nullptr && found->has(FormTrait::BesideLine);
 }
 
+bool isOfLinearFit(const GapCause& cause)
+{
+  return isOfLinearFit(cause.effect, cause.form);
+}
+
 bool isSmallErrorOfChannels(const GapCause& cause, double share)
 {
   const EffectDefinition* effect = findEffect(cause.effect);
   return cause.perChannel && effect != nullptr && effect->stage != EffectStage::Image &&
     share <= Decision::LeastPartPerChannel;
 }
+}
+
+void sortCauses(std::vector<GapCause>& causes)
+{
+  std::stable_sort(causes.begin(), causes.end(),
+    [](const GapCause& a, const GapCause& b)
+    {
+      return std::make_pair(isOfLinearFit(a), -a.share) <
+        std::make_pair(isOfLinearFit(b), -b.share);
+    });
 }
 
 void creditCauses(GapReport& report, std::vector<GapCause> causes)
@@ -211,15 +226,16 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes)
   const double all = sumOf(causes);
   const auto isCause = [all](const GapCause& cause)
   {
-    return isOfLinearFit(cause.effect, cause.form) ? cause.share > Decision::PartlyShrink
-                                                   : cause.share > Decision::LeastPart * all &&
+    return isOfLinearFit(cause) ? cause.share > Decision::PartlyShrink
+                                : cause.share > Decision::LeastPart * all &&
         !isSmallErrorOfChannels(cause, cause.share / all);
   };
+  sortCauses(causes);
   const auto first = std::stable_partition(causes.begin(), causes.end(), isCause);
   report.uncredited.clear();
   for (auto cause = first; cause != causes.end(); ++cause)
   {
-    if (!isOfLinearFit(cause->effect, cause->form)) // which has a note of its own
+    if (!isOfLinearFit(*cause)) // which has a note of its own
     {
       report.uncredited.push_back(cause->effect);
     }

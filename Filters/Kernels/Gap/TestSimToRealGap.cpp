@@ -301,6 +301,18 @@ TEST(SimToRealGap, ACurveBehindALinearFitIsOneCause)
   EXPECT_TRUE(says(report.notes, "linear fit to responses that are curved"));
 }
 
+// How the simulated camera was made is said after what is new, however much of the gap it is.
+TEST(SimToRealGap, ACurveBehindALinearFitComesAfterWhatHasChanged)
+{
+  msi::GapCapture capture = captureWith({ { "dark_offset", "", "", { 0.003 } } }, 96);
+  curveBehindLinearFit(capture, 0.1);
+  const msi::GapReport report = diagnosisOf(capture);
+  ASSERT_EQ(report.causes.size(), 2U);
+  EXPECT_EQ(report.causes[0].effect, "dark_offset");
+  EXPECT_EQ(report.causes[1].form, "fitted");
+  EXPECT_LT(report.causes[0].share, report.causes[1].share);
+}
+
 // The detector has changed its curve since the camera was fitted as linear: one effect, and no offset to mend it.
 TEST(SimToRealGap, ACurveMayChangeBehindALinearFit)
 {

@@ -182,8 +182,6 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
     cause.parameters = parameters[p];
     causes.push_back(std::move(cause));
   }
-  std::stable_sort(causes.begin(), causes.end(),
-    [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
   return causes;
 }
 

@@ -286,8 +286,7 @@ void addExcessNoise(
   report.correction.push_back(
     { cause.effect, cause.form, "", { std::fmin(noise.excess, factor.upper) } });
   report.causes.push_back(std::move(cause));
-  std::stable_sort(report.causes.begin(), report.causes.end(),
-    [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
+  sortCauses(report.causes);
   believe(report, std::move(beliefs));
 }
 

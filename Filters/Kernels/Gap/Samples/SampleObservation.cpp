@@ -28,16 +28,14 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices)
   for (const EffectChoice& choice : choices)
   {
     const EffectParameter& first = choice.form->parameters.front();
-    options.push_back(
-      { choice.effect, choice.form->name, choice.medium, first.perChannel && !first.followsLight,
-        Decision::EffectImprobability +
-          Decision::FormImprobability *
-            (choice.form->has(FormTrait::BesideLine)
-                ? 0.0
-                : static_cast<double>(
-                    choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0))),
-        choice.form->has(FormTrait::BesideLine),
-        choice.form->has(FormTrait::Brightens) && !choice.whiteAfter });
+    const bool besideLine = choice.form->has(FormTrait::BesideLine);
+    const auto place = choice.form - choice.effect->forms.data() + (choice.whiteAfter ? 1 : 0);
+    options.push_back({ choice.effect, choice.form->name, choice.medium,
+      first.perChannel && !first.followsLight,
+      besideLine
+        ? Decision::StandIn // every camera that was fitted as linear has some
+        : Decision::EffectImprobability + Decision::FormImprobability * static_cast<double>(place),
+      besideLine, choice.form->has(FormTrait::Brightens) && !choice.whiteAfter });
   }
   return options;
 }

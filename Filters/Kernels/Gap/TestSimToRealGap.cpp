@@ -304,7 +304,7 @@ TEST(SimToRealGap, ACurveBehindALinearFitIsOneCause)
 // How the simulated camera was made is said after what is new, however much of the gap it is.
 TEST(SimToRealGap, ACurveBehindALinearFitComesAfterWhatHasChanged)
 {
-  msi::GapCapture capture = captureWith({ { "dark_offset", "", "", { 0.003 } } }, 96);
+  msi::GapCapture capture = captureWith({ { "dark_offset", "", "", { 0.002 } } }, 96);
   curveBehindLinearFit(capture, 0.1);
   const msi::GapReport report = diagnosisOf(capture);
   ASSERT_EQ(report.causes.size(), 2U);

@@ -118,7 +118,7 @@ struct GapReport
   GapFigures gap;
   std::vector<GapAxis> where; // the largest share first
   std::vector<GapChangePoint> changePoints;
-  std::vector<GapCause> causes;        // the largest share first
+  std::vector<GapCause> causes;        // in the order of sortCauses()
   std::vector<std::string> uncredited; // effects of the correction that help it but are no cause
   bool unconfirmed =
     false; // the causes show in so few samples that those left out cannot confirm them

@@ -230,7 +230,6 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes)
                                 : cause.share > Decision::LeastPart * all &&
         !isSmallErrorOfChannels(cause, cause.share / all);
   };
-  sortCauses(causes);
   const auto first = std::stable_partition(causes.begin(), causes.end(), isCause);
   report.uncredited.clear();
   for (auto cause = first; cause != causes.end(); ++cause)

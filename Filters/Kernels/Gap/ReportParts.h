@@ -69,10 +69,10 @@ void requireKnown(const std::vector<std::string>& without);
 // Of a gap of which its causes explain this part of the size.
 GapVerdict verdictOf(double explained) noexcept;
 
-// The largest share first; last what a linear fit leaves of a curve, which is how the simulated camera was made and no change since.
+// The largest share first; but last what a linear fit leaves of a curve: it says how the simulated camera was made, not what has changed.
 void sortCauses(std::vector<GapCause>& causes);
 
-// Takes the causes into the report, sorted, and what none of them explains. Those that get less than Decision::LeastPart of what all get are no
+// Takes the causes into the report, and what none of them explains. Those that get less than Decision::LeastPart of what all get are no
 // causes, nor are numbers of single channels with less than Decision::LeastPartPerChannel, but for effects that need an image: their effects go to GapReport::uncredited. What a
 // linear fit leaves of a curve is one where it partly explains the gap (Decision::PartlyShrink); every camera fitted as linear has some.
 void creditCauses(GapReport& report, std::vector<GapCause> causes);

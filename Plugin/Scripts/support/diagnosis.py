@@ -184,8 +184,8 @@ def cause_lines(figures, causes, gap):
     lines = [cause_line(cause, gap) for cause in causes]
     unknown = figures["unknown_probability"]
     if unknown >= UNKNOWN_IS_SAID:
-        lines.insert(sum(cause["probability"] >= unknown for cause in causes),
-                     f"An effect that is not in the library: probability {percent(unknown)}")
+        place = next((place for place, cause in enumerate(causes) if cause["probability"] < unknown), len(causes))
+        lines.insert(place, f"An effect that is not in the library: probability {percent(unknown)}")
     return lines
 
 

@@ -61,7 +61,7 @@ def _nonlinearity(form, p):
     if form == "anchored":
         return f"{_brighter((_MIDDLE - 1.0) * p['square'][0])} at half of white"
     if form == "fitted":
-        return f"the response bends by {_percent(p['square'][0])} of white up to white"
+        return f"the response bends by {_percent(p['square'][0])} of white up to white, which the linear fit of the simulated camera leaves out"
     return f"{_brighter(sum(p[name][0] for name in ('square', 'cube') if name in p))} at white"
 
 

@@ -39,7 +39,7 @@ inline constexpr double FormImprobability = 1.0;
 inline constexpr double DecisiveOdds = 6.0;
 
 // Of an effect that seems to stand for another: a parameter at the end of its range, an effect of a medium that all of several media
-// have, a gain in disguise.
+// have, a gain in disguise. It is also the price of what a linear fit leaves of a curve: every camera that was fitted so has some.
 inline constexpr double StandIn = 0.5 * DecisiveOdds;
 
 // How sure?

@@ -182,6 +182,7 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
     cause.parameters = parameters[p];
     causes.push_back(std::move(cause));
   }
+  sortCauses(causes);
   return causes;
 }
 

@@ -22,7 +22,7 @@ namespace msi
 std::vector<double> sharesUnderPrecedence(
   const std::vector<double>& shrink, const std::vector<char>& later);
 
-// The causes, the largest share first; their shares sum to `shrink`, the held-out shrink of the whole diagnosis.
+// The causes in the order of sortCauses(); their shares sum to `shrink`, the held-out shrink of the whole diagnosis.
 std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink);
 
 // Probability that something that the library does not have is behind the gap.

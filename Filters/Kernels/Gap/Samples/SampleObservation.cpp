@@ -33,7 +33,7 @@ std::vector<GapOption> gapOptions(const std::vector<EffectChoice>& choices)
     options.push_back({ choice.effect, choice.form->name, choice.medium,
       first.perChannel && !first.followsLight,
       besideLine
-        ? Decision::StandIn // every camera that was fitted as linear has some
+        ? Decision::StandIn
         : Decision::EffectImprobability + Decision::FormImprobability * static_cast<double>(place),
       besideLine, choice.form->has(FormTrait::Brightens) && !choice.whiteAfter });
   }

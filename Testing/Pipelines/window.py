@@ -3,7 +3,7 @@ that are written and opened, a chart whose corners are dragged.
 
 Arguments: a folder for screenshots and logs; nothing more, or
   server PVSERVER MPIEXEC   the main job, its fault and the spectra with a server on two ranks
-  examples LAUNCHER         the commands of Documentation/Window.md that open the window"""
+  examples LAUNCHER         the commands of Documentation/Window.md that open the window, and with a state file"""
 
 import csv
 import json
@@ -37,7 +37,7 @@ class Window:
         self.processes = []
         self.environment = dict(
             os.environ, HOME=str(folder / "home"), XDG_RUNTIME_DIR=str(folder / "run"), QT_QPA_PLATFORM="xcb",
-            LIBGL_ALWAYS_SOFTWARE="1", MULTISPECTRAL_WINDOW_STATE=str(self.state_file), MULTISPECTRAL_EXAMPLE="",
+            LIBGL_ALWAYS_SOFTWARE="1", MULTISPECTRAL_WINDOW_STATE=str(self.state_file), MULTISPECTRAL_SHOW="",
             PV_PLUGIN_CONFIG_FILE=str(folder / "plugins.xml"))
         settings = folder / "home" / ".config" / "ParaView"
         settings.mkdir(parents=True)
@@ -696,21 +696,41 @@ def shows_capture(state):
     return state["tables"] == 2 and "verdict" in state["first columns"] and state["sources"].get("warm camera: gap") == "SimToRealGap"
 
 
+def shows_state(state):
+    return state["sources"] == {"kept": "SampleTableReader"} and len(state["first columns"]) == 1
+
+
 EXAMPLES = {"scene": shows_scene, "fabric": shows_fabric, "capture": shows_capture}
 
 
+# Saves a state file: PLUGIN, FILE.
+SAVE_STATE = f"""import sys
+from paraview import simple
+simple.LoadPlugin(sys.argv[1], remote=False, ns=simple.__dict__)
+table = simple.SampleTableReader(registrationName="kept", FileName={str(SCENE / "patches.csv")!r})
+view = simple.CreateView("SpreadSheetView")
+simple.AssignViewToLayout(view)
+simple.Show(table, view)
+simple.Render(view)
+simple.SaveState(sys.argv[2])
+"""
+
+
 def examples(folder, launcher):
-    """Each example by its command; the page and the launcher name them all."""
+    """Each example by its command, and a state file; the page and the launcher name all examples."""
     page = (ROOT / "Documentation" / "Window.md").read_text(encoding="utf-8")
     named = set(re.findall(r"^multispectral paraview (\w+)", page, re.MULTILINE))
     if named != set(EXAMPLES):
         return f"Documentation/Window.md names the examples {sorted(named)}, expected {sorted(EXAMPLES)}"
-    for name, shown in EXAMPLES.items():
-        window = Window(folder / name)
+    (folder / "save_state.py").write_text(SAVE_STATE, encoding="utf-8")
+    state_file = folder / "saved.pvsm"
+    subprocess.run(["pvpython", folder / "save_state.py", os.environ["MULTISPECTRAL_PLUGIN"], state_file], check=True)
+    for name, shown in {**EXAMPLES, str(state_file): shows_state}.items():
+        window = Window(folder / pathlib.Path(name).stem)
         window.watch_from_python()
         try:
             window.start(launcher, "paraview", name)
-            window.wait(f"the example {name}", lambda s, shown=shown: shown(s) and not s["dialogs"], WORK)
+            window.wait(f"{name} shown", lambda s, shown=shown: shown(s) and not s["dialogs"], WORK)
             window.picture("shown")
             if window.errors():
                 return f"{name}: ParaView said: " + "\n".join(window.errors()[:10])

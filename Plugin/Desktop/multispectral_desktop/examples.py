@@ -55,6 +55,11 @@ def capture():
 EXAMPLES = {"scene": scene, "fabric": fabric, "capture": capture}
 
 
-def show(name):
-    if name:
-        EXAMPLES[name]()
+def show(what):
+    """An example by its name, or a state file by its path."""
+    if what in EXAMPLES:
+        EXAMPLES[what]()
+    elif what:
+        simple.LoadState(what)
+        if simple.GetViews():  # of its views LoadState brings only images to the front
+            simple.SetActiveView(simple.GetViews()[0])

@@ -1,4 +1,4 @@
-"""Waits for ParaView's window, then adds the panel and the toolbar, and shows the example MULTISPECTRAL_EXAMPLE."""
+"""Waits for ParaView's window, then adds the panel and the toolbar, and shows MULTISPECTRAL_SHOW: an example or a state file."""
 
 import os
 import sys
@@ -42,7 +42,7 @@ def start():
         try:
             from . import examples, window as desktop
             _kept.append((window, desktop.install(window)))
-            examples.show(os.environ.get("MULTISPECTRAL_EXAMPLE"))
+            examples.show(os.environ.get("MULTISPECTRAL_SHOW"))
         except Exception:
             traceback.print_exc()
 

@@ -98,7 +98,7 @@ Effect filterBandwidth()
     { { "common", "M(c + (wavelength - c) / factor), response to white kept", { factor(false) }, {},
         FormTrait::KeepsWhite },
       { "of_neighbours",
-        "M + added_variance / 2 times the second derivative over the neighbouring channels, "
+        "exp(added_variance / 2 D) M, D: the second derivative over the neighbouring channels, "
         "response to white kept, at an end of the grid what would go beyond stays: for a camera "
         "that was fitted to samples",
         { { "added_variance", "nm^2", 0.0, -200.0, 400.0, 15.0,

@@ -1,5 +1,7 @@
 #include "Kernels/Camera/Effects/Passbands.h"
 
+#include <unsupported/Eigen/MatrixFunctions>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -17,43 +19,46 @@ public:
     const WavelengthGrid& grid, const Eigen::ArrayXd& centers, double shift, double variance)
     : Change(Eigen::MatrixXd::Identity(centers.size(), centers.size()))
   {
+    Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(centers.size(), centers.size());
     std::vector<Eigen::Index> order(static_cast<std::size_t>(centers.size()));
     std::iota(order.begin(), order.end(), Eigen::Index(0));
     std::stable_sort(order.begin(), order.end(),
       [&centers](Eigen::Index a, Eigen::Index b) { return centers[a] < centers[b]; });
     for (std::size_t n = 0; n < order.size() && order.size() > 2; ++n)
     {
+      const Eigen::Index own = order[n];
       const std::size_t first = std::min(n > 0 ? n - 1 : 0, order.size() - 3);
-      const double at = centers[order[n]] + shift;
-      // At an end where the grid has no room for a further neighbour, what would go beyond stays.
-      const std::size_t inner = n == 0 ? 1 : n - 1;
-      const double step = std::fabs(centers[order[inner]] - centers[order[n]]);
-      const bool atEnd = (n == 0 && centers[order[n]] - step < grid.front()) ||
-        (n + 1 == order.size() && centers[order[n]] + step > grid.back());
-      const double curved = atEnd ? 0.0 : variance;
-      Eigen::RowVector3d weight;
+      const double at = centers[own] + shift;
+      Eigen::RowVectorXd moved = Eigen::RowVectorXd::Zero(centers.size());
+      Eigen::RowVectorXd curved = moved;
       for (std::size_t i = 0; i < 3; ++i)
       {
-        const double own = centers[order[first + i]];
+        const Eigen::Index node = order[first + i];
         const double one = centers[order[first + (i + 1) % 3]];
         const double other = centers[order[first + (i + 2) % 3]];
-        const double area = (own - one) * (own - other);
-        weight[static_cast<Eigen::Index>(i)] = ((at - one) * (at - other) + curved) / area;
+        const double area = (centers[node] - one) * (centers[node] - other);
+        moved[node] = (at - one) * (at - other) / area;
+        curved[node] = 2.0 / area;
       }
-      if (weight.allFinite())
+      // At an end where the grid has no room for a further neighbour, what would go beyond stays.
+      const Eigen::Index inner = order[n == 0 ? 1 : n - 1];
+      const double step = std::fabs(centers[inner] - centers[own]);
+      if ((n == 0 && centers[own] - step < grid.front()) ||
+        (n + 1 == order.size() && centers[own] + step > grid.back()))
       {
-        Change.row(order[n]).setZero();
-        for (std::size_t i = 0; i < 3; ++i)
-        {
-          Change(order[n], order[first + i]) = weight[static_cast<Eigen::Index>(i)];
-        }
-        if (atEnd)
-        {
-          const double exchanged = 0.5 * variance / (step * step);
-          Change(order[n], order[n]) -= exchanged;
-          Change(order[n], order[inner]) += exchanged;
-        }
+        curved.setZero();
+        curved[inner] = 1.0 / (step * step);
+        curved[own] = -curved[inner];
       }
+      if (moved.allFinite() && curved.allFinite())
+      {
+        Change.row(own) = moved;
+        curvature.row(own) = curved;
+      }
+    }
+    if (variance != 0.0)
+    {
+      Change = (0.5 * variance * curvature).exp() * Change;
     }
   }
   void apply(Eigen::MatrixXd& responsivity) const override

@@ -106,23 +106,6 @@ std::vector<Plane> pyramid(const PixelBuffer& tile, int channel, int levels)
   return result;
 }
 
-// Cubic convolution as in ChannelRegistration, with the derivative along the axis.
-struct CubicSlope
-{
-  std::array<float, 4> weight;
-  std::array<float, 4> slope;
-};
-
-CubicSlope cubicSlope(float t)
-{
-  const float t2 = t * t;
-  const float t3 = t2 * t;
-  return { { -0.5F * t + t2 - 0.5F * t3, 1.0F - 2.5F * t2 + 1.5F * t3,
-             0.5F * t + 2.0F * t2 - 1.5F * t3, -0.5F * t2 + 0.5F * t3 },
-    { -0.5F + 2.0F * t - 1.5F * t2, -5.0F * t + 4.5F * t2, 0.5F + 4.0F * t - 4.5F * t2,
-      -t + 1.5F * t2 } };
-}
-
 // Value and derivatives at a place that is at least a pixel from the edge, two from the far one.
 struct Sample
 {
@@ -133,23 +116,19 @@ struct Sample
 
 Sample sampleAt(const Plane& plane, int x, int y, float fractionX, float fractionY)
 {
-  const CubicSlope across = cubicSlope(fractionX);
-  const CubicSlope down = cubicSlope(fractionY);
+  const Eigen::Array4f across = cubicConvolution(fractionX);
+  const Eigen::Array4f acrossSlope = cubicConvolutionSlope(fractionX);
+  const Eigen::Array4f down = cubicConvolution(fractionY);
+  const Eigen::Array4f downSlope = cubicConvolutionSlope(fractionY);
   Sample sample{ 0.0F, 0.0F, 0.0F };
-  for (std::size_t v = 0; v < 4; ++v)
+  for (int v = 0; v < 4; ++v)
   {
-    const float* row = plane.values.data() +
-      static_cast<std::ptrdiff_t>(y - 1 + static_cast<int>(v)) * plane.width + (x - 1);
-    float value = 0.0F;
-    float slope = 0.0F;
-    for (std::size_t u = 0; u < 4; ++u)
-    {
-      value += across.weight[u] * row[u];
-      slope += across.slope[u] * row[u];
-    }
-    sample.value += down.weight[v] * value;
-    sample.alongX += down.weight[v] * slope;
-    sample.alongY += down.slope[v] * value;
+    const Eigen::Map<const Eigen::Array4f> row(
+      plane.values.data() + static_cast<std::ptrdiff_t>(y - 1 + v) * plane.width + (x - 1));
+    const float value = (across * row).sum();
+    sample.value += down[v] * value;
+    sample.alongX += down[v] * (acrossSlope * row).sum();
+    sample.alongY += downSlope[v] * value;
   }
   return sample;
 }

@@ -14,12 +14,24 @@ namespace msi
 
 // Cubic convolution, R. G. Keys, IEEE Trans. ASSP 29 (1981) 1153, doi:10.1109/TASSP.1981.1163711 (a = -1/2): weights of the
 // four pixels around a place that lies t behind the second of them.
-inline Eigen::Array4d cubicConvolution(double t)
+template <typename Number>
+Eigen::Array<Number, 4, 1> cubicConvolution(Number t)
 {
-  const double t2 = t * t;
-  const double t3 = t2 * t;
-  return { -0.5 * t + t2 - 0.5 * t3, 1.0 - 2.5 * t2 + 1.5 * t3, 0.5 * t + 2.0 * t2 - 1.5 * t3,
-    -0.5 * t2 + 0.5 * t3 };
+  const Number half(0.5);
+  const Number t2 = t * t;
+  const Number t3 = t2 * t;
+  return { t2 - half * (t + t3), Number(1) - 5 * half * t2 + 3 * half * t3,
+    half * t + 2 * t2 - 3 * half * t3, half * (t3 - t2) };
+}
+
+// Their derivatives by t.
+template <typename Number>
+Eigen::Array<Number, 4, 1> cubicConvolutionSlope(Number t)
+{
+  const Number half(0.5);
+  const Number t2 = t * t;
+  return { 2 * t - half - 3 * half * t2, 9 * half * t2 - 5 * t, half + 4 * t - 9 * half * t2,
+    3 * half * t2 - t };
 }
 
 // Turns the image of channel k by rotation_k degrees (from right to down) and magnifies it by 1 + magnification_k, both

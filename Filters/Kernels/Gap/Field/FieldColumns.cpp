@@ -147,10 +147,8 @@ struct AxisKernel
   {
     const double below = std::floor(-displacement);
     const double t = -displacement - below;
-    const double t2 = t * t;
     const Eigen::Array4d cubic = cubicConvolution(t);
-    const Eigen::Array4d cubicSlope(0.5 - 2.0 * t + 1.5 * t2, 5.0 * t - 4.5 * t2,
-      -0.5 - 4.0 * t + 4.5 * t2, t - 1.5 * t2); // minus the derivative by t
+    const Eigen::Array4d cubicSlope = -cubicConvolutionSlope(t);
     const int reach = std::max(
       1, static_cast<int>(std::ceil(GaussianCut * std::sqrt(variance * (1.0 + VarianceStep)))));
     const Eigen::ArrayXd spread = gaussian(variance, reach);

@@ -46,7 +46,7 @@ struct FieldFinding
 
 // A first, quick search says what is left, which shows the noise.
 void search(FieldFinding& finding, const FieldData& data, const std::vector<FieldChoice>& choices,
-  const FieldStart& start, int maximumEffects, const FieldLoop& loop,
+  const Eigen::MatrixXd& start, int maximumEffects, const FieldLoop& loop,
   const std::function<bool()>& stop)
 {
   finding.weights = fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop,
@@ -356,7 +356,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     return std::nullopt;
   }
   FieldFinding finding;
-  const FieldStart start = registrationStart(data, loop);
+  const Eigen::MatrixXd start = registrationStart(data, loop);
   search(finding, data, choices, start, options.maximumCauses, loop,
     [&] { return say(done + 0.25 * (0.9 - done), "searching for effects"); });
   if (stopped || say(0.9, "describing what was found"))

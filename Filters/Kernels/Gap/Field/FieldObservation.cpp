@@ -59,7 +59,7 @@ bool clips(const FieldChoice& choice)
 }
 
 FieldObservation::FieldObservation(const FieldData& data, const std::vector<FieldChoice>& choices,
-  const FieldWeights& weights, const FieldStart& start, const FieldLoop& loop)
+  const FieldWeights& weights, const Eigen::MatrixXd& start, const FieldLoop& loop)
   : Data(data)
   , Choices(choices)
   , Weights(weights)
@@ -135,13 +135,10 @@ void FieldObservation::findProfiles(FieldModel& model, const std::vector<FieldRe
 
 FieldModel FieldObservation::registered(const FieldModel& model, const FieldChoice& choice) const
 {
-  // Displacement, magnification, rotation; a form without the last starts from a displacement alone.
-  const std::vector<ImageTerm>& all = choice.effect->imageForms.back().terms;
-  const Eigen::MatrixXd& place = choice.terms.size() == all.size() ? Start.similarity : Start.shift;
   FieldModel moved = model;
-  for (std::size_t t = 0; t < all.size(); ++t)
+  for (std::size_t t = 0; t < choice.terms.size(); ++t)
   {
-    moved[all[t].parameter] = place.col(static_cast<Eigen::Index>(t)).array();
+    moved[choice.terms[t].parameter] = Start.col(static_cast<Eigen::Index>(t)).array();
   }
   return moved;
 }
@@ -162,7 +159,7 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
     const FieldSet set = joined(base.set, choice);
     GapPreview preview{ option, {}, {} };
     FieldFit fit = fitter.fitFromBestStart(set);
-    if (choice.step().step->displacement != nullptr && !Start.shift.isZero())
+    if (choice.step().step->displacement != nullptr && !Start.isZero())
     {
       const FieldModel moved = registered(model, choice);
       const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop, stepsOf(set));

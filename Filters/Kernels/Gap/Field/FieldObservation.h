@@ -31,7 +31,7 @@ class FieldObservation : public Observation
 public:
   // Hold references.
   FieldObservation(const FieldData& data, const std::vector<FieldChoice>& choices,
-    const FieldWeights& weights, const FieldStart& start, const FieldLoop& loop);
+    const FieldWeights& weights, const Eigen::MatrixXd& start, const FieldLoop& loop);
 
   const std::vector<GapOption>& options() const override { return Options; }
   Eigen::Index channels() const override { return Data.channels(); }
@@ -53,6 +53,7 @@ private:
   FitPointer described(FieldHypothesis hypothesis) const;
   void findProfiles(FieldModel& model, const std::vector<FieldResidual>& residuals,
     const FieldSet& set, bool keepTrend) const;
+  // With the terms of the choice where the images were seen to lie.
   FieldModel registered(const FieldModel& model, const FieldChoice& choice) const;
   // Whether the model has the start that it needs.
   static bool hasStart(const FieldModel& model, const FieldChoice& choice);
@@ -60,7 +61,7 @@ private:
   const FieldData& Data;
   const std::vector<FieldChoice>& Choices;
   const FieldWeights& Weights;
-  const FieldStart& Start; // of misregistration
+  const Eigen::MatrixXd& Start; // of misregistration
   const FieldLoop& Loop;
   std::vector<GapOption> Options;
   double Elements = 0.0;

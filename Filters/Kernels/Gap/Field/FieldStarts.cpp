@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldStarts.h"
-#include "Kernels/Doubts/PairSums.h"
 
 #include "Kernels/Camera/CameraEffect.h"
+#include "Kernels/Camera/Imaging/ChannelDisplacement.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>
@@ -14,137 +14,52 @@ namespace msi
 
 namespace
 {
-constexpr int Farthest = 10;
-constexpr int Side = 2 * Farthest + 1;
-constexpr std::size_t ShiftBlocks = 64;
-constexpr double BetterCorrelation = 0.002; // of correlation; less is not worth a start elsewhere
+constexpr double LeastMove = 0.5; // pixels: a fit by gradients finds less by itself
 
-// Of a block in one channel: variances and covariance with the scene at each displacement.
-struct Match
+// Of both images, the simulated channels first.
+std::vector<PixelBuffer> tilesOf(const FieldPair& pair)
 {
-  Eigen::Vector2d place; // middle, from that of the image
-  double real;
-  Eigen::Array<double, Side, Side> scene, both; // down, right
-};
+  const std::size_t K = pair.channels.size();
+  std::vector<PixelBuffer> tiles;
+  for (const ImageWindow& window : displacementTiles(pair.extent))
+  {
+    PixelBuffer& tile = tiles.emplace_back();
+    tile.resize(window, static_cast<int>(2 * K));
+    for (int y = window.y; y < window.y + window.height; ++y)
+    {
+      for (int x = window.x; x < window.x + window.width; ++x)
+      {
+        const std::size_t first = pair.index(x, y) * K;
+        std::copy_n(pair.real + first, K, std::copy_n(pair.simulated + first, K, tile.pixel(x, y)));
+      }
+    }
+  }
+  return tiles;
+}
+}
 
-Match matchOf(const FieldData& data, const FieldBlock& block, Eigen::Index channel)
+Eigen::MatrixXd registrationStart(const FieldData& data, const FieldLoop& loop)
 {
-  const auto K = static_cast<std::size_t>(data.channels());
-  const auto k = static_cast<std::size_t>(channel);
   const ImageExtent& extent = data.pair.extent;
-  Match match{ middleOf(data.pair, block.window), 0.0, {}, {} };
-  for (int down = -Farthest; down <= Farthest; ++down)
+  const auto K = static_cast<int>(data.channels());
+  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(K, 4);
+  if (std::min(extent.width, extent.height) < DisplacementSearch::LeastTileSide)
   {
-    for (int right = -Farthest; right <= Farthest; ++right)
-    {
-      PairSums sums;
-      std::size_t i = k;
-      for (int y = block.window.y; y < block.window.y + block.window.height; ++y)
-      {
-        const int v = std::clamp(y - down, 0, extent.height - 1);
-        for (int x = block.window.x; x < block.window.x + block.window.width; ++x, i += K)
-        {
-          const int u = std::clamp(x - right, 0, extent.width - 1);
-          sums.add(block.real[i], data.scene()[data.pair.index(u, v) * K + k]);
-        }
-      }
-      match.real = sums.ofReal();
-      match.scene(down + Farthest, right + Farthest) = sums.ofSimulated();
-      match.both(down + Farthest, right + Farthest) = sums.ofBoth();
-    }
+    return start;
   }
-  return match;
-}
-
-// right, down, magnification, rotation in radians
-using Similarity = Eigen::RowVector4d;
-
-// Of all blocks; 0 where one of them would move farther than was looked at.
-double correlation(const std::vector<Match>& matches, const Similarity& similarity)
-{
-  double real = 0.0;
-  double scene = 0.0;
-  double both = 0.0;
-  for (const Match& match : matches)
-  {
-    const auto right = std::lround(
-      similarity[0] + similarity[2] * match.place.x() - similarity[3] * match.place.y());
-    const auto down = std::lround(
-      similarity[1] + similarity[2] * match.place.y() + similarity[3] * match.place.x());
-    if (std::max(std::labs(right), std::labs(down)) > Farthest)
-    {
-      return 0.0;
-    }
-    real += match.real;
-    scene += match.scene(down + Farthest, right + Farthest);
-    both += match.both(down + Farthest, right + Farthest);
-  }
-  return both / std::sqrt(std::fmax(real * scene, 1e-30));
-}
-
-struct Best
-{
-  Similarity at = Similarity::Zero();
-  double value = 0.0;
-};
-
-// The displacement with the largest correlation within `reach` of that of `around`, which keeps the rest.
-void move(const std::vector<Match>& matches, const Similarity& around, int reach, Best& best)
-{
-  for (int down = -reach; down <= reach; ++down)
-  {
-    for (int right = -reach; right <= reach; ++right)
-    {
-      const Similarity at = around + Similarity(right, down, 0.0, 0.0);
-      const double value = correlation(matches, at);
-      if (value > best.value)
-      {
-        best = { at, value };
-      }
-    }
-  }
-}
-}
-
-FieldStart registrationStart(const FieldData& data, const FieldLoop& loop)
-{
-  std::vector<const FieldBlock*> blocks;
-  for (const FieldBlock& block : data.blocks)
-  {
-    if (block.fold >= 0 && blocks.size() < ShiftBlocks)
-    {
-      blocks.push_back(&block);
-    }
-  }
-  const double step = 2.0 / std::max(data.pair.extent.width, data.pair.extent.height);
-  FieldStart start{ Eigen::MatrixXd::Zero(data.channels(), 4),
-    Eigen::MatrixXd::Zero(data.channels(), 4) };
-  loop(static_cast<int>(data.channels()),
+  const std::vector<PixelBuffer> tiles = tilesOf(data.pair);
+  const DisplacementSearch search(tiles, extent, DisplacementModel::Similarity);
+  const double corner = 0.5 * std::hypot(extent.width, extent.height);
+  loop(K,
     [&](int channel)
     {
-      std::vector<Match> matches;
-      matches.reserve(blocks.size());
-      for (const FieldBlock* block : blocks)
+      const ChannelDisplacement found = search(channel, K + channel);
+      const double farthest = std::hypot(found.right, found.down) +
+        corner * std::hypot(found.magnification, Degree * found.rotation);
+      if (found.standardError.isFinite().all() && farthest > LeastMove)
       {
-        matches.push_back(matchOf(data, *block, channel));
+        start.row(channel) << found.right, found.down, found.magnification, found.rotation;
       }
-      Best best{ Similarity::Zero(), correlation(matches, Similarity::Zero()) + BetterCorrelation };
-      move(matches, Similarity::Zero(), Farthest, best);
-      start.shift.row(channel) = best.at;
-      // A pixel more at the end of the longer side with each step.
-      best.value += BetterCorrelation;
-      for (const int parameter : { 3, 2 })
-      {
-        const Similarity around = best.at;
-        for (int i = -Farthest; i <= Farthest; ++i)
-        {
-          Similarity at = around;
-          at[parameter] += i * step;
-          move(matches, at, parameter == 3 && around.isZero() ? 4 : 1, best);
-        }
-      }
-      start.similarity.row(channel) = best.at;
-      start.similarity(channel, 3) /= Degree;
     });
   return start;
 }

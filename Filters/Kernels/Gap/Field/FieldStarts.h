@@ -11,16 +11,10 @@
 namespace msi
 {
 
-// Where each channel of the real image lies: right, down (pixels), magnification, rotation (degrees); K x 4.
-struct FieldStart
-{
-  Eigen::MatrixXd shift;      // displacements alone, the rest zero
-  Eigen::MatrixXd similarity; // all of them
-};
-
-// The largest correlation of blocks whose means are taken off, with displacements of up to ten whole pixels in every
-// block. Zero where it is no better than no displacement, so a start for a fit by gradients.
-FieldStart registrationStart(const FieldData& data, const FieldLoop& loop);
+// Where each channel of the real image lies by DisplacementSearch: right, down (pixels), magnification, rotation (degrees); K x 4, where
+// a fit by gradients starts. Zero where that is next to nothing, where the images do not tell, and in images smaller than
+// DisplacementSearch::LeastTileSide.
+Eigen::MatrixXd registrationStart(const FieldData& data, const FieldLoop& loop);
 
 // Weight and level of the effect that limits the response.
 const std::vector<ImageTerm>& clippingTerms();

@@ -60,7 +60,7 @@ Effect misregistration()
   const std::vector<EffectParameter> parameters = { { "right", "pixels", 0.0, -20.0, 20.0, 0.5,
                                                       "displacement in x", true },
     { "down", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", true },
-    { "magnification", "1", 0.0, -0.02, 0.02, 0.001, "relative growth of the image", true },
+    { "magnification", "1", 0.0, -0.1, 0.1, 0.001, "relative growth of the image", true },
     { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
       "turn from the axis x towards the axis y of the image", true } };
   const ImageTerm right = imageTerm(MisregistrationOfImage::Right, parameters[0]);

@@ -356,16 +356,17 @@ void leaveOut(FieldData& data, const std::vector<Eigen::Index>& blocks)
   }
 }
 
-FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop)
+FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, const FieldLoop& loop)
 {
+  const FieldPair& pair = inside.pair();
   if (pair.extent.width < 1 || pair.extent.height < 1 || pair.channels.empty())
   {
     reject("the images have ", pair.extent.width, " x ", pair.extent.height, " pixels and ",
       pair.channels.size(), " channels; expected at least one of each");
   }
   FieldData data;
-  data.inside = FramelessPair(pair);
-  data.pair = data.inside.pair();
+  data.pair = pair;
+  data.framePart = inside.part();
   const std::vector<PairSums> sums = channelSums(data.pair);
   requireRelativeToWhite(sums);
   data.filled = filledScene(data.pair);

@@ -55,8 +55,8 @@ struct FieldBlock
 
 struct FieldData
 {
-  FramelessPair inside;
-  FieldPair pair;            // of that
+  FieldPair pair;
+  double framePart = 0.0;    // FramelessPair::part()
   std::vector<float> filled; // filledScene()
   Eigen::ArrayXd unit;       // of the real image's channels, K; FieldBlock::real is divided by it
   std::vector<FieldBlock> blocks;
@@ -75,7 +75,8 @@ struct FieldData
 // The tail needs the surround: images of more than 2 million pixels are looked at in nine windows of at most
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.
 // Errors: std::invalid_argument for an empty image, no channel, or too few usable pixels.
-FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop);
+// Holds pointers to the images of the pair.
+FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, const FieldLoop& loop);
 
 // Blocks that take no part from here on.
 void leaveOut(FieldData& data, const std::vector<Eigen::Index>& blocks);

@@ -9,12 +9,12 @@ namespace msi
 {
 
 // A pair with NaN where one image has a frame: pixels that are 0 in all channels, from the border on, where the other image is not as
-// dark. Holds copies of images with a frame, and the pointers to the others.
+// dark. Made of any pair where one without a frame is asked for. Holds copies of images with a frame, and the pointers to the others.
 class FramelessPair
 {
 public:
   FramelessPair() = default;
-  explicit FramelessPair(const FieldPair& pair);
+  FramelessPair(const FieldPair& pair);
   FramelessPair(FramelessPair&&) = default;
   FramelessPair& operator=(FramelessPair&&) = default;
   FramelessPair(const FramelessPair&) = delete;

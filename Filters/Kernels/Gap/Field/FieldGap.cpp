@@ -251,9 +251,9 @@ std::vector<std::string> notesOn(
   {
     notes.push_back(oddBlocksNote(data, " left out"));
   }
-  if (data.inside.part() > 0.0)
+  if (data.framePart > 0.0)
   {
-    notes.push_back(textOf(2, "a frame of ", 100.0 * data.inside.part(),
+    notes.push_back(textOf(2, "a frame of ", 100.0 * data.framePart,
       " % of the pixels is 0 in all channels of one image, as registration leaves it, and takes no "
       "part"));
   }
@@ -412,7 +412,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
 }
 }
 
-std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options)
+std::optional<FieldGap> diagnoseField(const FramelessPair& pair, const GapOptions& options)
 {
   const std::vector<FieldChoice> choices = fieldChoices(options.without);
   const FieldLoop loop = [&options](int count, const std::function<void(int)>& body)

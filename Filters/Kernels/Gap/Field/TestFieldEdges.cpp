@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -72,31 +74,48 @@ TEST(FieldGap, DisplacementOfManyPixels)
   EXPECT_GT(report.where.front().share, 0.85); // however far
 }
 
-TEST(FieldGap, LateralColor)
+namespace
 {
-  const TestScene scene(10);
-  const double growth[] = { 0.004, 0.0, -0.006 };
-  const TestPair pair = makePair(
+// The image of each channel larger by this part of its size about the middle.
+TestPair magnified(const TestScene& scene, const std::array<double, 3>& growth, std::uint64_t seed)
+{
+  return makePair(
     scene,
     [&](int k)
     {
       const double middleX = 0.5 * (scene.width() - 1);
       const double middleY = 0.5 * (scene.height() - 1);
+      const double scale = 1.0 + growth[static_cast<std::size_t>(k)];
       return scene.pixels(scene.fine(k,
-        [&](double x, double y)
-        {
-          return std::make_pair(middleX + (x - middleX) / (1.0 + growth[k]),
-            middleY + (y - middleY) / (1.0 + growth[k]));
+        [&](double x, double y) {
+          return std::make_pair(middleX + (x - middleX) / scale, middleY + (y - middleY) / scale);
         }));
     },
-    20);
-  const GapReport report = diagnose(pair);
+    seed);
+}
+}
+
+TEST(FieldGap, LateralColor)
+{
+  const GapReport report = diagnose(magnified(TestScene(10), { 0.004, 0.0, -0.006 }, 20));
   SCOPED_TRACE(describe(report));
   ASSERT_FALSE(report.causes.empty());
   EXPECT_EQ(report.causes.front().effect, "misregistration");
   EXPECT_EQ(report.verdict, GapVerdict::Explained);
   expectParameter(report, "misregistration", "magnification[C1]", 0.004, 0.0003);
   expectParameter(report, "misregistration", "magnification[C3]", -0.006, 0.0003);
+}
+
+// The camera stood nearer.
+TEST(FieldGap, AnImageThatIsMuchLarger)
+{
+  const GapReport report = diagnose(magnified(TestScene(10), { 0.05, 0.05, 0.05 }, 20));
+  SCOPED_TRACE(describe(report));
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "misregistration");
+  EXPECT_GT(report.gap.shrink, 0.9);
+  expectParameter(report, "misregistration", "magnification[C1]", 0.05, 0.0005);
+  expectParameter(report, "misregistration", "magnification[C3]", 0.05, 0.0005);
 }
 
 TEST(FieldGap, LocalStrayLightIsABroadTail)

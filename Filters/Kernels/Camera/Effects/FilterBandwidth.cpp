@@ -101,7 +101,7 @@ Effect filterBandwidth()
         "exp(added_variance / 2 D) M, D: the second derivative over the neighbouring channels, "
         "response to white kept, at an end of the grid what would go beyond stays: for a camera "
         "that was fitted to samples",
-        { { "added_variance", "nm^2", 0.0, -200.0, 400.0, 15.0,
+        { { "added_variance", "nm^2", 0.0, -200.0, 800.0, 15.0,
           "variance of the real passband beyond the nominal one" } },
         {}, FormTrait::KeepsWhite },
       { "per_channel", "the same with a factor of its own for each channel", { factor(true) }, {},

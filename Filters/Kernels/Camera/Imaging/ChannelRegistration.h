@@ -17,21 +17,20 @@ namespace msi
 template <typename Number>
 Eigen::Array<Number, 4, 1> cubicConvolution(Number t)
 {
-  const Number half(0.5);
   const Number t2 = t * t;
   const Number t3 = t2 * t;
-  return { t2 - half * (t + t3), Number(1) - 5 * half * t2 + 3 * half * t3,
-    half * t + 2 * t2 - 3 * half * t3, half * (t3 - t2) };
+  return Number(0.5) *
+    Eigen::Array<Number, 4, 1>(2 * t2 - t - t3, 2 - 5 * t2 + 3 * t3, t + 4 * t2 - 3 * t3, t3 - t2);
 }
 
 // Their derivatives by t.
 template <typename Number>
 Eigen::Array<Number, 4, 1> cubicConvolutionSlope(Number t)
 {
-  const Number half(0.5);
   const Number t2 = t * t;
-  return { 2 * t - half - 3 * half * t2, 9 * half * t2 - 5 * t, half + 4 * t - 9 * half * t2,
-    3 * half * t2 - t };
+  return Number(0.5) *
+    Eigen::Array<Number, 4, 1>(
+      4 * t - 1 - 3 * t2, 9 * t2 - 10 * t, 1 + 8 * t - 9 * t2, 3 * t2 - 2 * t);
 }
 
 // Turns the image of channel k by rotation_k degrees (from right to down) and magnifies it by 1 + magnification_k, both

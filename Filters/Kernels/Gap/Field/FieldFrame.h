@@ -13,13 +13,9 @@ namespace msi
 class FramelessPair
 {
 public:
-  FramelessPair() = default;
   FramelessPair(const FieldPair& pair);
-  FramelessPair(FramelessPair&&) = default;
-  FramelessPair& operator=(FramelessPair&&) = default;
   FramelessPair(const FramelessPair&) = delete;
   FramelessPair& operator=(const FramelessPair&) = delete;
-  ~FramelessPair() = default;
 
   const FieldPair& pair() const noexcept { return Pair; }
   double part() const noexcept { return Part; } // of the pixels; 0: there is none

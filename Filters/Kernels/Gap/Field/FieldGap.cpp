@@ -341,7 +341,7 @@ Eigen::VectorXd leftOfBlocks(const FieldFinding& finding)
 
 // odd: the blocks that are once it is done.
 std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldChoice>& choices,
-  const GapOptions& options, const FieldLoop& loop, IndexList& odd)
+  const Eigen::MatrixXd& start, const GapOptions& options, const FieldLoop& loop, IndexList& odd)
 {
   double done = 0.0;
   bool stopped = false;
@@ -356,7 +356,6 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     return std::nullopt;
   }
   FieldFinding finding;
-  const Eigen::MatrixXd start = registrationStart(data, loop);
   search(finding, data, choices, start, options.maximumCauses, loop,
     [&] { return say(done + 0.25 * (0.9 - done), "searching for effects"); });
   if (stopped || say(0.9, "describing what was found"))
@@ -422,11 +421,12 @@ std::optional<FieldGap> diagnoseField(const FramelessPair& pair, const GapOption
     return std::nullopt;
   }
   FieldData data = prepareFieldData(pair, options.seed, loop);
+  const Eigen::MatrixXd start = registrationStart(data.pair, loop);
   return diagnoseWithoutOdd(
     [&](IndexList& odd)
     {
       leaveOut(data, odd);
-      return diagnose(data, choices, options, loop, odd);
+      return diagnose(data, choices, start, options, loop, odd);
     },
     [](FieldGap& gap) -> GapReport& { return gap.report; },
     [&] { return !mixUpOf(data.pair).empty(); },

@@ -16,21 +16,22 @@ namespace
 {
 constexpr double LeastMove = 0.5; // pixels: a fit by gradients finds less by itself
 
-// Of both images, the simulated channels first.
-std::vector<PixelBuffer> tilesOf(const FieldPair& pair)
+// A channel of the simulated image, and of the real one.
+std::vector<PixelBuffer> tilesOf(const FieldPair& pair, std::size_t channel)
 {
   const std::size_t K = pair.channels.size();
   std::vector<PixelBuffer> tiles;
   for (const ImageWindow& window : displacementTiles(pair.extent))
   {
     PixelBuffer& tile = tiles.emplace_back();
-    tile.resize(window, static_cast<int>(2 * K));
+    tile.resize(window, 2);
     for (int y = window.y; y < window.y + window.height; ++y)
     {
       for (int x = window.x; x < window.x + window.width; ++x)
       {
-        const std::size_t first = pair.index(x, y) * K;
-        std::copy_n(pair.real + first, K, std::copy_n(pair.simulated + first, K, tile.pixel(x, y)));
+        const std::size_t value = pair.index(x, y) * K + channel;
+        tile.pixel(x, y)[0] = pair.simulated[value];
+        tile.pixel(x, y)[1] = pair.real[value];
       }
     }
   }
@@ -38,22 +39,22 @@ std::vector<PixelBuffer> tilesOf(const FieldPair& pair)
 }
 }
 
-Eigen::MatrixXd registrationStart(const FieldData& data, const FieldLoop& loop)
+Eigen::MatrixXd registrationStart(const FieldPair& pair, const FieldLoop& loop)
 {
-  const ImageExtent& extent = data.pair.extent;
-  const auto K = static_cast<int>(data.channels());
+  const ImageExtent& extent = pair.extent;
+  const auto K = static_cast<int>(pair.channels.size());
   Eigen::MatrixXd start = Eigen::MatrixXd::Zero(K, 4);
   if (std::min(extent.width, extent.height) < DisplacementSearch::LeastTileSide)
   {
     return start;
   }
-  const std::vector<PixelBuffer> tiles = tilesOf(data.pair);
-  const DisplacementSearch search(tiles, extent, DisplacementModel::Similarity);
   const double corner = 0.5 * std::hypot(extent.width, extent.height);
   loop(K,
     [&](int channel)
     {
-      const ChannelDisplacement found = search(channel, K + channel);
+      const std::vector<PixelBuffer> tiles = tilesOf(pair, static_cast<std::size_t>(channel));
+      const ChannelDisplacement found =
+        DisplacementSearch(tiles, extent, DisplacementModel::Similarity)(0, 1);
       const double farthest = std::hypot(found.right, found.down) +
         corner * std::hypot(found.magnification, Degree * found.rotation);
       if (found.standardError.isFinite().all() && farthest > LeastMove)

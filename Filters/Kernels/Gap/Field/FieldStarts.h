@@ -14,7 +14,7 @@ namespace msi
 // Where each channel of the real image lies by DisplacementSearch: right, down (pixels), magnification, rotation (degrees); K x 4, where
 // a fit by gradients starts. Zero where that is next to nothing, where the images do not tell, and in images smaller than
 // DisplacementSearch::LeastTileSide.
-Eigen::MatrixXd registrationStart(const FieldData& data, const FieldLoop& loop);
+Eigen::MatrixXd registrationStart(const FieldPair& pair, const FieldLoop& loop);
 
 // Weight and level of the effect that limits the response.
 const std::vector<ImageTerm>& clippingTerms();

@@ -76,19 +76,30 @@ TEST(FieldGap, DisplacementOfManyPixels)
 
 namespace
 {
-// The image of each channel larger by this part of its size about the middle.
-TestPair magnified(const TestScene& scene, const std::array<double, 3>& growth, std::uint64_t seed)
+// How a channel lies: moved to the right (pixels), larger by this part of its size and turned (degrees) about the middle.
+struct Place
+{
+  double right, growth, degrees;
+};
+
+TestPair placed(const TestScene& scene, const std::array<Place, 3>& channels, std::uint64_t seed)
 {
   return makePair(
     scene,
     [&](int k)
     {
+      const Place& place = channels[static_cast<std::size_t>(k)];
       const double middleX = 0.5 * (scene.width() - 1);
       const double middleY = 0.5 * (scene.height() - 1);
-      const double scale = 1.0 + growth[static_cast<std::size_t>(k)];
+      const double cosine = std::cos(place.degrees * Pi / 180.0) / (1.0 + place.growth);
+      const double sine = std::sin(place.degrees * Pi / 180.0) / (1.0 + place.growth);
       return scene.pixels(scene.fine(k,
-        [&](double x, double y) {
-          return std::make_pair(middleX + (x - middleX) / scale, middleY + (y - middleY) / scale);
+        [&](double x, double y)
+        {
+          const double offX = x - middleX - place.right;
+          const double offY = y - middleY;
+          return std::make_pair(
+            middleX + cosine * offX + sine * offY, middleY - sine * offX + cosine * offY);
         }));
     },
     seed);
@@ -97,7 +108,8 @@ TestPair magnified(const TestScene& scene, const std::array<double, 3>& growth, 
 
 TEST(FieldGap, LateralColor)
 {
-  const GapReport report = diagnose(magnified(TestScene(10), { 0.004, 0.0, -0.006 }, 20));
+  const GapReport report = diagnose(placed(
+    TestScene(10), { { { 0.0, 0.004, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, -0.006, 0.0 } } }, 20));
   SCOPED_TRACE(describe(report));
   ASSERT_FALSE(report.causes.empty());
   EXPECT_EQ(report.causes.front().effect, "misregistration");
@@ -109,7 +121,8 @@ TEST(FieldGap, LateralColor)
 // The camera stood nearer.
 TEST(FieldGap, AnImageThatIsMuchLarger)
 {
-  const GapReport report = diagnose(magnified(TestScene(10), { 0.05, 0.05, 0.05 }, 20));
+  const Place near{ 0.0, 0.05, 0.0 };
+  const GapReport report = diagnose(placed(TestScene(10), { near, near, near }, 20));
   SCOPED_TRACE(describe(report));
   ASSERT_FALSE(report.causes.empty());
   EXPECT_EQ(report.causes.front().effect, "misregistration");
@@ -210,27 +223,8 @@ TEST(FieldGap, LocalStrayLightOfAnotherShape)
 
 TEST(FieldGap, RotationOfEachChannel)
 {
-  const TestScene scene(42);
-  const double degrees[] = { 0.4, 0.0, -0.25 };
-  const double right[] = { 0.5, 0.0, 0.0 };
-  const TestPair pair = makePair(
-    scene,
-    [&](int k)
-    {
-      const double angle = degrees[k] * Pi / 180.0;
-      const double middleX = 0.5 * (scene.width() - 1);
-      const double middleY = 0.5 * (scene.height() - 1);
-      return scene.pixels(scene.fine(k,
-        [&](double x, double y)
-        {
-          const double offX = x - middleX - right[k];
-          const double offY = y - middleY;
-          return std::make_pair(middleX + std::cos(angle) * offX + std::sin(angle) * offY,
-            middleY - std::sin(angle) * offX + std::cos(angle) * offY);
-        }));
-    },
-    52);
-  const GapReport report = diagnose(pair);
+  const GapReport report = diagnose(
+    placed(TestScene(42), { { { 0.5, 0.0, 0.4 }, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, -0.25 } } }, 52));
   expectFirst(report, "misregistration", "edges");
   constexpr double Tolerance = 0.013; // 0.02 pixels at the border
   expectParameter(report, "misregistration", "rotation[C1]", 0.4, Tolerance);
@@ -242,24 +236,8 @@ TEST(FieldGap, RotationOfEachChannel)
 // 3 degrees move the border by five pixels: no start for a fit by gradients without a look around.
 TEST(FieldGap, RotationOfTheWholeImage)
 {
-  const TestScene scene(43);
-  const double angle = 3.0 * Pi / 180.0;
-  const TestPair pair = makePair(
-    scene,
-    [&](int k)
-    {
-      const double middleX = 0.5 * (scene.width() - 1);
-      const double middleY = 0.5 * (scene.height() - 1);
-      return scene.pixels(scene.fine(k,
-        [&](double x, double y)
-        {
-          return std::make_pair(
-            middleX + std::cos(angle) * (x - middleX) + std::sin(angle) * (y - middleY),
-            middleY - std::sin(angle) * (x - middleX) + std::cos(angle) * (y - middleY));
-        }));
-    },
-    53);
-  const GapReport report = diagnose(pair);
+  const Place turned{ 0.0, 0.0, 3.0 };
+  const GapReport report = diagnose(placed(TestScene(43), { turned, turned, turned }, 53));
   SCOPED_TRACE(describe(report));
   ASSERT_FALSE(report.causes.empty());
   EXPECT_EQ(report.causes.front().effect, "misregistration");

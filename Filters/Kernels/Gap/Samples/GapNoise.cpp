@@ -92,7 +92,8 @@ Eigen::VectorXd reflectanceErrorGain(const CameraModel& camera)
 
 namespace
 {
-// Responsivity beyond the measured wavelengths, each times its distance from the end, times the slope there.
+// Responsivity beyond the measured wavelengths, each times its distance from the end, times the slope there. Of the value at an end
+// of the grid half lies beyond the end, half a step away: a passband that is cut off there.
 Eigen::MatrixXd beyondMeasured(const GapData& data, const WavelengthGrid& measured)
 {
   const WavelengthGrid& grid = data.camera.wavelengths();
@@ -115,6 +116,12 @@ Eigen::MatrixXd beyondMeasured(const GapData& data, const WavelengthGrid& measur
     }
     if (inside != atEnd)
     {
+      if (atEnd == 0 || atEnd == grid.size() - 1)
+      {
+        const double step =
+          (grid[atEnd] - grid[inside]) / std::fabs(static_cast<double>(atEnd - inside));
+        reach += 0.25 * step * data.camera.responsivity().col(atEnd);
+      }
       const Eigen::MatrixXd& r = data.scene.reflectance();
       error += reach * (r.row(atEnd) - r.row(inside)) / (grid[atEnd] - grid[inside]);
     }
@@ -133,8 +140,10 @@ Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& m
     return outside.cwiseAbs2();
   }
   const double parts = std::round(*step / FineStep);
-  const WavelengthGrid fine = WavelengthGrid::uniform(
-    grid.front(), grid.front() + static_cast<double>(grid.size() - 1) * *step, *step / parts);
+  // Each value stands for the step around it, at the ends, too.
+  const double half = 0.5 * (*step - *step / parts);
+  const WavelengthGrid fine = WavelengthGrid::uniform(grid.front() - half,
+    grid.front() + static_cast<double>(grid.size() - 1) * *step + half, *step / parts);
   const Eigen::MatrixXd up = resamplingMatrix(grid, fine, InterpolationMethod::CubicLagrange);
   Eigen::MatrixXd responsivity = data.camera.responsivity() * up.transpose();
   const Eigen::ArrayXd white = data.camera.whiteResponse().array();

@@ -128,16 +128,34 @@ Eigen::MatrixXd beyondMeasured(const GapData& data, const WavelengthGrid& measur
   }
   return error.array().isFinite().select(error, 0.0);
 }
+
+// Where the grid cuts off a passband the sum counts half a step too much of it. A responsivity that is negative was fitted, with this
+// sum.
+Eigen::MatrixXd cutOff(const GapData& data)
+{
+  const Eigen::MatrixXd& responsivity = data.camera.responsivity();
+  const Eigen::MatrixXd& r = data.scene.reflectance();
+  const Eigen::ArrayXd white = data.camera.whiteResponse();
+  const Eigen::MatrixXd mean = white.inverse().matrix().asDiagonal() * (responsivity * r);
+  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(data.channels(), data.samples());
+  for (const Eigen::Index end : { Eigen::Index(0), r.rows() - 1 })
+  {
+    const Eigen::ArrayXd half = (responsivity.rowwise().minCoeff().array() < 0.0)
+                                  .select(0.0, 0.5 * responsivity.col(end).array());
+    error += half.matrix().asDiagonal() * (r.row(end).replicate(data.channels(), 1) - mean);
+  }
+  return error.array().isFinite().select(error, 0.0);
+}
 }
 
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured)
 {
   const WavelengthGrid& grid = data.camera.wavelengths();
-  const Eigen::MatrixXd outside = beyondMeasured(data, measured);
+  Eigen::MatrixXd ofEnds = beyondMeasured(data, measured).cwiseAbs2() + cutOff(data).cwiseAbs2();
   const auto step = grid.step();
   if (!step || *step <= 2.0 * FineStep || grid.size() < 6)
   {
-    return outside.cwiseAbs2();
+    return ofEnds;
   }
   const double parts = std::round(*step / FineStep);
   // Each value stands for the step around it, at the ends, too.
@@ -156,8 +174,7 @@ Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& m
   const Eigen::MatrixXd straight = resamplingMatrix(grid, fine, InterpolationMethod::Linear);
   const Eigen::MatrixXd sum = responsivity * (up * r) - data.camera.responsivity() * r;
   const Eigen::MatrixXd curve = responsivity * ((up - straight) * r);
-  const Eigen::ArrayXXd all =
-    sum.array().square() + curve.array().square() + outside.array().square();
+  const Eigen::ArrayXXd all = (sum.cwiseAbs2() + curve.cwiseAbs2() + ofEnds).array();
   return all.isFinite().select(all, 0.0).matrix();
 }
 

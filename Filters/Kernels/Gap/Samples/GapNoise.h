@@ -48,7 +48,9 @@ Eigen::VectorXd reflectanceErrorGain(const CameraModel& camera);
 // Squared size of what a plain sum over the grid may miss, K x S: the difference to the integral of the interpolated
 // responsivity times the interpolated reflectance; that between straight lines and curves through the reflectance
 // (both zero on grids of 2 nm or finer); and, where the camera sees wavelengths at which no reflectance was measured or beyond
-// its own grid, the difference between holding the end value and going on along its slope.
+// its own grid, the difference between holding the end value and going on along its slope; and half of the weight that the sum
+// gives to the ends, where the grid cuts off a passband. A responsivity that is negative somewhere was fitted with these sums, its
+// ends too.
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured);
 
 // Without noise model and repeats, K x S: per channel what no basis predicts of `left` (K x S, 0 where nothing was measured) is

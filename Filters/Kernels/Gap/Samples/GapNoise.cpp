@@ -120,13 +120,13 @@ Eigen::MatrixXd beyondMeasured(const GapData& data, const WavelengthGrid& measur
       {
         const double step =
           (grid[atEnd] - grid[inside]) / std::fabs(static_cast<double>(atEnd - inside));
-        reach += 0.25 * step * data.camera.responsivity().col(atEnd);
+        reach += 0.5 * data.camera.responsivity().col(atEnd) * (0.5 * step);
       }
       const Eigen::MatrixXd& r = data.scene.reflectance();
       error += reach * (r.row(atEnd) - r.row(inside)) / (grid[atEnd] - grid[inside]);
     }
   }
-  return error.array().isFinite().select(error, 0.0);
+  return error;
 }
 
 // Where the grid cuts off a passband the sum counts half a step too much of it. A responsivity that is negative was fitted, with this
@@ -144,18 +144,21 @@ Eigen::MatrixXd cutOff(const GapData& data)
                                   .select(0.0, 0.5 * responsivity.col(end).array());
     error += half.matrix().asDiagonal() * (r.row(end).replicate(data.channels(), 1) - mean);
   }
-  return error.array().isFinite().select(error, 0.0);
+  return error;
 }
 }
 
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured)
 {
   const WavelengthGrid& grid = data.camera.wavelengths();
-  Eigen::MatrixXd ofEnds = beyondMeasured(data, measured).cwiseAbs2() + cutOff(data).cwiseAbs2();
+  const Eigen::MatrixXd ofEnds =
+    beyondMeasured(data, measured).cwiseAbs2() + cutOff(data).cwiseAbs2();
+  const auto known = [](const Eigen::ArrayXXd& all) -> Eigen::MatrixXd
+  { return all.isFinite().select(all, 0.0); };
   const auto step = grid.step();
   if (!step || *step <= 2.0 * FineStep || grid.size() < 6)
   {
-    return ofEnds;
+    return known(ofEnds);
   }
   const double parts = std::round(*step / FineStep);
   // Each value stands for the step around it, at the ends, too.
@@ -174,8 +177,7 @@ Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& m
   const Eigen::MatrixXd straight = resamplingMatrix(grid, fine, InterpolationMethod::Linear);
   const Eigen::MatrixXd sum = responsivity * (up * r) - data.camera.responsivity() * r;
   const Eigen::MatrixXd curve = responsivity * ((up - straight) * r);
-  const Eigen::ArrayXXd all = (sum.cwiseAbs2() + curve.cwiseAbs2() + ofEnds).array();
-  return all.isFinite().select(all, 0.0).matrix();
+  return known(sum.cwiseAbs2() + curve.cwiseAbs2() + ofEnds);
 }
 
 double robustDeviation(std::vector<double> values)

@@ -111,17 +111,23 @@ public:
   {
   }
 
-  std::optional<GapReport> run()
+  // unlessOdd: where samples are odd goes no further than to find them.
+  std::optional<GapReport> run(bool unlessOdd)
   {
     expectNoise();
     Choices = choicesFor(Data.scene, Options.without);
     Observed.emplace(Data, Data.usable, Choices, Options.seed);
-    Options.forAll(Data.folds + 1, [this](int number) { search(number); });
-    if (Steps.stopped())
+    const int amongAll = unlessOdd ? 0 : 1;
+    Options.forAll(Data.folds + amongAll, [&](int job) { search(job + 1 - amongAll); });
+    Odd = Steps.stopped() ? SampleList() : oddSamples(Data, Before, After);
+    if (unlessOdd && Odd.empty())
+    {
+      search(0);
+    }
+    if (Steps.stopped() || (unlessOdd && !Odd.empty()))
     {
       return std::nullopt;
     }
-    Odd = oddSamples(Data, Before, After);
     learnNoise();
     Report.gap = figuresOf(energiesOf(Data, Data.usable, Before, After),
       static_cast<double>(Data.elements), Options.seed);
@@ -337,12 +343,12 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   requireKnown(options.without);
   SampleList leftOut;
   std::optional<TableDiagnosis> last;
-  const auto diagnose = [&](SampleList& odd)
+  const auto diagnose = [&](SampleList& odd, bool unlessOdd)
   {
     leftOut.insert(leftOut.end(), odd.begin(), odd.end());
     std::sort(leftOut.begin(), leftOut.end());
     last.emplace(capture, options, leftOut);
-    std::optional<GapReport> report = last->run();
+    std::optional<GapReport> report = last->run(unlessOdd);
     odd = last->odd();
     return report;
   };

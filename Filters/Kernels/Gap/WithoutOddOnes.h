@@ -13,15 +13,16 @@ namespace msi
 
 // Where something unknown is more likely than not, the diagnosis is done again without those that are odd, until none are; that
 // counts where it makes something unknown half as likely.
-//   diagnose(odd): empties where it was stopped; without `odd`, too, which is then what is odd after it.
+//   diagnose(odd, unlessOdd): without `odd`, too, which is then what is odd after it. Empty where some are and unlessOdd, and, with
+//   none, where it was stopped.
 //   reportOf(result): its report. mixedUp(): whether all is in disorder.
 //   note(): what is said of all that are left out, where without them there is no gap.
 template <typename Diagnose, typename ReportOf, typename MixedUp, typename Note>
 auto diagnoseWithoutOdd(const Diagnose& diagnose, const ReportOf& reportOf, const MixedUp& mixedUp,
-  const Note& note) -> decltype(diagnose(std::declval<IndexList&>()))
+  const Note& note) -> decltype(diagnose(std::declval<IndexList&>(), false))
 {
   IndexList odd;
-  auto all = diagnose(odd);
+  auto all = diagnose(odd, false);
   const auto unknown = [&](auto& result) { return reportOf(*result).probabilityOf("unknown"); };
   if (!all || odd.empty() || unknown(all) <= 0.5 || mixedUp())
   {
@@ -30,11 +31,11 @@ auto diagnoseWithoutOdd(const Diagnose& diagnose, const ReportOf& reportOf, cons
   decltype(all) others;
   while (!odd.empty())
   {
-    others = diagnose(odd);
-    if (!others)
-    {
-      return others;
-    }
+    others = diagnose(odd, true);
+  }
+  if (!others)
+  {
+    return others;
   }
   if (reportOf(*others).verdict == GapVerdict::NoGap)
   {

@@ -16,6 +16,7 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 namespace msi
 {
@@ -339,9 +340,10 @@ Eigen::VectorXd leftOfBlocks(const FieldFinding& finding)
   return left / static_cast<double>(before.channels);
 }
 
-// odd: the blocks that are once it is done.
+// odd: the blocks that are, where it was not stopped. unlessOdd: goes no further than to find them.
 std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldChoice>& choices,
-  const Eigen::MatrixXd& start, const GapOptions& options, const FieldLoop& loop, IndexList& odd)
+  const Eigen::MatrixXd& start, const GapOptions& options, const FieldLoop& loop, IndexList& odd,
+  bool unlessOdd)
 {
   double done = 0.0;
   bool stopped = false;
@@ -363,6 +365,10 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     return std::nullopt;
   }
   odd = oddOnes(leftOfBlocks(finding), data.leftOut.size());
+  if (unlessOdd && !odd.empty())
+  {
+    return std::nullopt;
+  }
 
   std::optional<FieldGap> gap(std::in_place);
   gap->model = finding.after().model;
@@ -423,10 +429,10 @@ std::optional<FieldGap> diagnoseField(const FramelessPair& pair, const GapOption
   FieldData data = prepareFieldData(pair, options.seed, loop);
   const Eigen::MatrixXd start = registrationStart(data.pair, loop);
   return diagnoseWithoutOdd(
-    [&](IndexList& odd)
+    [&](IndexList& odd, bool unlessOdd)
     {
-      leaveOut(data, odd);
-      return diagnose(data, choices, start, options, loop, odd);
+      leaveOut(data, std::exchange(odd, {}));
+      return diagnose(data, choices, start, options, loop, odd, unlessOdd);
     },
     [](FieldGap& gap) -> GapReport& { return gap.report; },
     [&] { return !mixUpOf(data.pair).empty(); },

@@ -22,6 +22,7 @@ int main(int argc, char** argv)
 #ifdef MULTISPECTRAL_HAS_FORMATS
     { "raw", writeRawCases },
     { "linearised", writeLinearisedCases },
+    { "ridge", writeRidgeCases },
     { "chart", writeChartCases },
 #endif
   };

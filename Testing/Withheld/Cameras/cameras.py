@@ -1,8 +1,10 @@
-"""Withheld cases of cameras of many kinds, in numpy: cameras.py FOLDER KEYFILE [small|full] [SEED] [RESULTFILE]
+"""Withheld cases of cameras of many kinds, in numpy: cameras.py FOLDER KEYFILE [small|full] [SEED] [RESULTFILE|curved]
 
 Cameras of 3, 6, 8, 16 and 30 channels, known but for small errors (where an effect is there) or fitted to half of the samples, look at measured
 reflectances (with MULTISPECTRAL_DATA) under lamps of the CIE; one effect, two or none are added. Shares no code with the
 other generators and none with the simulator.
+
+With "curved" all cameras are fitted, as linear ones, and two of three have a curved detector.
 
 With the results of a diagnosis of these cases (same size and seed) lists those for which it recommends a next capture, with that capture
 beside the first. Where it measures a part of the camera or of a sample, effects on that part are not tried again; cases where such an
@@ -126,7 +128,7 @@ class Scene:
 class Case:
     """A camera before samples, and what it answers once effects of some strength are added."""
 
-    def __init__(self, random, effects, kind, fitted):
+    def __init__(self, random, effects, kind, fitted, curved):
         charts = random.choice(CHARTS, 2 if ON_A_MEDIUM & set(effects) or random.random() < 0.3 else 1, replace=False)
         reflectance = numpy.vstack([chart(name) for name in charts])
         medium = numpy.concatenate([[name] * len(chart(name)) for name in charts])
@@ -136,6 +138,8 @@ class Case:
         self.white = (self.curves * self.light).sum(1)
         self.matrix = self.curves * self.light / self.white[:, None]
         order = random.permutation(len(medium))
+        self.bend = random.choice(["gamma", "square", "none"]) if curved else "none"
+        self.bent = random.choice([-1.0, 1.0]) * random.uniform(0.04, 0.14) if curved else 0.0
         if fitted:
             self.fit(random, reflectance[order[:len(order) // 2]])
             order = order[len(order) // 2:]
@@ -156,7 +160,7 @@ class Case:
 
     def fit(self, random, reflectance):
         """Ridge regression with a penalty on the second differences of each channel's responsivity, and an offset."""
-        seen = noisy(random, self.matrix @ reflectance.T)
+        seen = noisy(random, self.seen(self.matrix @ reflectance.T))
         spectra = CubicSpline(FINE, reflectance.T)(COARSE).T
         design = numpy.hstack([spectra, numpy.ones((len(spectra), 1))])
         rough = numpy.diff(numpy.eye(len(COARSE)), 2, axis=0)
@@ -164,6 +168,12 @@ class Case:
         penalty[:-1, :-1] = 3e-4 * len(spectra) * rough.T @ rough
         solution = numpy.linalg.solve(design.T @ design + penalty + 1e-9 * numpy.eye(len(penalty)), design.T @ seen.T)
         self.camera, self.dark = solution[:-1].T, solution[-1]
+
+    def seen(self, light):
+        """By the detector as it is, without any planted effect."""
+        if self.bend == "gamma":
+            return numpy.sign(light) * numpy.abs(light) ** (1.0 + self.bent)
+        return light + 2.0 * self.bent * light * (1.0 - light) if self.bend == "square" else light
 
     def draw(self, random, base):
         channels = len(self.matrix)
@@ -203,7 +213,8 @@ class Case:
                 matrix = matrix / matrix.sum(1)[:, None]
         return self.detected((matrix @ reflectance.T) * light, strength, scene)
 
-    def detected(self, seen, strength, scene):
+    def detected(self, light, strength, scene):
+        seen = self.seen(light)
         for name, fault in self.faults:
             size = strength * fault["size"]
             sign = fault["sign"]
@@ -269,11 +280,11 @@ def capture(folder, random, case, scene):
     return seen
 
 
-def write(folder, random, effects, kind, fitted):
+def write(folder, random, effects, kind, fitted, curved):
     """One case, and what the key says of it."""
-    case = Case(random, effects, kind, fitted)
+    case = Case(random, effects, kind, fitted, curved)
     scene = case.scene
-    truth = case.matrix @ scene.reflectance.T
+    truth = case.seen(case.matrix @ scene.reflectance.T)
     case.strength = strength_for(random, case, truth) if effects else 0.0
     case.known, case.repeats = [(True, 3), (False, 3), (False, 1)][random.integers(3)]
     seen = capture(folder, random, case, scene)
@@ -296,21 +307,22 @@ def main():
     folder, key = sys.argv[1:3]
     full = sys.argv[3:4] == ["full"]
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else 2024
-    after = recommended(sys.argv[5]) if len(sys.argv) > 5 else None
+    curved = sys.argv[5:6] == ["curved"]
+    after = recommended(sys.argv[5]) if len(sys.argv) > 5 and not curved else None
     random = numpy.random.default_rng(seed)
     names = list(AXES)
     cases = []
     number = 1000
     os.makedirs(folder, exist_ok=True)
     for kind in KINDS if "MULTISPECTRAL_DATA" in os.environ else ():
-        for fitted in (False, True):
+        for fitted in (curved, True):
             singles = [[name] for name in names] if full else [["illuminant_drift"], [str(random.choice(names))]]
             pairs = [[str(name) for name in random.choice(names, 2, replace=False)] for _ in range(4 if full else 1)]
             for effects in singles + pairs + [[]]:
                 number += 1
                 name = f"case-{number}"
                 place = os.path.join(folder, name)
-                case, told = write(place, random, effects, kind, fitted)
+                case, told = write(place, random, effects, kind, fitted, curved)
                 wanted = after.get(name) if after is not None else None
                 without = MEASURES.get(wanted, [])
                 seen = BESIDE.get(wanted) if without else wanted

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace withheld
@@ -24,8 +25,12 @@ enum class Source
 {
   Raw,
   Linearised,
-  Chart
+  Chart,
+  Ridge
 };
+
+const std::map<Source, Fit> FitOf = { { Source::Raw, Fit::Model },
+  { Source::Linearised, Fit::Linearised }, { Source::Ridge, Fit::Ridge } };
 
 RealSamples drawSamples(Random& random, Source source, bool severalMedia)
 {
@@ -39,7 +44,7 @@ RealSamples drawSamples(Random& random, Source source, bool severalMedia)
   {
     media = { media[static_cast<std::size_t>(which)] };
   }
-  RealSamples real = fittedHalf(random, media, source == Source::Linearised);
+  RealSamples real = fittedHalf(random, media, FitOf.at(source));
   // Nothing is told of place and time: set out at random.
   const Eigen::Index S = real.reflectance.cols();
   const auto columns =
@@ -222,6 +227,11 @@ void writeRawCases(CaseWriter& writer, bool full, std::uint64_t seed)
 void writeLinearisedCases(CaseWriter& writer, bool full, std::uint64_t seed)
 {
   writeCases(writer, Source::Linearised, full, seed);
+}
+
+void writeRidgeCases(CaseWriter& writer, bool full, std::uint64_t seed)
+{
+  writeCases(writer, Source::Ridge, full, seed);
 }
 
 void writeChartCases(CaseWriter& writer, bool full, std::uint64_t seed)

@@ -10,9 +10,10 @@ namespace withheld
 {
 
 // hkpolyu/paper and cotton, 16 channels, as published; or each channel made linear first by a cubic in the answers of the
-// half that the camera is fitted to.
+// half that the camera is fitted to; or as published, and the camera fitted by ridge regression.
 void writeRawCases(CaseWriter& writer, bool full, std::uint64_t seed);
 void writeLinearisedCases(CaseWriter& writer, bool full, std::uint64_t seed);
+void writeRidgeCases(CaseWriter& writer, bool full, std::uint64_t seed);
 // filterwheel-cc24: 24 patches through 7 filters; the camera is light x filter as measured, scaled on half of the patches.
 void writeChartCases(CaseWriter& writer, bool full, std::uint64_t seed);
 

@@ -6,6 +6,7 @@
 #include "Formats/SpectralImageFile.h"
 #include "Kernels/Camera/CameraModelFit.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -47,6 +48,18 @@ Eigen::VectorXd cubic(
   };
   return powers(all) * powers(answer).colPivHouseholderQr().solve(linear);
 }
+
+// Responsivities and, last, the dark responses, K x (N + 1). penalty: over the mean square of a wavelength's reflectances.
+Eigen::MatrixXd ridge(
+  const Eigen::MatrixXd& reflectance, const Eigen::MatrixXd& answer, double penalty)
+{
+  const Eigen::Index N = reflectance.rows();
+  Eigen::MatrixXd known(N + 1, reflectance.cols());
+  known << reflectance, Eigen::RowVectorXd::Ones(reflectance.cols());
+  Eigen::MatrixXd normal = known * known.transpose();
+  normal.diagonal().head(N).array() += penalty * reflectance.squaredNorm() / static_cast<double>(N);
+  return normal.ldlt().solve(known * answer.transpose()).transpose();
+}
 }
 
 Eigen::MatrixXd RealSamples::simulated() const
@@ -71,7 +84,7 @@ bool haveRealSamples()
   return !dataFolder().empty();
 }
 
-RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, bool linearised)
+RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, Fit how)
 {
   RealSamples real;
   Eigen::MatrixXd reflectance;
@@ -110,7 +123,7 @@ RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, bo
   const Eigen::MatrixXd calibration = columnsOf(reflectance, fitted);
   msi::CameraModelFit fit =
     msi::fitCameraModel(*grid, calibration, columnsOf(answer, fitted), options);
-  for (int round = 0; linearised && round < 2; ++round)
+  for (int round = 0; how == Fit::Linearised && round < 2; ++round)
   {
     const Eigen::MatrixXd linear =
       (fit.camera.responsivity() * calibration).colwise() + fit.camera.dark();
@@ -124,6 +137,13 @@ RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, bo
   real.cameraWavelengths = real.wavelengths;
   real.camera = fit.camera.responsivity();
   real.dark = fit.camera.dark();
+  if (how == Fit::Ridge)
+  {
+    const Eigen::MatrixXd solution =
+      ridge(calibration, columnsOf(answer, fitted), std::pow(10.0, uniform(random, -7.0, -2.0)));
+    real.camera = solution.leftCols(grid->size());
+    real.dark = solution.rightCols(1);
+  }
   real.reflectance = columnsOf(reflectance, kept);
   real.answers = { columnsOf(answer, kept) };
   for (const Eigen::Index i : kept)

@@ -27,8 +27,15 @@ struct RealSamples
   Eigen::MatrixXd simulated() const;
 };
 
+enum class Fit
+{
+  Model,      // as Camera Model Fit does
+  Linearised, // so, after each channel was made linear
+  Ridge       // ridge regression with a penalty that is drawn: responsivities that alternate
+};
+
 // Empty without the data. media: paper, cotton or both. The samples of the other half stay.
-RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, bool linearised);
+RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, Fit how);
 RealSamples chart(Random& random);
 bool haveRealSamples();
 

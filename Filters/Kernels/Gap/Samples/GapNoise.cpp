@@ -129,8 +129,15 @@ Eigen::MatrixXd beyondMeasured(const GapData& data, const WavelengthGrid& measur
   return error;
 }
 
-// Where the grid cuts off a passband the sum counts half a step too much of it. A responsivity that is negative was fitted, with this
-// sum.
+// A channel K is 0 where it was fitted, with the very sum, else 1: a negative part that is not small is no measured responsivity.
+Eigen::VectorXd notFitted(const CameraModel& camera)
+{
+  const Eigen::ArrayXd all = camera.responsivity().cwiseAbs().rowwise().sum();
+  return (all > (1.0 + Decision::SmallPart) * camera.whiteResponse().array().abs())
+    .select(0.0, Eigen::ArrayXd::Ones(all.size()));
+}
+
+// Where the grid cuts off a passband the sum counts half a step too much of it.
 Eigen::MatrixXd cutOff(const GapData& data)
 {
   const Eigen::MatrixXd& responsivity = data.camera.responsivity();
@@ -140,9 +147,8 @@ Eigen::MatrixXd cutOff(const GapData& data)
   Eigen::MatrixXd error = Eigen::MatrixXd::Zero(data.channels(), data.samples());
   for (const Eigen::Index end : { Eigen::Index(0), r.rows() - 1 })
   {
-    const Eigen::ArrayXd half = (responsivity.rowwise().minCoeff().array() < 0.0)
-                                  .select(0.0, 0.5 * responsivity.col(end).array());
-    error += half.matrix().asDiagonal() * (r.row(end).replicate(data.channels(), 1) - mean);
+    error += (0.5 * responsivity.col(end)).asDiagonal() *
+      (r.row(end).replicate(data.channels(), 1) - mean);
   }
   return error;
 }
@@ -151,8 +157,9 @@ Eigen::MatrixXd cutOff(const GapData& data)
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured)
 {
   const WavelengthGrid& grid = data.camera.wavelengths();
+  const Eigen::VectorXd summed = notFitted(data.camera);
   const Eigen::MatrixXd ofEnds =
-    beyondMeasured(data, measured).cwiseAbs2() + cutOff(data).cwiseAbs2();
+    beyondMeasured(data, measured).cwiseAbs2() + summed.asDiagonal() * cutOff(data).cwiseAbs2();
   const auto known = [](const Eigen::ArrayXXd& all) -> Eigen::MatrixXd
   { return all.isFinite().select(all, 0.0); };
   const auto step = grid.step();
@@ -177,7 +184,7 @@ Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& m
   const Eigen::MatrixXd straight = resamplingMatrix(grid, fine, InterpolationMethod::Linear);
   const Eigen::MatrixXd sum = responsivity * (up * r) - data.camera.responsivity() * r;
   const Eigen::MatrixXd curve = responsivity * ((up - straight) * r);
-  return known(sum.cwiseAbs2() + curve.cwiseAbs2() + ofEnds);
+  return known(summed.asDiagonal() * sum.cwiseAbs2() + curve.cwiseAbs2() + ofEnds);
 }
 
 double robustDeviation(std::vector<double> values)

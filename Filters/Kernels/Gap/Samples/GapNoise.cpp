@@ -183,7 +183,10 @@ Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& m
   const Eigen::MatrixXd& r = data.scene.reflectance();
   const Eigen::MatrixXd straight = resamplingMatrix(grid, fine, InterpolationMethod::Linear);
   const Eigen::MatrixXd sum = responsivity * (up * r) - data.camera.responsivity() * r;
-  const Eigen::MatrixXd curve = responsivity * ((up - straight) * r);
+  const Eigen::MatrixXd bent = (up - straight) * r;
+  // A mean over wavelengths is off by no more than the largest difference.
+  const Eigen::MatrixXd most = white.abs().matrix() * bent.cwiseAbs().colwise().maxCoeff();
+  const Eigen::MatrixXd curve = (responsivity * bent).cwiseAbs().cwiseMin(most);
   return known(summed.asDiagonal() * sum.cwiseAbs2() + curve.cwiseAbs2() + ofEnds);
 }
 

@@ -72,23 +72,26 @@ TEST(GapNoise, SumsOverWavelengthEndWithHalfAStep)
 
 // Passbands of one step before a reflectance that alternates between 1 and -1. Cubics through four points (Lagrange) make a piecewise
 // polynomial of both: its integral is .6201 off the sum, and .0243 off that of straight lines between the reflectances. A camera that
-// was fitted with the sum has no error of it, however much its responsivities alternate.
+// was fitted with the sum has no error of it, however much its responsivities alternate; and of the straight lines no more than the
+// largest that they have, t^2 (1 - t) = 4 / 27 where the alternation begins.
 TEST(GapNoise, WhatWasFittedWithTheSumHasNoErrorOfIt)
 {
   const msi::WavelengthGrid grid = msi::WavelengthGrid::uniform(400.0, 700.0, 10.0);
-  Eigen::MatrixXd responsivity = Eigen::MatrixXd::Zero(2, 31);
+  Eigen::MatrixXd responsivity = Eigen::MatrixXd::Zero(3, 31);
   responsivity(0, 10) = 1.0;
   responsivity.row(1)(Eigen::seqN(8, 7, 2)) << 2.0, -3.0, 4.0, -5.0, 4.0, -3.0, 2.0;
+  responsivity.row(2).segment(15, 2) << 12.0, -11.0;
   const msi::CameraModel camera(
-    grid, responsivity, Eigen::VectorXd::Zero(2), { "known", "fitted" });
+    grid, responsivity, Eigen::VectorXd::Zero(3), { "known", "fitted", "pseudoinverse" });
   msi::SceneSamples samples;
   samples.reflectance = Eigen::MatrixXd::Ones(31, 2);
-  samples.reflectance(Eigen::seqN(1, 15, 2), Eigen::all).setConstant(-1.0);
+  samples.reflectance(Eigen::seqN(5, 11, 2), Eigen::all).setConstant(-1.0);
   const msi::GapCapture capture{ camera, grid, samples, responsivity * samples.reflectance,
     { 0, 1 }, msi::CameraNoise{ 0.001, 0.0 } };
   const Eigen::MatrixXd variance = msi::integrationVariance(msi::prepareGapData(capture, {}), grid);
   EXPECT_NEAR(std::sqrt(variance(0, 0)), std::hypot(0.6201, 0.0243), 0.02);
   EXPECT_NEAR(std::sqrt(variance(1, 0)), 0.0243, 0.005);
+  EXPECT_NEAR(std::sqrt(variance(2, 0)), 4.0 / 27.0, 0.001);
 }
 
 TEST(GapNoise, RepeatsGiveTheNoiseWhereNoModelIsGiven)

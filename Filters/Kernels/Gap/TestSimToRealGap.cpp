@@ -7,6 +7,7 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -353,6 +354,28 @@ TEST(SimToRealGap, WhatThisCaptureCannotTellApartIsSaid)
     EXPECT_NE(next.capture, "chart rotated by 180 degrees");
   }
   EXPECT_TRUE(says(report.notes, "One medium only"));
+}
+
+// Responsivities that alternate where no sample looks, as a fit with little regularization leaves them, answer to the samples alike.
+TEST(SimToRealGap, AFitThatAlternatesHidesNoGap)
+{
+  msi::GapCapture capture =
+    captureWith({ { "channel_gain", "", "", { 1.03, 0.98, 1.0, 1.04, 0.97, 1.01, 0.96 } } }, 96);
+  EXPECT_FALSE(says(diagnosisOf(capture).notes, "negative in part"));
+  const Eigen::MatrixXd& seen = capture.samples.reflectance;
+  Eigen::VectorXd unseen = Eigen::VectorXd::Ones(seen.rows());
+  unseen(Eigen::seq(1, Eigen::last, 2)).setConstant(-1.0);
+  unseen -= seen * seen.completeOrthogonalDecomposition().solve(unseen);
+  ASSERT_GT(unseen.norm(), 1.0);
+  const Eigen::MatrixXd responsivity = capture.camera.responsivity();
+  capture.camera =
+    capture.camera.with(responsivity + 2.0 * responsivity.rowwise().maxCoeff() * unseen.transpose(),
+      capture.camera.dark());
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "channel_gain");
+  EXPECT_TRUE(says(report.notes, "7 of 7 channels have responsivities that are negative in part"));
 }
 
 TEST(SimToRealGap, ACameraFarFromWhiteIsSaid)

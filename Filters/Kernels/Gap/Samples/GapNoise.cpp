@@ -90,6 +90,12 @@ Eigen::VectorXd reflectanceErrorGain(const CameraModel& camera)
   return camera.responsivity().rowwise().squaredNorm();
 }
 
+ChannelMask fittedChannels(const CameraModel& camera)
+{
+  return camera.responsivity().cwiseAbs().rowwise().sum().array() >
+    (1.0 + Decision::SmallPart) * camera.whiteResponse().array().abs();
+}
+
 namespace
 {
 // Responsivity beyond the measured wavelengths, each times its distance from the end, times the slope there. Of the value at an end
@@ -129,14 +135,6 @@ Eigen::MatrixXd beyondMeasured(const GapData& data, const WavelengthGrid& measur
   return error;
 }
 
-// A channel K is 0 where it was fitted, with the very sum, else 1: a negative part that is not small is no measured responsivity.
-Eigen::VectorXd notFitted(const CameraModel& camera)
-{
-  const Eigen::ArrayXd all = camera.responsivity().cwiseAbs().rowwise().sum();
-  return (all > (1.0 + Decision::SmallPart) * camera.whiteResponse().array().abs())
-    .select(0.0, Eigen::ArrayXd::Ones(all.size()));
-}
-
 // Where the grid cuts off a passband the sum counts half a step too much of it.
 Eigen::MatrixXd cutOff(const GapData& data)
 {
@@ -157,7 +155,7 @@ Eigen::MatrixXd cutOff(const GapData& data)
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured)
 {
   const WavelengthGrid& grid = data.camera.wavelengths();
-  const Eigen::VectorXd summed = notFitted(data.camera);
+  const Eigen::VectorXd summed = (!fittedChannels(data.camera)).cast<double>();
   const Eigen::MatrixXd ofEnds =
     beyondMeasured(data, measured).cwiseAbs2() + summed.asDiagonal() * cutOff(data).cwiseAbs2();
   const auto known = [](const Eigen::ArrayXXd& all) -> Eigen::MatrixXd

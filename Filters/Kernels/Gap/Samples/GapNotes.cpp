@@ -182,6 +182,18 @@ void noteWhite(std::vector<std::string>& notes, const CameraModel& camera)
   }
 }
 
+void noteFit(std::vector<std::string>& notes, const CameraModel& camera)
+{
+  if (const auto fitted = fittedChannels(camera).count(); fitted > 0)
+  {
+    notes.push_back(textOf(3, fitted, " of ", camera.channelCount(),
+      " channels have responsivities that are negative in part: they were fitted to samples, and "
+      "shifted or wider filters are hard to find before them. Camera Model Fit keeps "
+      "responsivities "
+      "positive."));
+  }
+}
+
 void noteSaturation(std::vector<std::string>& notes, const GapData& data)
 {
   const double top = data.observed.maxCoeff();
@@ -329,6 +341,7 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   noteScene(notes, data, capture.samples);
   noteSamples(notes, data, report);
   noteWhite(notes, data.camera);
+  noteFit(notes, data.camera);
   noteSaturation(notes, data);
   noteDoubts(notes, report);
   return notes;

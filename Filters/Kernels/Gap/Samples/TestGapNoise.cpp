@@ -89,6 +89,7 @@ TEST(GapNoise, WhatWasFittedWithTheSumHasNoErrorOfIt)
   const msi::GapCapture capture{ camera, grid, samples, responsivity * samples.reflectance,
     { 0, 1 }, msi::CameraNoise{ 0.001, 0.0 } };
   const Eigen::MatrixXd variance = msi::integrationVariance(msi::prepareGapData(capture, {}), grid);
+  EXPECT_TRUE((msi::fittedChannels(camera) == msi::ChannelMask{ { false, true, true } }).all());
   EXPECT_NEAR(std::sqrt(variance(0, 0)), std::hypot(0.6201, 0.0243), 0.02);
   EXPECT_NEAR(std::sqrt(variance(1, 0)), 0.0243, 0.005);
   EXPECT_NEAR(std::sqrt(variance(2, 0)), 4.0 / 27.0, 0.001);

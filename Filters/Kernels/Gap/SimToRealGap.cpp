@@ -117,8 +117,8 @@ public:
     expectNoise();
     Choices = choicesFor(Data.scene, Options.without);
     Observed.emplace(Data, Data.usable, Choices, Options.seed);
-    const int amongAll = unlessOdd ? 0 : 1;
-    Options.forAll(Data.folds + amongAll, [&](int job) { search(job + 1 - amongAll); });
+    const int first = unlessOdd ? 1 : 0;
+    Options.forAll(Data.folds + 1 - first, [&](int job) { search(first + job); });
     Odd = Steps.stopped() ? SampleList() : oddSamples(Data, Before, After);
     if (unlessOdd && Odd.empty())
     {

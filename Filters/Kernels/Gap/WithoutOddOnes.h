@@ -13,8 +13,8 @@ namespace msi
 
 // Where something unknown is more likely than not, the diagnosis is done again without those that are odd, until none are; that
 // counts where it makes something unknown half as likely.
-//   diagnose(odd, unlessOdd): without `odd`, too, which is then what is odd after it. Empty where some are and unlessOdd, and, with
-//   none, where it was stopped.
+//   diagnose(odd, unlessOdd): without `odd`, too, which is then what is odd after it. With unlessOdd its result is empty where some
+//   are. Where it was stopped both are empty.
 //   reportOf(result): its report. mixedUp(): whether all is in disorder.
 //   note(): what is said of all that are left out, where without them there is no gap.
 template <typename Diagnose, typename ReportOf, typename MixedUp, typename Note>

@@ -138,8 +138,8 @@ class Case:
         self.white = (self.curves * self.light).sum(1)
         self.matrix = self.curves * self.light / self.white[:, None]
         order = random.permutation(len(medium))
-        self.bend = random.choice(["gamma", "square", "none"]) if curved else "none"
-        self.bent = random.choice([-1.0, 1.0]) * random.uniform(0.04, 0.14) if curved else 0.0
+        self.detector = random.choice(["gamma", "square", "none"]) if curved else "none"
+        self.curvature = random.choice([-1.0, 1.0]) * random.uniform(0.04, 0.14) if curved else 0.0
         if fitted:
             self.fit(random, reflectance[order[:len(order) // 2]])
             order = order[len(order) // 2:]
@@ -160,7 +160,7 @@ class Case:
 
     def fit(self, random, reflectance):
         """Ridge regression with a penalty on the second differences of each channel's responsivity, and an offset."""
-        seen = noisy(random, self.seen(self.matrix @ reflectance.T))
+        seen = noisy(random, self.without_faults(self.matrix @ reflectance.T))
         spectra = CubicSpline(FINE, reflectance.T)(COARSE).T
         design = numpy.hstack([spectra, numpy.ones((len(spectra), 1))])
         rough = numpy.diff(numpy.eye(len(COARSE)), 2, axis=0)
@@ -169,11 +169,11 @@ class Case:
         solution = numpy.linalg.solve(design.T @ design + penalty + 1e-9 * numpy.eye(len(penalty)), design.T @ seen.T)
         self.camera, self.dark = solution[:-1].T, solution[-1]
 
-    def seen(self, light):
+    def without_faults(self, light):
         """By the detector as it is, without any planted effect."""
-        if self.bend == "gamma":
-            return numpy.sign(light) * numpy.abs(light) ** (1.0 + self.bent)
-        return light + 2.0 * self.bent * light * (1.0 - light) if self.bend == "square" else light
+        if self.detector == "gamma":
+            return numpy.sign(light) * numpy.abs(light) ** (1.0 + self.curvature)
+        return light + 2.0 * self.curvature * light * (1.0 - light) if self.detector == "square" else light
 
     def draw(self, random, base):
         channels = len(self.matrix)
@@ -214,7 +214,7 @@ class Case:
         return self.detected((matrix @ reflectance.T) * light, strength, scene)
 
     def detected(self, light, strength, scene):
-        seen = self.seen(light)
+        seen = self.without_faults(light)
         for name, fault in self.faults:
             size = strength * fault["size"]
             sign = fault["sign"]
@@ -284,7 +284,7 @@ def write(folder, random, effects, kind, fitted, curved):
     """One case, and what the key says of it."""
     case = Case(random, effects, kind, fitted, curved)
     scene = case.scene
-    truth = case.seen(case.matrix @ scene.reflectance.T)
+    truth = case.without_faults(case.matrix @ scene.reflectance.T)
     case.strength = strength_for(random, case, truth) if effects else 0.0
     case.known, case.repeats = [(True, 3), (False, 3), (False, 1)][random.integers(3)]
     seen = capture(folder, random, case, scene)

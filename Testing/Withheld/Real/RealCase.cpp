@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 namespace withheld
@@ -21,17 +20,6 @@ struct Request
   std::string without, twin;
 };
 
-enum class Source
-{
-  Raw,
-  Linearised,
-  Chart,
-  Ridge
-};
-
-const std::map<Source, Fit> FitOf = { { Source::Raw, Fit::Model },
-  { Source::Linearised, Fit::Linearised }, { Source::Ridge, Fit::Ridge } };
-
 RealSamples drawSamples(Random& random, Source source, bool severalMedia)
 {
   if (source == Source::Chart)
@@ -44,7 +32,7 @@ RealSamples drawSamples(Random& random, Source source, bool severalMedia)
   {
     media = { media[static_cast<std::size_t>(which)] };
   }
-  RealSamples real = fittedHalf(random, media, FitOf.at(source));
+  RealSamples real = fittedHalf(random, media, source);
   // Nothing is told of place and time: set out at random.
   const Eigen::Index S = real.reflectance.cols();
   const auto columns =

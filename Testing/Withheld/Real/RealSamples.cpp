@@ -84,7 +84,7 @@ bool haveRealSamples()
   return !dataFolder().empty();
 }
 
-RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, Fit how)
+RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, Source source)
 {
   RealSamples real;
   Eigen::MatrixXd reflectance;
@@ -118,31 +118,34 @@ RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, Fi
   const std::vector<Eigen::Index> fitted(order.begin(), half);
   const std::vector<Eigen::Index> kept(half, order.end());
 
-  msi::CameraModelFitOptions options;
-  options.draws = 0;
-  const Eigen::MatrixXd calibration = columnsOf(reflectance, fitted);
-  msi::CameraModelFit fit =
-    msi::fitCameraModel(*grid, calibration, columnsOf(answer, fitted), options);
-  for (int round = 0; how == Fit::Linearised && round < 2; ++round)
-  {
-    const Eigen::MatrixXd linear =
-      (fit.camera.responsivity() * calibration).colwise() + fit.camera.dark();
-    const Eigen::MatrixXd seen = columnsOf(answer, fitted);
-    for (Eigen::Index k = 0; k < answer.rows(); ++k)
-    {
-      answer.row(k) = cubic(seen.row(k), linear.row(k), answer.row(k));
-    }
-    fit = msi::fitCameraModel(*grid, calibration, columnsOf(answer, fitted), options);
-  }
   real.cameraWavelengths = real.wavelengths;
-  real.camera = fit.camera.responsivity();
-  real.dark = fit.camera.dark();
-  if (how == Fit::Ridge)
+  const Eigen::MatrixXd calibration = columnsOf(reflectance, fitted);
+  if (source == Source::Ridge)
   {
     const Eigen::MatrixXd solution =
       ridge(calibration, columnsOf(answer, fitted), std::pow(10.0, uniform(random, -7.0, -2.0)));
     real.camera = solution.leftCols(grid->size());
     real.dark = solution.rightCols(1);
+  }
+  else
+  {
+    msi::CameraModelFitOptions options;
+    options.draws = 0;
+    msi::CameraModelFit fit =
+      msi::fitCameraModel(*grid, calibration, columnsOf(answer, fitted), options);
+    for (int round = 0; source == Source::Linearised && round < 2; ++round)
+    {
+      const Eigen::MatrixXd linear =
+        (fit.camera.responsivity() * calibration).colwise() + fit.camera.dark();
+      const Eigen::MatrixXd seen = columnsOf(answer, fitted);
+      for (Eigen::Index k = 0; k < answer.rows(); ++k)
+      {
+        answer.row(k) = cubic(seen.row(k), linear.row(k), answer.row(k));
+      }
+      fit = msi::fitCameraModel(*grid, calibration, columnsOf(answer, fitted), options);
+    }
+    real.camera = fit.camera.responsivity();
+    real.dark = fit.camera.dark();
   }
   real.reflectance = columnsOf(reflectance, kept);
   real.answers = { columnsOf(answer, kept) };

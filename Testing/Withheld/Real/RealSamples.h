@@ -27,15 +27,16 @@ struct RealSamples
   Eigen::MatrixXd simulated() const;
 };
 
-enum class Fit
+enum class Source
 {
-  Model,      // as Camera Model Fit does
+  Raw,        // fitted as Camera Model Fit does
   Linearised, // so, after each channel was made linear
+  Chart,      // measured
   Ridge       // ridge regression with a penalty that is drawn: responsivities that alternate
 };
 
 // Empty without the data. media: paper, cotton or both. The samples of the other half stay.
-RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, Fit how);
+RealSamples fittedHalf(Random& random, const std::vector<std::string>& media, Source source);
 RealSamples chart(Random& random);
 bool haveRealSamples();
 

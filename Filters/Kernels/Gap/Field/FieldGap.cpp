@@ -340,7 +340,7 @@ Eigen::VectorXd leftOfBlocks(const FieldFinding& finding)
   return left / static_cast<double>(before.channels);
 }
 
-// odd: the blocks that are, where it was not stopped. unlessOdd: goes no further than to find them.
+// odd: the blocks that are; unchanged where it was stopped. unlessOdd: where some are goes no further than to find them.
 std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldChoice>& choices,
   const Eigen::MatrixXd& start, const GapOptions& options, const FieldLoop& loop, IndexList& odd,
   bool unlessOdd)

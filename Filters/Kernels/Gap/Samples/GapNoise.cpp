@@ -155,9 +155,9 @@ Eigen::MatrixXd cutOff(const GapData& data)
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured)
 {
   const WavelengthGrid& grid = data.camera.wavelengths();
-  const Eigen::VectorXd summed = (!fittedChannels(data.camera)).cast<double>();
+  const Eigen::VectorXd notFitted = (!fittedChannels(data.camera)).cast<double>();
   const Eigen::MatrixXd ofEnds =
-    beyondMeasured(data, measured).cwiseAbs2() + summed.asDiagonal() * cutOff(data).cwiseAbs2();
+    beyondMeasured(data, measured).cwiseAbs2() + notFitted.asDiagonal() * cutOff(data).cwiseAbs2();
   const auto known = [](const Eigen::ArrayXXd& all) -> Eigen::MatrixXd
   { return all.isFinite().select(all, 0.0); };
   const auto step = grid.step();
@@ -185,7 +185,7 @@ Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& m
   // A mean over wavelengths is off by no more than the largest difference.
   const Eigen::MatrixXd most = white.abs().matrix() * bent.cwiseAbs().colwise().maxCoeff();
   const Eigen::MatrixXd curve = (responsivity * bent).cwiseAbs().cwiseMin(most);
-  return known(summed.asDiagonal() * sum.cwiseAbs2() + curve.cwiseAbs2() + ofEnds);
+  return known(notFitted.asDiagonal() * sum.cwiseAbs2() + curve.cwiseAbs2() + ofEnds);
 }
 
 double robustDeviation(std::vector<double> values)

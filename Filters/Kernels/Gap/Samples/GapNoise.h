@@ -47,15 +47,16 @@ Eigen::VectorXd reflectanceErrorGain(const CameraModel& camera);
 
 using ChannelMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-// Channels that were fitted to samples, K: their negative part is larger than noise of a measured responsivity.
+// Channels that were fitted to samples, K: their negative part is larger than noise of a measured responsivity, a twentieth of the
+// response to white.
 ChannelMask fittedChannels(const CameraModel& camera);
 
 // Squared size of what a plain sum over the grid may miss, K x S: the difference to the integral of the interpolated
 // responsivity times the interpolated reflectance; that between straight lines and curves through the reflectance
-// (both zero on grids of 2 nm or finer), no more than the largest; and, where the camera sees wavelengths at which no reflectance was measured or beyond
-// its own grid, the difference between holding the end value and going on along its slope; and half of the weight that the sum
-// gives to the ends, where the grid cuts off a passband. fittedChannels() were fitted with the sum as it is, its ends too: only straight
-// lines and wavelengths beyond count.
+// (both zero on grids of 2 nm or finer), the latter no more than the largest that there is; where the camera sees wavelengths at which
+// no reflectance was measured or beyond its own grid, the difference between holding the end value and going on along its slope; and
+// half of the weight that the sum gives to the ends, where the grid cuts off a passband. fittedChannels() were fitted with the sum as
+// it is, its ends too: only straight lines and wavelengths beyond count.
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured);
 
 // Without noise model and repeats, K x S: per channel what no basis predicts of `left` (K x S, 0 where nothing was measured) is

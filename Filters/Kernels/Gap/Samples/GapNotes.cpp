@@ -188,9 +188,8 @@ void noteFit(std::vector<std::string>& notes, const CameraModel& camera)
   {
     notes.push_back(textOf(3, fitted, " of ", camera.channelCount(),
       " channels have responsivities that are negative in part: they were fitted to samples, and "
-      "shifted or wider filters are hard to find before them. Camera Model Fit keeps "
-      "responsivities "
-      "positive."));
+      "filters that moved or became wider are hard to find with such a camera. Fit it with Camera "
+      "Model Fit, which keeps responsivities positive."));
   }
 }
 

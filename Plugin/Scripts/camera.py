@@ -56,7 +56,7 @@ OPTIONS = arguments()  # before ParaView is loaded
 
 import numpy  # noqa: E402
 
-from support import cameras, estimation, pictures, pipeline, report  # noqa: E402
+from support import cameras, estimation, outputs, pictures, pipeline, report  # noqa: E402
 
 
 def look_at_scene(options, effects, folder):
@@ -115,9 +115,9 @@ def lead_of(difference, fit, measured):
 
 def main():
     options = OPTIONS
-    command.require_files(*(options.image or []), options.samples, options.scene, options.labels, options.patches,
+    outputs.require_files(*(options.image or []), options.samples, options.scene, options.labels, options.patches,
                           options.camera, options.effects)
-    folder = command.make_folder(options.output, WRITES)
+    folder = outputs.claim(options.output, WRITES)
     pipeline.load_plugin()
     effects = {"Effects": "Effect File", "EffectFile": options.effects} if options.effects else {}
     if options.scene:

@@ -54,7 +54,7 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import estimation, pictures, pipeline, report  # noqa: E402
+from support import estimation, outputs, pictures, pipeline, report  # noqa: E402
 
 
 def find(options, image, reference):
@@ -95,8 +95,8 @@ def say_what_was_found(options, found, samples):
 
 def main():
     options = OPTIONS
-    command.require_files(*frames.files(options), options.reference)
-    folder = command.make_folder(options.output)
+    outputs.require_files(*frames.files(options), options.reference)
+    folder = outputs.claim(options.output, ("chart.csv", "labels.png", "overlay.png", "report.html"))
     pipeline.load_plugin()
     image = frames.responses(options)
     reference = pipeline.create("SampleTableReader", FileName=options.reference)

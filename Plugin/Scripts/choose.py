@@ -30,7 +30,7 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import estimation, pipeline, report  # noqa: E402
+from support import estimation, outputs, pipeline, report  # noqa: E402
 
 
 def candidates_of(options):
@@ -42,8 +42,8 @@ def candidates_of(options):
 
 def main():
     options = OPTIONS
-    command.require_files(options.calibration, options.candidates, options.labels, *frames.files(options))
-    folder = command.make_folder(options.output, ("choice.csv", "report.html"))
+    outputs.require_files(options.calibration, options.candidates, options.labels, *frames.files(options))
+    folder = outputs.claim(options.output, ("choice.csv", "report.html"))
     pipeline.load_plugin()
     chart, candidates = pipeline.create("SampleTableReader", FileName=options.calibration), candidates_of(options)
     pipeline.update(chart, candidates)

@@ -11,7 +11,7 @@ PARSER = command.parser("demo", __doc__, "", "--output demo --ranks 2", "--illum
 colors.add_options(PARSER, lights_pictures=True)
 OPTIONS = PARSER.parse_args()  # before ParaView is loaded
 
-from support import comparison, diagnosis, estimation, pipeline, report, state  # noqa: E402
+from support import comparison, diagnosis, estimation, outputs, pipeline, report, state  # noqa: E402
 from support.methods import COMPARED  # noqa: E402
 
 TUNING = 16
@@ -49,7 +49,7 @@ def estimate_image(chart, fabric, folder, viewed):
     tops = None
     for name, samples, method in (("direct", None, "Direct"),
                                   ("transfer", pipeline.port(tuning, 0), "Transfer")):
-        place = command.make_folder(os.path.join(folder, name))
+        place = outputs.make_folder(os.path.join(folder, name))
         transforms, _ = estimation.correction(chart, samples, method)
         reflectance = estimation.estimate(image, transforms, place)
         reflectances[name] = reflectance
@@ -70,7 +70,7 @@ def diagnose_capture(folder):
     command.say("Sim-to-real gap of a synthetic capture")
     gap = diagnosis.diagnose(diagnosis.read_capture(
         os.path.join(command.root(), "Data", "Captures", "demo-warm-camera")))
-    diagnosis.write(gap, command.make_folder(folder))
+    diagnosis.write(gap, outputs.make_folder(folder))
     diagnosis.print_summary(gap)
     return gap
 
@@ -90,8 +90,8 @@ WRITES = ("*", "direct/*", "transfer/*", "gap/*")
 
 
 def main():
-    command.require_files(*colors.files(OPTIONS))
-    folder = command.make_folder(OPTIONS.output, WRITES)
+    outputs.require_files(*colors.files(OPTIONS))
+    folder = outputs.claim(OPTIONS.output, WRITES)
     pipeline.load_plugin()
     viewed = colors.Colors(OPTIONS)
     chart, fabric = sample_table("demo-chart.csv"), sample_table("demo-fabric.csv")

@@ -74,11 +74,11 @@ def main():
     if images is not None:
         outcomes.append((image_gap, image_gap.diagnose(images, **choices)))
 
-    folder = command.make_folder(options.output, WRITES)
+    folder = outputs.claim(options.output, WRITES)
     sections = []
     for number, (kind, gap) in enumerate(outcomes):
         # The images beside tables have a folder of their own.
-        target = command.make_folder(os.path.join(folder, "images")) if number > 0 else folder
+        target = outputs.make_folder(os.path.join(folder, "images")) if number > 0 else folder
         kind.write(gap, target)
         sections += kind.sections(gap, target)
         diagnosis.print_summary(gap)

@@ -46,12 +46,12 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import estimation, pictures, pipeline, report, state  # noqa: E402
+from support import estimation, outputs, pictures, pipeline, report, state  # noqa: E402
 
 
 def require_inputs(options):
     singles = [options.calibration, options.tuning, options.labels, options.patches, options.register or None]
-    command.require_files(*frames.files(options), *singles, *colors.files(options))
+    outputs.require_files(*frames.files(options), *singles, *colors.files(options))
 
 
 def read_tables(options):
@@ -128,7 +128,7 @@ WRITES = (
 def main():
     options = OPTIONS
     require_inputs(options)
-    folder = command.make_folder(options.output, WRITES)
+    folder = outputs.claim(options.output, WRITES)
     pipeline.load_plugin()
     viewed = colors.Colors(options)
 

@@ -33,7 +33,7 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import comparison, pipeline, report  # noqa: E402
+from support import comparison, outputs, pipeline, report  # noqa: E402
 
 
 # All that it writes into the output folder.
@@ -44,8 +44,8 @@ WRITES = (
 
 def main():
     options = OPTIONS
-    command.require_files(options.calibration, options.target, *colors.files(options))
-    folder = command.make_folder(options.output, WRITES)
+    outputs.require_files(options.calibration, options.target, *colors.files(options))
+    folder = outputs.claim(options.output, WRITES)
     chosen = methods.chosen(options.methods)
     draws = f"{command.counted(options.draws, 'draw')} of {options.tuning} tuning samples"
     command.say(f"{command.counted(len(chosen), 'method')}, {draws}, the rest held out")

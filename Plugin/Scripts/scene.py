@@ -47,7 +47,7 @@ def arguments():
 
 OPTIONS = arguments()  # before ParaView is loaded
 
-from support import estimation, pictures, pipeline, report  # noqa: E402
+from support import estimation, outputs, pictures, pipeline, report  # noqa: E402
 
 
 # All that it writes into the output folder.
@@ -57,7 +57,7 @@ WRITES = ("reflectance.img", "reflectance.hdr", "labels.img", "labels.hdr", "pat
 
 def main():
     options = OPTIONS
-    folder = command.make_folder(options.output, WRITES)
+    folder = outputs.claim(options.output, WRITES)
     pipeline.load_plugin()
     scene = pipeline.create("SyntheticScene", Subject=SUBJECTS[options.subject], Size=options.size,
                             Wavelengths=options.wavelengths, Seed=options.seed, Texture=options.texture,

@@ -48,7 +48,7 @@ def add_options(parser, lights_pictures=False):
 
 
 def files(options):
-    """The files among the options, for command.require_files."""
+    """The files among the options, for outputs.require_files."""
     return [text for text in (*options.illuminant, options.observer) if _looks_like_file(text)]
 
 

@@ -1,4 +1,4 @@
-"""The command line of the scripts behind the launcher: arguments, one-line errors, the output folder."""
+"""The command line of the scripts behind the launcher: arguments, one-line errors, the end of a run."""
 
 import argparse
 import contextlib
@@ -45,27 +45,6 @@ def whole_number(least):
             raise argparse.ArgumentTypeError(f"'{text}' is not a whole number of at least {least}")
         return int(text)
     return parse
-
-
-def require_files(*paths):
-    """Each is there; from now on none of them is written over."""
-    from . import outputs
-    for path in paths:
-        if path is not None and not os.path.isfile(path):
-            raise Failure(f"{path}: no such file")
-    outputs.reads(*paths)
-
-
-def make_folder(path, writes=None):
-    """A folder for results; writes: patterns of all that the command writes into it, for its output folder."""
-    from . import outputs
-    if writes is not None:
-        return outputs.claim(path, writes)
-    try:
-        os.makedirs(path, exist_ok=True)
-    except OSError as error:
-        raise Failure(f"{path}: cannot make the output folder: {error.strerror}") from error
-    return path
 
 
 def root():

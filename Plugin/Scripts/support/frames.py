@@ -54,7 +54,7 @@ def check(parser, options):
 
 
 def files(options):
-    """For command.require_files."""
+    """For outputs.require_files."""
     return [*(options.image or []), *(options.white or []), *(options.dark or [])]
 
 

@@ -35,6 +35,14 @@ def reads(*paths):
                 _inputs[status.st_dev, status.st_ino] = path
 
 
+def require_files(*paths):
+    """Each is there; from now on none of them is written over."""
+    for path in paths:
+        if path is not None and not os.path.isfile(path):
+            raise Failure(f"{path}: no such file")
+    reads(*paths)
+
+
 def _require_utf8(path, remedy):
     if any("\udc80" <= c <= "\udcff" for c in path):
         raise Failure(f"{command.printable(path)}: the name is not UTF-8; {remedy}")
@@ -46,6 +54,14 @@ def _files_of(path):
     return [path] + [stem + other for other in sorted(partners) if stem + other != path]
 
 
+def make_folder(path):
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise Failure(f"{path}: cannot make the output folder: {error.strerror}") from error
+    return path
+
+
 def claim(folder, patterns):
     """Makes the output folder this run's own, before anything is written.
 
@@ -54,10 +70,7 @@ def claim(folder, patterns):
     global _declared, _old_report
     _require_utf8(folder, "choose another folder with --output")
     require_apart(folder, patterns)
-    try:
-        os.makedirs(folder, exist_ok=True)
-    except OSError as error:
-        raise Failure(f"{folder}: cannot make the output folder: {error.strerror}") from error
+    make_folder(folder)
     _declared = folder, tuple(patterns)
     if command.rank() == 0:
         _lock(folder)

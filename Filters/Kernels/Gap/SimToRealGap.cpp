@@ -192,6 +192,7 @@ private:
     if (Noise.unknown)
     {
       Data.variance = Data.variance.cwiseMin(unknownVariance(Data, After) + Integration);
+      TakenForNoise = measuredOnly(Data, Data.variance - Integration).sum();
     }
     Rest = shareOverAxes(Data, After);
     const double unpredicted = std::fmin(After.squaredNorm(), Rest.heldOutResidual.squaredNorm());
@@ -209,7 +210,9 @@ private:
     if (!Options.reflectanceNoise && !Noise.unknown)
     {
       ReflectanceNoise = reflectanceScatter(Data, After, unpredicted);
+      const double known = measuredOnly(Data, Data.variance).sum();
       addReflectanceNoise(ReflectanceNoise);
+      TakenForNoise = measuredOnly(Data, Data.variance).sum() - known;
     }
   }
 
@@ -224,6 +227,7 @@ private:
     evidence.gap = evidence.gap || scatterAlone;
     const double ofNoise = partOf(excess, Report.gap);
     evidence.explained = (1.0 - ofNoise) * evidence.explained + ofNoise * excess.belief;
+    evidence.takenForNoise = std::fmin(TakenForNoise / Before.squaredNorm(), 1.0);
     Predicted.back() = best.predicted;
     if (evidence.credited > 0.0)
     {
@@ -314,6 +318,7 @@ private:
   Eigen::MatrixXd Before, After; // real minus simulated; with the causes, of samples held out
   std::vector<Eigen::MatrixXd> Predicted; // of each fold, and last by all samples
   std::vector<EffectChoice> Choices;
+  double TakenForNoise = 0.0; // energy of an error of each sample that only what is left shows
   std::optional<SampleObservation> Observed;
   FoundSets Found;
   AxisShares Where, Rest;

@@ -490,6 +490,28 @@ TEST(SimToRealGap, WhatACauseLeavesToScatterIsInDoubt)
   EXPECT_GT(scattered.probabilityOf("unknown"), 3.0 * unsure / (1.0 + 3.0 * unsure) - 0.02);
 }
 
+// Without a noise model and repeats all that nothing predicts is taken for noise; it may be something else.
+TEST(SimToRealGap, WhatIsTakenForNoiseIsInDoubt)
+{
+  const auto diagnosed = [](double readNoise, bool known)
+  {
+    msi::GapCapture capture =
+      captureOf(rasterSamples(96), { { "exposure_gain", "", "", { 1.03 } } }, 1, readNoise);
+    capture.noise = known ? capture.noise : std::nullopt;
+    return diagnosisOf(capture);
+  };
+  const msi::GapReport known = diagnosed(0.006, true);
+  const msi::GapReport taken = diagnosed(0.006, false);
+  ASSERT_EQ(known.causes.size(), 1U);
+  ASSERT_EQ(taken.causes.size(), 1U);
+  EXPECT_GT(taken.gap.shrink, 0.9);
+  EXPECT_LT(known.probabilityOf("unknown"), 0.1);
+  EXPECT_LT(diagnosed(0.001, false).probabilityOf("unknown"), 0.1);
+  const double part = std::pow(taken.gap.noiseFloor / taken.gap.rmsBefore, 2);
+  const double unsure = part * (taken.gap.shrink - msi::Decision::Unconfirmed);
+  EXPECT_GT(taken.probabilityOf("unknown"), 3.0 * unsure / (1.0 + 3.0 * unsure) - 0.02);
+}
+
 TEST(SimToRealGap, TheSameBytesOnManyThreadsAndOne)
 {
   const msi::GapCapture capture = captureWith({ { "medium_gain", "", "fabric", { 0.94 } } }, 48);

@@ -448,9 +448,11 @@ std::vector<Explanation> conclude(GapReport& report, const Observation& data,
   }
   report.candidates = foundCandidates(data, found, seed);
   const bool gap = report.verdict != GapVerdict::NoGap;
-  const double none = gap ? unknownProbability(evidence.explained, found.best->chanceOfCurve,
-                              standInsOf(data, *found.best))
-                          : 1.0 / (1.0 + std::fmin(evidence.noticed, 1.0));
+  const double confirmed = evidence.explained -
+    evidence.takenForNoise * std::fmax(evidence.explained - Decision::Unconfirmed, 0.0);
+  const double none = gap
+    ? unknownProbability(confirmed, found.best->chanceOfCurve, standInsOf(data, *found.best))
+    : 1.0 / (1.0 + std::fmin(evidence.noticed, 1.0));
   believe(report, effectProbabilities(explanations, gap, none));
   return explanations;
 }

@@ -73,8 +73,9 @@ struct Evidence
 {
   double credited = 0.0;  // what the shares of the causes sum to; 0: they are not believed at all
   double explained = 0.0; // part of the gap's size
-  bool gap = false;       // if they are not: whether there is one beyond noise
-  double noticed = 1.0;   // if there is none: odds that they are causes all the same, at most 1
+  double takenForNoise = 0.0; // part of the gap's energy, where only what is left shows the noise
+  bool gap = false;           // if they are not: whether there is one beyond noise
+  double noticed = 1.0;       // if there is none: odds that they are causes all the same, at most 1
   std::vector<GapAxis> rest = {}; // along which lies what the causes leave
 };
 

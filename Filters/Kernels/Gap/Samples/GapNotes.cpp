@@ -36,7 +36,7 @@ void noteNoise(std::vector<std::string>& notes, const GapData& data, const GapCa
   {
     notes.push_back(
       "No noise model and one reading a sample: what no effect and no axis predicts is "
-      "taken for noise. A second reading of each sample would tell.");
+      "taken for noise, but may be something else. A second reading of each sample would tell.");
   }
   else if (!capture.noise)
   {

@@ -507,6 +507,7 @@ TEST(SimToRealGap, WhatIsTakenForNoiseIsInDoubt)
   EXPECT_GT(taken.gap.shrink, 0.9);
   EXPECT_LT(known.probabilityOf("unknown"), 0.1);
   EXPECT_LT(diagnosed(0.001, false).probabilityOf("unknown"), 0.1);
+  EXPECT_TRUE(says(taken.notes, "Noise? No noise model"));
   const double part = std::pow(taken.gap.noiseFloor / taken.gap.rmsBefore, 2);
   const double unsure = part * (taken.gap.shrink - msi::Decision::Unconfirmed);
   EXPECT_GT(taken.probabilityOf("unknown"), 3.0 * unsure / (1.0 + 3.0 * unsure) - 0.02);

@@ -34,9 +34,11 @@ void noteNoise(std::vector<std::string>& notes, const GapData& data, const GapCa
 {
   if (noise.unknown)
   {
-    notes.push_back(
-      "No noise model and one reading a sample: what no effect and no axis predicts is "
-      "taken for noise, but may be something else. A second reading of each sample would tell.");
+    notes.push_back(textOf(3,
+      "Noise? No noise model and one reading a sample: what no effect and no axis predicts, ",
+      report.gap.noiseFloor,
+      " of white, is taken for noise, but may be something else. A second reading of each sample "
+      "would tell."));
   }
   else if (!capture.noise)
   {

@@ -318,13 +318,13 @@ private:
   Eigen::MatrixXd Before, After; // real minus simulated; with the causes, of samples held out
   std::vector<Eigen::MatrixXd> Predicted; // of each fold, and last by all samples
   std::vector<EffectChoice> Choices;
-  double TakenForNoise = 0.0; // energy of an error of each sample that only what is left shows
   std::optional<SampleObservation> Observed;
   FoundSets Found;
   AxisShares Where, Rest;
   SampleList Odd;
   double Doubted = 0.0; // variance that sums over wavelength were taken to have and do not
   double ReflectanceNoise = 0.0;
+  double TakenForNoise = 0.0; // energy of an error of each sample that only what is left shows
   GapReport Report;
   Progress Steps;
 };

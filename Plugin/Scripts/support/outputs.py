@@ -55,6 +55,7 @@ def _files_of(path):
 
 
 def make_folder(path):
+    """Also one within the output folder, which claim() makes."""
     try:
         os.makedirs(path, exist_ok=True)
     except OSError as error:

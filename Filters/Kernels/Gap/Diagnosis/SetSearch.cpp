@@ -156,7 +156,9 @@ private:
           beam.push_back(fit);
         }
       }
-      if (beam.empty() || Score(*beam.front()) < Score(*best()) - Decision::DecisiveOdds)
+      // Two may undo one another: neither says so alone.
+      if (beam.empty() ||
+        (size > 1 && Score(*beam.front()) < Score(*best()) - Decision::DecisiveOdds))
       {
         break;
       }

@@ -177,6 +177,18 @@ TEST(SetSearch, FindsWhatIsThereAndNothingElse)
   EXPECT_NEAR(causes[0].share + causes[1].share, 0.9, 1e-12);
 }
 
+// The difference of two columns that are nearly the same: neither does anything alone.
+TEST(SetSearch, FindsTwoThatUndoOneAnother)
+{
+  Eigen::MatrixXd X = drawnNumbers(SumRows, 4, 11);
+  const Eigen::VectorXd difference = X.col(2);
+  X.col(2) = X.col(1) + 0.05 * difference;
+  const ColumnSums data(X, 3.0 * difference + drawnNumbers(SumRows, 1, 12));
+  std::vector<std::size_t> set = foundSets(data).best->set;
+  std::sort(set.begin(), set.end());
+  EXPECT_EQ(set, (std::vector<std::size_t>{ 1, 2 }));
+}
+
 // Fits that are begun where a larger set was do not get anywhere.
 class StuckWhenReduced : public ColumnSums
 {

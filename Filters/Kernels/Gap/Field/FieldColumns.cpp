@@ -78,6 +78,14 @@ int FieldColumn::offset()
   return columnWith(ImageAxis::Channel);
 }
 
+int FieldColumn::blur()
+{
+  const std::vector<PlacedStep>& steps = imageSteps();
+  const auto blurs = std::find_if(steps.begin(), steps.end(),
+    [](const PlacedStep& step) { return step.step->blurVariance != nullptr; });
+  return static_cast<int>(blurs->column);
+}
+
 Eigen::VectorXd columnsChanged(
   ImageParameter parameter, const FieldModel& model, const FieldModel& about, Eigen::Index channel)
 {
@@ -98,6 +106,7 @@ Eigen::VectorXd columnsChanged(
 
 namespace
 {
+constexpr double NoiseStep = 1e-3; // white
 constexpr double GaussianCut = 4.0;
 constexpr double SmallVariance = 0.04; // below, the blur is a second difference
 constexpr double VarianceStep = 0.02;
@@ -170,11 +179,24 @@ Eigen::MatrixXd band(const Eigen::ArrayXd& weight, Eigen::Index count)
   return matrix;
 }
 
+// Those of the pixels around a pixel in its value and in its derivatives to the right, down and by blur.
+Eigen::Matrix<double, Eigen::Dynamic, 4> weightsOfPixel(const AxisKernel& x, const AxisKernel& y)
+{
+  const auto weights = [](const Eigen::ArrayXd& ofX, const Eigen::ArrayXd& ofY)
+  { return (ofX.matrix() * ofY.matrix().transpose()).reshaped(); };
+  Eigen::Matrix<double, Eigen::Dynamic, 4> all(x.value.size() * y.value.size(), 4);
+  all << weights(x.value, y.value), weights(x.shift, y.value), weights(x.value, y.shift),
+    weights(x.blur, y.value) + weights(x.value, y.blur);
+  return all;
+}
+
 // The scene in a block, moved and blurred, and, where they are asked for (0 otherwise), its derivatives by displacement and blur:
 // width x height, by pixel number, too.
 struct Neighbourhood
 {
   Eigen::MatrixXd value, right, down, blur;
+  // Covariance of these where the scene is white noise of variance 1.
+  Eigen::Matrix4d ofNoise = Eigen::Matrix4d::Zero();
 
   Neighbourhood(const FieldData& data, const ImageWindow& window, Eigen::Index channel,
     const Eigen::Vector2d& displacement, double variance, bool derivatives)
@@ -194,6 +216,8 @@ struct Neighbourhood
           data.scene()[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)]);
       }
     }
+    const auto weights = weightsOfPixel(x, y);
+    ofNoise = weights.transpose() * weights;
     const Eigen::MatrixXd along = band(x.value, window.width) * scene;
     const Eigen::MatrixXd across = band(y.value, window.height).transpose();
     value = along * across;
@@ -281,10 +305,13 @@ public:
   const ChannelSteps& steps() const noexcept { return Steps; }
   // The light on the detector; with its derivatives also by the steps that are asked for.
   const double& signal(int number) const { return Signal[static_cast<std::size_t>(number)]; }
-  double signal(int number, ImagePixel& pixel, StepDerivatives& derivatives) const
+  // more: added to the scene.
+  double signal(int number, ImagePixel& pixel, StepDerivatives& derivatives, double more) const
   {
-    return run(Steps, pixel, others(number), scene(number, pixel), &derivatives);
+    return run(Steps, pixel, others(number), scene(number, pixel) + more, &derivatives);
   }
+  // Neighbourhood::ofNoise
+  const Eigen::Matrix4d& ofNoise() const noexcept { return Near.ofNoise; }
 
 private:
   ImagePlace placeOf(int number) const
@@ -368,25 +395,39 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     found.level.resize(count);
     by = StepDerivatives();
     by.values.push_back(0.0); // the residual
-    for (Eigen::Index n = 0; n < count; ++n)
+    double answer = 0.0;
+    // Answer and derivatives of a pixel; where the scene and its derivatives to the right, down and by blur are larger by `more`.
+    const auto find = [&](int i, const Eigen::Vector4d& more)
     {
-      const int i = found.pixel[static_cast<std::size_t>(n)];
       ImagePixel pixel = light->pixel(i);
+      pixel.right += more[1];
+      pixel.down += more[2];
+      pixel.blur += more[3];
       pixel.previous = previous ? &previous->signal(i) : nullptr;
       pixel.next = next ? &next->signal(i) : nullptr;
       pixel.row = rows[i / window.width];
       pixel.column = columns[i % window.width];
-      pixel.self = light->signal(i, pixel, by);
-      const double answer = run(behind, pixel, nullptr, pixel.self, &by);
+      pixel.self = light->signal(i, pixel, by, more[0]);
+      answer = run(behind, pixel, nullptr, pixel.self, &by);
       by.chain(steps);
       by.values.back() = static_cast<double>(real[static_cast<std::size_t>(i) * K]) - answer;
-      for (std::size_t c = 0; c < found.there.size(); ++c)
-      {
-        found.columns(n, static_cast<Eigen::Index>(c)) =
-          by.values[static_cast<std::size_t>(found.there[c])];
-      }
+    };
+    const Eigen::Map<const Eigen::VectorXd> values(
+      by.values.data(), static_cast<Eigen::Index>(by.values.size()));
+    for (Eigen::Index n = 0; n < count; ++n)
+    {
+      const int i = found.pixel[static_cast<std::size_t>(n)];
+      find(i, Eigen::Vector4d::Zero());
+      found.columns.row(n) = values(found.there);
       found.level[n] = answer;
     }
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(found.columns.cols(), 4);
+    for (Eigen::Index n = 0; count > 0 && n < 4; ++n)
+    {
+      find(found.pixel[found.pixel.size() / 2], NoiseStep * Eigen::Vector4d::Unit(n));
+      slopes.col(n) = (values(found.there) - found.columns.row(count / 2).transpose()) / NoiseStep;
+    }
+    found.ofNoise = slopes * light->ofNoise() * slopes.transpose();
     act(channel, found);
   }
 }

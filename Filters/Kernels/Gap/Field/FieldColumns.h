@@ -27,6 +27,8 @@ const PlacedStep& stepOf(int column);
 // By a gain, relative to it: the response itself. By an offset.
 int gain();
 int offset();
+// By a variance of blur.
+int blur();
 }
 
 // What one parameter changes in the columns of a channel, which are those at `model`, where the model is `about`.
@@ -40,6 +42,8 @@ struct ChannelColumns
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> columns; // pixels x those
   Eigen::ArrayXd level;   // predicted, of each
   std::vector<int> pixel; // number in the block, of each
+  // Products that the columns of a pixel have in the mean because of white noise of variance 1 in the simulated image.
+  Eigen::MatrixXd ofNoise;
 
   auto residual() const { return columns.col(columns.cols() - 1); }
 };

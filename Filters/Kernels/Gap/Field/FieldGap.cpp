@@ -50,8 +50,13 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   const Eigen::MatrixXd& start, int maximumEffects, const FieldLoop& loop,
   const std::function<bool()>& stop)
 {
-  finding.weights = fieldWeights(fieldStatistics(data, FieldModel(data.channels()), nullptr, loop,
-    AskedSteps{ &FieldColumn::stepOf(FieldColumn::gain()) }));
+  const auto statisticsAt = [&](const FieldModel& model)
+  {
+    return fieldStatistics(data, model, nullptr, loop,
+      AskedSteps{ &FieldColumn::stepOf(FieldColumn::gain()),
+        &FieldColumn::stepOf(FieldColumn::offset()), &FieldColumn::stepOf(FieldColumn::blur()) });
+  };
+  finding.weights = fieldWeights(statisticsAt(FieldModel(data.channels())));
   const auto observe = [&]
   {
     finding.observation =
@@ -62,6 +67,7 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   finding.found = searchSets(*finding.observation, limits, stop);
   // A limit from what is left would take the gap itself for outliers.
   finding.weights.noise = fieldNoise(finding.after());
+  finding.weights.sceneNoise = sceneNoise(statisticsAt(finding.after().model));
   observe();
   limits.beamWidth = PairBeamWidth;
   limits.optionsFitted = PairOptionsFitted;
@@ -131,19 +137,20 @@ void addRest(FieldGap& gap, const FieldData& data, const FieldWeights& weights,
   }
 }
 
-// Mean over test blocks (or all) and channels of the squared block mean of the residual over what white noise allows.
+// Mean over test blocks (or all) and channels of the squared block mean of the residual over what noise allows.
 double blockMeanExcess(const FieldData& data, bool all, const FieldStatistics& statistics)
 {
   double sum = 0.0;
   double count = 0.0;
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  for (Eigen::Index k = 0; k < data.channels(); ++k)
   {
-    for (Eigen::Index k = 0; (all || data.blocks[b].fold < 0) && k < data.channels(); ++k)
+    const double coherence = noiseCoherence(statistics, k);
+    for (std::size_t b = 0; b < data.blocks.size(); ++b)
     {
       const BlockSums& sums = statistics.at(b, k);
-      if (sums.pixels > 0.0)
+      if ((all || data.blocks[b].fold < 0) && sums.pixels > 0.0)
       {
-        sum += sums.mean * sums.mean * sums.pixels * sums.pixels / sums.noise;
+        sum += sums.mean * sums.mean * sums.pixels * sums.pixels / (sums.noise * coherence);
         count += 1.0;
       }
     }
@@ -257,6 +264,12 @@ std::vector<std::string> notesOn(
     notes.push_back(textOf(2, "a frame of ", 100.0 * data.framePart,
       " % of the pixels is 0 in all channels of one image, as registration leaves it, and takes no "
       "part"));
+  }
+  if ((finding.weights.sceneNoise > 0.0).any())
+  {
+    notes.push_back(textOf(2, "the simulated image has noise of its own, ",
+      std::sqrt(finding.weights.sceneNoise.maxCoeff()),
+      " of white; that blur and stray light would take it away does not count for them"));
   }
   const FieldSet& set = finding.set();
   for (const std::string& effect : indistinctEffects(data, finding.before(), choices))

@@ -3,8 +3,12 @@
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Numerics/LowerTriangle.h"
+#include "Kernels/Numerics/OrderStatistic.h"
+
+#include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -19,7 +23,9 @@ constexpr double Unusual = 4.0; // times the median: not noise
 constexpr std::size_t LevelBins = 4;
 constexpr double Unequal = 1.1; // differences along one axis this much above the other's: banding
 constexpr double LeastNoise = 1e-5;
-constexpr double FewestPairs = 4.0; // in a block that tells the noise
+constexpr Eigen::Index LongestLag = 3; // pixels
+constexpr double LeastOfNoise = 0.25;  // that a strong blur leaves of what noise adds
+constexpr double FewestPairs = 4.0;    // in a block that tells the noise
 
 // Of those that are noise.
 double trimmedMean(std::vector<double> values)
@@ -32,10 +38,23 @@ double trimmedMean(std::vector<double> values)
     static_cast<double>(values.end() - values.begin() - 2 * cut);
 }
 
+// The variance of a pixel by the difference of two means, as if noise were white; 0: nothing known.
+double varianceByMeans(const Eigen::ArrayXXd& one, const Eigen::ArrayXXd& other)
+{
+  const auto pixels = [](const Eigen::ArrayXXd& half)
+  { return static_cast<double>(half.isFinite().count()); };
+  const auto mean = [&](const Eigen::ArrayXXd& half)
+  { return half.isFinite().select(half, 0.0).sum() / pixels(half); };
+  const double share = 1.0 / pixels(one) + 1.0 / pixels(other);
+  const double difference = mean(one) - mean(other);
+  return std::isfinite(share) ? difference * difference / share : 0.0;
+}
+
 // Mean squared differences over the pairs of usable pixels that lie `lag` apart.
 void addDifferences(const ChannelColumns& found, const ImageWindow& window, BlockSums& sums)
 {
-  constexpr Eigen::Index lag = 2;
+  const Eigen::Index lag =
+    std::min<Eigen::Index>(LongestLag, std::min(window.width, window.height) / 2);
   const auto residual = found.residual();
   // Of every pixel of the block, NaN where it is not usable.
   Eigen::ArrayXXd left = Eigen::ArrayXXd::Constant(
@@ -65,6 +84,9 @@ void addDifferences(const ChannelColumns& found, const ImageWindow& window, Bloc
   sums.difference = difference(lag, 0);
   sums.differenceDown = difference(0, lag);
   sums.gradient = slope / std::fmax(pairs, 1.0);
+  sums.halves = 0.5 *
+    (varianceByMeans(left.topRows(window.width / 2), left.bottomRows(window.width / 2)) +
+      varianceByMeans(left.leftCols(window.height / 2), left.rightCols(window.height / 2)));
 }
 }
 
@@ -85,28 +107,57 @@ Eigen::VectorXd FieldStatistics::ofBlocks(double BlockSums::*number) const
   return together;
 }
 
+namespace
+{
+// The smoother half of the blocks, of a channel.
+std::vector<const BlockSums*> smoothBlocks(const FieldStatistics& statistics, Eigen::Index channel)
+{
+  std::vector<const BlockSums*> smooth;
+  for (std::size_t b = 0; b < statistics.blocks(); ++b)
+  {
+    const BlockSums& sums = statistics.at(b, channel);
+    if (sums.difference > 0.0 && sums.differenceDown > 0.0)
+    {
+      smooth.push_back(&sums);
+    }
+  }
+  std::stable_sort(smooth.begin(), smooth.end(),
+    [](const BlockSums* a, const BlockSums* b) { return a->gradient < b->gradient; });
+  smooth.resize((smooth.size() + 1) / 2);
+  return smooth;
+}
+}
+
+double noiseCoherence(const FieldStatistics& statistics, Eigen::Index channel)
+{
+  std::vector<double> ratios;
+  for (const BlockSums* block : smoothBlocks(statistics, channel))
+  {
+    if (block->halves > 0.0)
+    {
+      ratios.push_back(block->halves * block->pixels / block->noise);
+    }
+  }
+  if (ratios.empty())
+  {
+    return 1.0;
+  }
+  // The mean of two squares of normal deviates has a median of log 2.
+  const double median = orderStatistic(ratios, static_cast<std::ptrdiff_t>(ratios.size() / 2));
+  return std::fmax(median / std::log(2.0), 1.0);
+}
+
 std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
 {
   std::vector<CameraNoise> noise;
-  const std::size_t blocks = statistics.blocks();
   for (Eigen::Index k = 0; k < statistics.channels; ++k)
   {
-    std::vector<const BlockSums*> smooth;
-    for (std::size_t b = 0; b < blocks; ++b)
-    {
-      if (statistics.at(b, k).difference > 0.0 && statistics.at(b, k).differenceDown > 0.0)
-      {
-        smooth.push_back(&statistics.at(b, k));
-      }
-    }
+    std::vector<const BlockSums*> smooth = smoothBlocks(statistics, k);
     if (smooth.empty())
     {
       noise.push_back({ LeastNoise, 0.0 });
       continue;
     }
-    std::stable_sort(smooth.begin(), smooth.end(),
-      [](const BlockSums* a, const BlockSums* b) { return a->gradient < b->gradient; });
-    smooth.resize((smooth.size() + 1) / 2);
     std::vector<double> across;
     std::vector<double> down;
     for (const BlockSums* block : smooth)
@@ -142,6 +193,60 @@ std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
   return noise;
 }
 
+namespace
+{
+double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
+{
+  const Eigen::Index blur = FieldColumn::blur();
+  const Eigen::Index residual = FieldColumn::residual();
+  const std::array<Eigen::Index, 2> plain{ FieldColumn::gain(), FieldColumn::offset() };
+  const auto blocks = static_cast<Eigen::Index>(statistics.blocks());
+  std::vector<Eigen::MatrixXd> normals;
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count());
+  for (Eigen::Index b = 0; b < blocks; ++b)
+  {
+    normals.push_back(statistics.at(static_cast<std::size_t>(b), channel).normal());
+    all += normals.back();
+  }
+  const Eigen::Vector2d line = all(plain, plain).ldlt().solve(all(plain, residual));
+  // product = noise x what it adds + blur x square, of each block; all over the deviation that the product has.
+  Eigen::MatrixX2d known = Eigen::MatrixX2d::Zero(blocks, 2);
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(blocks);
+  double square = 0.0;
+  double added = 0.0;
+  for (Eigen::Index b = 0; b < blocks; ++b)
+  {
+    const BlockSums& sums = statistics.at(static_cast<std::size_t>(b), channel);
+    const Eigen::MatrixXd& normal = normals[static_cast<std::size_t>(b)];
+    const double size = std::sqrt(normal(blur, blur));
+    if (size > 0.0)
+    {
+      known.row(b) << sums.pixels * sums.residualOfNoise / size, size;
+      product[b] = (normal(blur, residual) - normal(blur, plain).dot(line)) / size;
+      square += sums.blurOfNoise;
+      added += sums.residualOfNoise;
+    }
+  }
+  const Eigen::Matrix2d inverse = (known.transpose() * known).inverse();
+  const Eigen::Vector2d found = inverse * known.transpose() * product;
+  const Eigen::MatrixX2d scores = (product - known * found).asDiagonal() * (known * inverse).eval();
+  const double error = scores.col(0).norm();
+  return found[0] > Decision::SureDeviations * error
+    ? found[0] / std::fmax(1.0 - found[1] * square / added, LeastOfNoise)
+    : 0.0;
+}
+}
+
+Eigen::ArrayXd sceneNoise(const FieldStatistics& statistics)
+{
+  Eigen::ArrayXd variance(statistics.channels);
+  for (Eigen::Index k = 0; k < statistics.channels; ++k)
+  {
+    variance[k] = sceneNoiseOf(statistics, k);
+  }
+  return variance;
+}
+
 Eigen::ArrayXd energyBesideGain(const std::vector<Eigen::MatrixXd>& normals)
 {
   double square = 0.0; // of the response
@@ -163,6 +268,7 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
 {
   FieldWeights weights;
   weights.noise = fieldNoise(statistics);
+  weights.sceneNoise = sceneNoise(statistics);
   std::vector<Eigen::MatrixXd> normals;
   Eigen::ArrayXd noise = Eigen::ArrayXd::Zero(statistics.channels);
   Eigen::ArrayXd pixels = noise;
@@ -209,6 +315,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
         sums.level = found.level.mean();
         addDifferences(found, block.window, sums);
       }
+      double ofScene = 0.0;
       if (weights != nullptr)
       {
         const Eigen::ArrayXd variance = found.level.unaryExpr(
@@ -220,12 +327,24 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
         sums.noise = variance.sum();
         sums.chance = (variance * weight).sum();
         found.columns.array().colwise() *= weight.sqrt();
+        ofScene = weights->sceneNoise[channel] * weight.sum();
       }
       sums.there = found.there;
+      const auto blur = std::find(found.there.begin(), found.there.end(), FieldColumn::blur());
+      if (blur != found.there.end())
+      {
+        const Eigen::Index at = blur - found.there.begin();
+        sums.blurOfNoise = found.ofNoise(at, at);
+        sums.residualOfNoise = found.ofNoise(at, found.ofNoise.cols() - 1);
+      }
       const Eigen::MatrixXd columns = found.columns.transpose();
       sums.products.setZero(columns.rows(), columns.rows());
       addOuterProduct(sums.products, columns, columns);
       sums.products.triangularView<Eigen::StrictlyUpper>() = sums.products.transpose();
+      // The squares of the derivatives keep it: without it the matrix need not be one of squares.
+      sums.products.rightCols<1>() -= ofScene * found.ofNoise.rightCols<1>();
+      sums.products.bottomRightCorner<1, 1>().array() += ofScene;
+      sums.products.bottomRows<1>() = sums.products.rightCols<1>().transpose();
     };
     forColumns(data, model, glare, block, asked, add);
   };

@@ -26,18 +26,24 @@ struct BlockSums
   double chance = 0.0; // and of the weighted energy
   double mean = 0.0;   // of the residual
   double level = 0.0;  // mean prediction
-  double difference =
-    0.0; // half the mean squared difference of residuals two pixels apart, 0 where there are few: along x
-  double differenceDown = 0.0; // along y
-  double gradient = 0.0;       // mean squared gradient of the prediction
+  // Half the mean squared difference of residuals that lie a few pixels apart, 0 where there are few: along x, along y.
+  double difference = 0.0;
+  double differenceDown = 0.0;
+  double gradient = 0.0; // mean squared gradient of the prediction
+  // A pixel's variance by the difference of the two halves of the block, as if noise were white; 0: nothing known.
+  double halves = 0.0;
+  // What ChannelColumns::ofNoise says of the square of the derivative by blur, and of its product with the residual.
+  double blurOfNoise = 0.0;
+  double residualOfNoise = 0.0;
 };
 
 // How pixels are weighed, each of K channels: 1 / (noise variance + tolerance), less where a residual is beyond `limit`
 // (Huber).
 struct FieldWeights
 {
-  std::vector<CameraNoise> noise;
-  Eigen::ArrayXd tolerance; // a variance: the forms are approximations
+  std::vector<CameraNoise> noise; // of both images
+  Eigen::ArrayXd sceneNoise;      // of these a variance in the simulated image
+  Eigen::ArrayXd tolerance;       // a variance: the forms are approximations
   Eigen::ArrayXd limit;
 };
 
@@ -56,6 +62,8 @@ struct FieldStatistics
   Eigen::VectorXd ofBlocks(double BlockSums::*number) const;
 };
 
+// Blur and stray light must not gain from taking away noise of the simulated image: the weighted products of derivatives and residual
+// are without it, and the squares of the residual have as much of it as if nothing were blurred.
 // weights: null: all pixels the same. asked: for which steps, beside those that change something, there are columns.
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked = everyStep());
@@ -63,12 +71,21 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
 // The squares of the residual, of each channel, without Decision::largeGain. normals: of each channel, with a column of the gain.
 Eigen::ArrayXd energyBesideGain(const std::vector<Eigen::MatrixXd>& normals);
 
-// Weights that go by a model's residual. Statistics: not weighted, with a column of the gain.
+// The variance of noise in the simulated image, of each channel, 0 where it is not sure. In the mean over a block, the product of the
+// residual and the derivative by blur is blur times the square of the latter; noise adds the same to it in every block, flat or not.
+// Statistics: not weighted, with columns of gain, offset and blur.
+Eigen::ArrayXd sceneNoise(const FieldStatistics& statistics);
+
+// Weights that go by a model's residual. Statistics: as for sceneNoise().
 FieldWeights fieldWeights(const FieldStatistics& statistics);
 
-// Noise from differences of residuals two pixels apart, in the smoother half of the blocks: a variance for each
-// quarter of the levels (trimmed mean over blocks), then read^2 + shot^2 u.
+// Noise from differences of residuals three pixels apart, since neighbours share it in developed images (half of the block where it is
+// smaller), in the smoother half of the blocks: a variance for each quarter of the levels (trimmed mean over blocks), then
+// read^2 + shot^2 u.
 std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics);
+
+// Of a channel: by how much means within blocks scatter more than with white noise (variances), at least 1. Statistics: weighted.
+double noiseCoherence(const FieldStatistics& statistics, Eigen::Index channel);
 
 // Axes and their bases on the pixels of a block:
 //

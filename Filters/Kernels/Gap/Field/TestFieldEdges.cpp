@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,45 @@ TEST(FieldGap, DefocusOfEachChannel)
   expectFirst(report, "defocus", "edges");
   expectParameter(report, "defocus", "blur[C2]", 0.8, 0.03);
   expectParameter(report, "defocus", "blur[C3]", 1.3, 0.03);
+}
+
+// A blurred copy has less of the noise, and so less of a gap: that is no blur. Where there is one, it is found as it is.
+TEST(FieldGap, NoiseOfTheSimulatedImageIsNoBlur)
+{
+  const TestScene scene(9);
+  const double blur = 0.8;
+  for (const bool blurred : { false, true })
+  {
+    TestPair pair = makePair(
+      scene,
+      [&](int k)
+      {
+        const ImagePlane sharp = scene.fine(k);
+        return scene.pixels(blurred ? gaussianBlurred(sharp, blur * TestScene::Fine) : sharp);
+      },
+      19);
+    const msi::CounterRandom random(20);
+    for (std::size_t i = 0; i < pair.simulated.size(); ++i)
+    {
+      pair.simulated[i] += static_cast<float>(0.005 * random.normal(i));
+    }
+    const GapReport report = diagnose(pair);
+    SCOPED_TRACE(describe(report));
+    // To a tenth.
+    EXPECT_TRUE(std::any_of(report.notes.begin(), report.notes.end(),
+      [](const std::string& note)
+      {
+        const std::string words = "the simulated image has noise of its own, ";
+        return note.find(words) == 0 &&
+          std::fabs(std::stod(note.substr(words.size())) - 0.005) < 0.0005;
+      }));
+    EXPECT_EQ(report.causes.size(), blurred ? 1U : 0U);
+    EXPECT_EQ(report.verdict, blurred ? GapVerdict::Explained : GapVerdict::NoGap);
+    if (blurred)
+    {
+      expectParameter(report, "defocus", "blur", blur, 0.03);
+    }
+  }
 }
 
 TEST(FieldGap, MisregistrationOfEachChannel)

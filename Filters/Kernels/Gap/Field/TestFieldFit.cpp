@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -24,18 +25,69 @@ const FieldChoice& choiceOf(
   }
   throw std::out_of_range(effect);
 }
+
+void inTurn(int count, const std::function<void(int)>& body)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    body(i);
+  }
+}
+}
+
+// An image of nothing but noise, moved and blurred: the mean products of its columns are those that noise is said to make.
+TEST(FieldFit, ProductsOfNoiseInTheScene)
+{
+  constexpr double Deviation = 1e-3;
+  const TestScene scene(71, 1, 160, 140);
+  TestPair pair = changed(scene, 71, [](double u, int, int, int, double) { return u; });
+  const CounterRandom random(72);
+  for (std::size_t i = 0; i < pair.simulated.size(); ++i)
+  {
+    pair.simulated[i] = static_cast<float>(0.5 + Deviation * random.normal(i));
+    pair.real[i] = 0.5F;
+  }
+  const FieldPair images = pair.pair();
+  const FieldData data = prepareFieldData(images, 1, inTurn);
+  for (const double variance : { 0.0, 0.7 })
+  {
+    FieldModel model(1);
+    model[imageParameter("defocus", "blur")].setConstant(variance);
+    model[imageParameter("misregistration", "right")].setConstant(variance > 0.0 ? 0.3 : 0.0);
+    const Eigen::ArrayXd glare = data.cells.mean(model);
+    const int blur = FieldColumn::blur();
+    const int right = static_cast<int>(stepOf(imageParameter("misregistration", "right")).column);
+    Eigen::Matrix3d seen = Eigen::Matrix3d::Zero(); // blur, right, residual
+    Eigen::Matrix3d expected = seen;
+    for (const FieldBlock& block : data.blocks)
+    {
+      forColumns(data, model, glare, block, everyStep(),
+        [&](Eigen::Index, const ChannelColumns& found)
+        {
+          std::vector<Eigen::Index> columns;
+          for (const Eigen::Index column : { blur, right, FieldColumn::residual() })
+          {
+            columns.push_back(
+              std::find(found.there.begin(), found.there.end(), column) - found.there.begin());
+          }
+          const Eigen::MatrixXd values = found.columns(Eigen::all, columns);
+          seen += values.transpose() * values;
+          expected += static_cast<double>(values.rows()) * Deviation * Deviation *
+            found.ofNoise(columns, columns);
+        });
+    }
+    const Eigen::Vector3d size = expected.diagonal().cwiseSqrt();
+    EXPECT_LT(
+      ((seen - expected).array() / (size * size.transpose()).array()).abs().maxCoeff(), 0.04)
+      << seen << "\n\n"
+      << expected;
+  }
 }
 
 // A falloff about a center of its own and a gradient that bends are nearly the same: linear steps lead far away.
 TEST(FieldFit, TheEnergyToldIsThatOfTheModelReached)
 {
-  const FieldLoop loop = [](int count, const std::function<void(int)>& body)
-  {
-    for (int i = 0; i < count; ++i)
-    {
-      body(i);
-    }
-  };
+  const FieldLoop loop = inTurn;
   const std::vector<FieldChoice> choices = fieldChoices({});
   const FieldSet set{ &choiceOf(choices, "vignetting", 3),
     &choiceOf(choices, "illumination_gradient", 3) };

@@ -19,6 +19,7 @@ int main(int argc, char** argv)
     { "bench", writeBenchCases },
     { "second", writeSecondCases },
     { "images", writeImageCases },
+    { "developed", writeDevelopedImageCases },
 #ifdef MULTISPECTRAL_HAS_FORMATS
     { "raw", writeRawCases },
     { "linearised", writeLinearisedCases },

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace withheld
@@ -21,6 +22,49 @@ struct Request
   std::string without, twin;
 };
 
+// Each channel's pixels become the mean of their 3 x 3 neighbours.
+void shareWithNeighbours(const ImagePair& pair, std::vector<float>& noise)
+{
+  const std::vector<float> own = noise;
+  const auto at = [&pair](int x, int y, int k)
+  {
+    const int column = std::clamp(x, 0, pair.width - 1);
+    const int row = std::clamp(y, 0, pair.height - 1);
+    return static_cast<std::size_t>((row * pair.width + column) * pair.channels + k);
+  };
+  for (int i = 0; i < static_cast<int>(noise.size()); ++i)
+  {
+    const int k = i % pair.channels;
+    const int x = i / pair.channels % pair.width;
+    const int y = i / pair.channels / pair.width;
+    float sum = 0.0F;
+    for (const int down : { -1, 0, 1 })
+    {
+      for (const int right : { -1, 0, 1 })
+      {
+        sum += own[at(x + right, y + down, k)];
+      }
+    }
+    noise[static_cast<std::size_t>(i)] = sum / 9.0F;
+  }
+}
+
+// As demosaicing leaves noise, and as spectra measured pixel by pixel bring it into a simulation.
+void addNoiseOfDevelopment(ImagePair& pair, Random& random)
+{
+  const double shared = withheld::around(random, 0.006, 1.5);
+  const double simulated = withheld::around(random, 0.003, 1.5);
+  std::vector<float> noise(pair.real.size());
+  for (std::size_t i = 0; i < noise.size(); ++i)
+  {
+    noise[i] = static_cast<float>(normal(random, 3.0 * shared));
+    pair.simulated[i] += static_cast<float>(normal(random, simulated));
+  }
+  shareWithNeighbours(pair, noise);
+  std::transform(
+    pair.real.begin(), pair.real.end(), noise.begin(), pair.real.begin(), std::plus<>());
+}
+
 const std::vector<std::string>& axesOfImage(const std::string& effect)
 {
   static const std::map<std::string, std::vector<std::string>> known = { { "banding",
@@ -37,7 +81,8 @@ const std::vector<std::string>& axesOfImage(const std::string& effect)
   return known.at(effect);
 }
 
-void write(CaseWriter& writer, const Request& request, std::uint64_t seed, std::string* name)
+void writeCase(
+  CaseWriter& writer, bool developed, const Request& request, std::uint64_t seed, std::string* name)
 {
   Random random(seed);
   const ImageScene scene(
@@ -112,49 +157,64 @@ void write(CaseWriter& writer, const Request& request, std::uint64_t seed, std::
         simulated[k][i] * color[static_cast<std::size_t>(label % 64) * truth.size() + k]));
     }
   }
+  if (developed)
+  {
+    addNoiseOfDevelopment(pair, random);
+  }
   const std::string made = writer.add(pair, key);
   if (name != nullptr)
   {
     *name = made;
   }
 }
-}
 
-void writeImageCases(CaseWriter& writer, bool full, std::uint64_t seed)
+void writeCases(CaseWriter& writer, bool developed, bool full, std::uint64_t seed)
 {
+  const auto write = [&](const Request& request, std::uint64_t own, std::string* name)
+  { writeCase(writer, developed, request, own, name); };
   Random random(seed * 15485863 + 11);
   for (const std::string& name : imageFaultNames())
   {
     const std::uint64_t own = random();
     std::string twin;
-    write(writer, { "single", { name }, "", false, "", "" }, own, &twin);
+    write({ "single", { name }, "", false, "", "" }, own, &twin);
     if (full)
     {
-      write(writer, { "single", { name }, "", false, "", "" }, random(), nullptr);
-      write(writer, { "nominal", { name }, "", true, "", "" }, random(), nullptr);
-      write(writer, { "removed", { name }, "", false, name, twin }, own, nullptr);
+      write({ "single", { name }, "", false, "", "" }, random(), nullptr);
+      write({ "nominal", { name }, "", true, "", "" }, random(), nullptr);
+      write({ "removed", { name }, "", false, name, twin }, own, nullptr);
     }
   }
   for (int n = 0; n < (full ? 16 : 3); ++n)
   {
-    write(writer, { "several", someOf(random, imageFaultNames(), 2), "", false, "", "" }, random(),
-      nullptr);
+    write(
+      { "several", someOf(random, imageFaultNames(), 2), "", false, "", "" }, random(), nullptr);
     if (full && n % 2 == 0)
     {
-      write(writer, { "nominal several", someOf(random, imageFaultNames(), 2), "", true, "", "" },
-        random(), nullptr);
+      write({ "nominal several", someOf(random, imageFaultNames(), 2), "", true, "", "" }, random(),
+        nullptr);
     }
   }
   for (int n = 0; n < (full ? 8 : 2); ++n)
   {
-    write(writer, { "clean", {}, "", false, "", "" }, random(), nullptr);
+    write({ "clean", {}, "", false, "", "" }, random(), nullptr);
   }
   for (std::size_t n = 0; n < (full ? 10 : 2); ++n)
   {
-    write(writer,
-      { "stranger", {}, imageStrangerNames()[n % imageStrangerNames().size()], false, "", "" },
+    write({ "stranger", {}, imageStrangerNames()[n % imageStrangerNames().size()], false, "", "" },
       random(), nullptr);
   }
+}
+}
+
+void writeImageCases(CaseWriter& writer, bool full, std::uint64_t seed)
+{
+  writeCases(writer, false, full, seed);
+}
+
+void writeDevelopedImageCases(CaseWriter& writer, bool full, std::uint64_t seed)
+{
+  writeCases(writer, true, full, seed);
 }
 
 } // namespace withheld

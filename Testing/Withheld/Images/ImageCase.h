@@ -10,5 +10,7 @@ namespace withheld
 {
 
 void writeImageCases(CaseWriter& writer, bool full, std::uint64_t seed);
+// The same pairs with noise of developed images: neighbours of the real one share it, and the simulated one has noise of its own.
+void writeDevelopedImageCases(CaseWriter& writer, bool full, std::uint64_t seed);
 
 } // namespace withheld

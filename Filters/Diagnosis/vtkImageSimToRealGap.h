@@ -2,8 +2,8 @@
  * @class   vtkImageSimToRealGap
  * @brief   Where a real and a simulated image of the same scene disagree, because of which effects, and how far that would shrink
  *
- * Input 0 is the real image, input 1 the simulated one: the same size and channels, responses relative to white, the simulated one
- * without noise. Input 2 (optional) is a label image: one number a pixel, 0 for none. NaN: no value.
+ * Input 0 is the real image, input 1 the simulated one: the same size and channels, responses relative to white. Input 2 (optional)
+ * is a label image: one number a pixel, 0 for none. NaN: no value.
  *
  * Outputs: 0 the gap map: the real image's geometry with the arrays "Gap" (real - simulated), "GapAfter" (real - corrected) and
  * "Corrected" (the simulated image with the effects that were found); 1 summary, 2 where, 3 causes, 4 candidates,

@@ -28,9 +28,10 @@ void shareWithNeighbours(const ImagePair& pair, std::vector<float>& noise)
   const std::vector<float> own = noise;
   const auto at = [&pair](int x, int y, int k)
   {
-    const int column = std::clamp(x, 0, pair.width - 1);
-    const int row = std::clamp(y, 0, pair.height - 1);
-    return static_cast<std::size_t>((row * pair.width + column) * pair.channels + k);
+    const auto column = static_cast<std::size_t>(std::clamp(x, 0, pair.width - 1));
+    const auto row = static_cast<std::size_t>(std::clamp(y, 0, pair.height - 1));
+    const auto pixel = row * static_cast<std::size_t>(pair.width) + column;
+    return pixel * static_cast<std::size_t>(pair.channels) + static_cast<std::size_t>(k);
   };
   for (int i = 0; i < static_cast<int>(noise.size()); ++i)
   {

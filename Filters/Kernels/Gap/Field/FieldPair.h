@@ -13,8 +13,8 @@
 namespace msi
 {
 
-// Responses relative to white, pixel after pixel, all channels of a pixel together. NaN: no value. The simulated image is
-// without noise. labels: one number a pixel, 0 for none; may be null.
+// Responses relative to white, pixel after pixel, all channels of a pixel together. NaN: no value.
+// labels: one number a pixel, 0 for none; may be null.
 struct FieldPair
 {
   ImageExtent extent;

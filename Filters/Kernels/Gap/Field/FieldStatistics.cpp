@@ -5,6 +5,7 @@
 #include "Kernels/Numerics/LowerTriangle.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>

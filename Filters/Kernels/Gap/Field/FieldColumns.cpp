@@ -179,15 +179,22 @@ Eigen::MatrixXd band(const Eigen::ArrayXd& weight, Eigen::Index count)
   return matrix;
 }
 
-// Those of the pixels around a pixel in its value and in its derivatives to the right, down and by blur.
-Eigen::Matrix<double, Eigen::Dynamic, 4> weightsOfPixel(const AxisKernel& x, const AxisKernel& y)
+// Covariance of value and derivatives to the right, down and by blur where the scene is white noise of variance 1.
+Eigen::Matrix4d covarianceOfNoise(const AxisKernel& x, const AxisKernel& y)
 {
-  const auto weights = [](const Eigen::ArrayXd& ofX, const Eigen::ArrayXd& ofY)
-  { return (ofX.matrix() * ofY.matrix().transpose()).reshaped(); };
-  Eigen::Matrix<double, Eigen::Dynamic, 4> all(x.value.size() * y.value.size(), 4);
-  all << weights(x.value, y.value), weights(x.shift, y.value), weights(x.value, y.shift),
-    weights(x.blur, y.value) + weights(x.value, y.blur);
-  return all;
+  const auto products = [](const AxisKernel& axis)
+  {
+    Eigen::MatrixX3d weights(axis.value.size(), 3);
+    weights << axis.value, axis.shift, axis.blur;
+    return Eigen::Matrix3d(weights.transpose() * weights);
+  };
+  // The last two together are the derivative by blur.
+  const std::array<int, 5> ofX{ 0, 1, 0, 2, 0 };
+  const std::array<int, 5> ofY{ 0, 0, 1, 0, 2 };
+  const Eigen::Matrix<double, 5, 5> all = products(x)(ofX, ofX).cwiseProduct(products(y)(ofY, ofY));
+  Eigen::Matrix<double, 4, 5> sum = Eigen::Matrix<double, 4, 5>::Identity();
+  sum(3, 4) = 1.0;
+  return sum * all * sum.transpose();
 }
 
 // The scene in a block, moved and blurred, and, where they are asked for (0 otherwise), its derivatives by displacement and blur:
@@ -195,8 +202,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 4> weightsOfPixel(const AxisKernel& x, con
 struct Neighbourhood
 {
   Eigen::MatrixXd value, right, down, blur;
-  // Covariance of these where the scene is white noise of variance 1.
-  Eigen::Matrix4d ofNoise = Eigen::Matrix4d::Zero();
+  Eigen::Matrix4d noise; // covarianceOfNoise()
 
   Neighbourhood(const FieldData& data, const ImageWindow& window, Eigen::Index channel,
     const Eigen::Vector2d& displacement, double variance, bool derivatives)
@@ -216,8 +222,7 @@ struct Neighbourhood
           data.scene()[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)]);
       }
     }
-    const auto weights = weightsOfPixel(x, y);
-    ofNoise = weights.transpose() * weights;
+    noise = covarianceOfNoise(x, y);
     const Eigen::MatrixXd along = band(x.value, window.width) * scene;
     const Eigen::MatrixXd across = band(y.value, window.height).transpose();
     value = along * across;
@@ -310,8 +315,7 @@ public:
   {
     return run(Steps, pixel, others(number), scene(number, pixel) + more, &derivatives);
   }
-  // Neighbourhood::ofNoise
-  const Eigen::Matrix4d& ofNoise() const noexcept { return Near.ofNoise; }
+  const Eigen::Matrix4d& noise() const noexcept { return Near.noise; }
 
 private:
   ImagePlace placeOf(int number) const
@@ -412,22 +416,29 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
       by.chain(steps);
       by.values.back() = static_cast<double>(real[static_cast<std::size_t>(i) * K]) - answer;
     };
-    const Eigen::Map<const Eigen::VectorXd> values(
-      by.values.data(), static_cast<Eigen::Index>(by.values.size()));
     for (Eigen::Index n = 0; n < count; ++n)
     {
-      const int i = found.pixel[static_cast<std::size_t>(n)];
-      find(i, Eigen::Vector4d::Zero());
-      found.columns.row(n) = values(found.there);
+      find(found.pixel[static_cast<std::size_t>(n)], Eigen::Vector4d::Zero());
       found.level[n] = answer;
+      for (std::size_t c = 0; c < found.there.size(); ++c)
+      {
+        found.columns(n, static_cast<Eigen::Index>(c)) =
+          by.values[static_cast<std::size_t>(found.there[c])];
+      }
     }
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(found.columns.cols(), 4);
+    found.noise = light->noise();
+    found.byNoise.setZero(found.columns.cols(), 4);
     for (Eigen::Index n = 0; count > 0 && n < 4; ++n)
     {
       find(found.pixel[found.pixel.size() / 2], NoiseStep * Eigen::Vector4d::Unit(n));
-      slopes.col(n) = (values(found.there) - found.columns.row(count / 2).transpose()) / NoiseStep;
+      for (std::size_t c = 0; c < found.there.size(); ++c)
+      {
+        const auto column = static_cast<Eigen::Index>(c);
+        found.byNoise(column, n) =
+          (by.values[static_cast<std::size_t>(found.there[c])] - found.columns(count / 2, column)) /
+          NoiseStep;
+      }
     }
-    found.ofNoise = slopes * light->ofNoise() * slopes.transpose();
     act(channel, found);
   }
 }

@@ -335,15 +335,16 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       if (blur != found.there.end())
       {
         const Eigen::Index at = blur - found.there.begin();
-        sums.blurOfNoise = found.ofNoise(at, at);
-        sums.residualOfNoise = found.ofNoise(at, found.ofNoise.cols() - 1);
+        const Eigen::VectorXd ofNoise = found.ofNoise(at);
+        sums.blurOfNoise = ofNoise[at];
+        sums.residualOfNoise = ofNoise.tail<1>().value();
       }
       const Eigen::MatrixXd columns = found.columns.transpose();
       sums.products.setZero(columns.rows(), columns.rows());
       addOuterProduct(sums.products, columns, columns);
       sums.products.triangularView<Eigen::StrictlyUpper>() = sums.products.transpose();
       // The squares of the derivatives keep it: without it the matrix need not be one of squares.
-      sums.products.rightCols<1>() -= ofScene * found.ofNoise.rightCols<1>();
+      sums.products.rightCols<1>() -= ofScene * found.ofNoise(columns.rows() - 1);
       sums.products.bottomRightCorner<1, 1>().array() += ofScene;
       sums.products.bottomRows<1>() = sums.products.rightCols<1>().transpose();
     };

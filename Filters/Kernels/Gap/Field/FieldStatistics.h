@@ -32,7 +32,7 @@ struct BlockSums
   double gradient = 0.0; // mean squared gradient of the prediction
   // A pixel's variance by the difference of the two halves of the block, as if noise were white; 0: nothing known.
   double halves = 0.0;
-  // What ChannelColumns::ofNoise says of the square of the derivative by blur, and of its product with the residual.
+  // ChannelColumns::ofNoise of the square of the derivative by blur, and of its product with the residual.
   double blurOfNoise = 0.0;
   double residualOfNoise = 0.0;
 };

@@ -72,8 +72,11 @@ TEST(FieldFit, ProductsOfNoiseInTheScene)
           }
           const Eigen::MatrixXd values = found.columns(Eigen::all, columns);
           seen += values.transpose() * values;
-          expected += static_cast<double>(values.rows()) * Deviation * Deviation *
-            found.ofNoise(columns, columns);
+          for (Eigen::Index c = 0; c < 3; ++c)
+          {
+            expected.col(c) += static_cast<double>(values.rows()) * Deviation * Deviation *
+              found.ofNoise(columns[static_cast<std::size_t>(c)])(columns);
+          }
         });
     }
     const Eigen::Vector3d size = expected.diagonal().cwiseSqrt();

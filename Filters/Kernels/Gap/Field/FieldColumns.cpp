@@ -201,14 +201,14 @@ Eigen::Matrix4d covarianceOfNoise(const AxisKernel& x, const AxisKernel& y)
 // width x height, by pixel number, too.
 struct Neighbourhood
 {
+  AxisKernel x, y;
   Eigen::MatrixXd value, right, down, blur;
-  Eigen::Matrix4d noise; // covarianceOfNoise()
 
   Neighbourhood(const FieldData& data, const ImageWindow& window, Eigen::Index channel,
     const Eigen::Vector2d& displacement, double variance, bool derivatives)
+    : x(displacement.x(), variance)
+    , y(displacement.y(), variance)
   {
-    const AxisKernel x(displacement.x(), variance);
-    const AxisKernel y(displacement.y(), variance);
     const ImageExtent& extent = data.pair.extent;
     const auto K = static_cast<std::size_t>(data.channels());
     Eigen::MatrixXd scene(window.width + x.value.size() - 1, window.height + y.value.size() - 1);
@@ -222,7 +222,6 @@ struct Neighbourhood
           data.scene()[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)]);
       }
     }
-    noise = covarianceOfNoise(x, y);
     const Eigen::MatrixXd along = band(x.value, window.width) * scene;
     const Eigen::MatrixXd across = band(y.value, window.height).transpose();
     value = along * across;
@@ -315,7 +314,7 @@ public:
   {
     return run(Steps, pixel, others(number), scene(number, pixel) + more, &derivatives);
   }
-  const Eigen::Matrix4d& noise() const noexcept { return Near.noise; }
+  Eigen::Matrix4d covarianceOfNoise() const { return msi::covarianceOfNoise(Near.x, Near.y); }
 
 private:
   ImagePlace placeOf(int number) const
@@ -400,8 +399,8 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     by = StepDerivatives();
     by.values.push_back(0.0); // the residual
     double answer = 0.0;
-    // Answer and derivatives of a pixel; where the scene and its derivatives to the right, down and by blur are larger by `more`.
-    const auto find = [&](int i, const Eigen::Vector4d& more)
+    // The columns of a pixel; where the scene and its derivatives to the right, down and by blur are larger by `more`.
+    const auto columnsAt = [&](int i, const Eigen::Vector4d& more, auto&& row)
     {
       ImagePixel pixel = light->pixel(i);
       pixel.right += more[1];
@@ -415,30 +414,32 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
       answer = run(behind, pixel, nullptr, pixel.self, &by);
       by.chain(steps);
       by.values.back() = static_cast<double>(real[static_cast<std::size_t>(i) * K]) - answer;
+      for (std::size_t c = 0; c < found.there.size(); ++c)
+      {
+        row[static_cast<Eigen::Index>(c)] = by.values[static_cast<std::size_t>(found.there[c])];
+      }
     };
     for (Eigen::Index n = 0; n < count; ++n)
     {
-      find(found.pixel[static_cast<std::size_t>(n)], Eigen::Vector4d::Zero());
+      columnsAt(
+        found.pixel[static_cast<std::size_t>(n)], Eigen::Vector4d::Zero(), found.columns.row(n));
       found.level[n] = answer;
-      for (std::size_t c = 0; c < found.there.size(); ++c)
-      {
-        found.columns(n, static_cast<Eigen::Index>(c)) =
-          by.values[static_cast<std::size_t>(found.there[c])];
-      }
     }
-    found.noise = light->noise();
-    found.byNoise.setZero(found.columns.cols(), 4);
-    for (Eigen::Index n = 0; count > 0 && n < 4; ++n)
+    found.ofNoise = [&](Eigen::Index column) -> Eigen::VectorXd
     {
-      find(found.pixel[found.pixel.size() / 2], NoiseStep * Eigen::Vector4d::Unit(n));
-      for (std::size_t c = 0; c < found.there.size(); ++c)
+      Eigen::MatrixX4d slopes = Eigen::MatrixX4d::Zero(found.columns.cols(), 4);
+      Eigen::VectorXd usual(slopes.rows());
+      Eigen::VectorXd moved(slopes.rows());
+      for (Eigen::Index n = 0; count > 0 && n < 4; ++n)
       {
-        const auto column = static_cast<Eigen::Index>(c);
-        found.byNoise(column, n) =
-          (by.values[static_cast<std::size_t>(found.there[c])] - found.columns(count / 2, column)) /
-          NoiseStep;
+        const int middle = found.pixel[found.pixel.size() / 2];
+        columnsAt(middle, Eigen::Vector4d::Zero(), usual);
+        columnsAt(middle, NoiseStep * Eigen::Vector4d::Unit(n), moved);
+        slopes.col(n) = (moved - usual) / NoiseStep;
       }
-    }
+      const Eigen::Vector4d ofColumn = light->covarianceOfNoise() * slopes.row(column).transpose();
+      return slopes * ofColumn;
+    };
     act(channel, found);
   }
 }

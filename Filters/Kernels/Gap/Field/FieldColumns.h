@@ -42,17 +42,10 @@ struct ChannelColumns
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> columns; // pixels x those
   Eigen::ArrayXd level;   // predicted, of each
   std::vector<int> pixel; // number in the block, of each
-  // What white noise of variance 1 in the simulated image adds: covariance of the scene and its derivatives to the right, down and by
-  // blur, and the derivatives of the columns by these four.
-  Eigen::Matrix4d noise;
-  Eigen::MatrixX4d byNoise;
+  // What white noise of variance 1 in the simulated image adds to the products of all columns with this one, in the mean over pixels.
+  // Only within the call of forColumns().
+  std::function<Eigen::VectorXd(Eigen::Index column)> ofNoise;
 
-  // To the products of all columns with this one, in the mean over pixels.
-  Eigen::VectorXd ofNoise(Eigen::Index column) const
-  {
-    const Eigen::Vector4d of = noise * byNoise.row(column).transpose();
-    return byNoise * of;
-  }
   auto residual() const { return columns.col(columns.cols() - 1); }
 };
 

@@ -269,7 +269,7 @@ std::vector<std::string> notesOn(
   {
     notes.push_back(textOf(2, "the simulated image has noise of its own, ",
       std::sqrt(finding.weights.sceneNoise.maxCoeff()),
-      " of white; that blur and stray light would take it away does not count for them"));
+      " of white; blur and stray light get no credit for taking it away"));
   }
   const FieldSet& set = finding.set();
   for (const std::string& effect : indistinctEffects(data, finding.before(), choices))

@@ -51,7 +51,7 @@ double varianceByMeans(const Eigen::ArrayXXd& one, const Eigen::ArrayXXd& other)
   return std::isfinite(share) ? difference * difference / share : 0.0;
 }
 
-// Mean squared differences over the pairs of usable pixels that lie `lag` apart.
+// Mean squared differences over the pairs of usable pixels that lie `lag` apart, and of the block's halves.
 void addDifferences(const ChannelColumns& found, const ImageWindow& window, BlockSums& sums)
 {
   const Eigen::Index lag =
@@ -198,18 +198,25 @@ namespace
 {
 double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
 {
-  const Eigen::Index blur = FieldColumn::blur();
-  const Eigen::Index residual = FieldColumn::residual();
-  const std::array<Eigen::Index, 2> plain{ FieldColumn::gain(), FieldColumn::offset() };
+  enum Column : Eigen::Index
+  {
+    Gain,
+    Offset,
+    Blur,
+    Residual
+  };
+  const std::array<int, 4> there{ FieldColumn::gain(), FieldColumn::offset(), FieldColumn::blur(),
+    FieldColumn::residual() };
   const auto blocks = static_cast<Eigen::Index>(statistics.blocks());
-  std::vector<Eigen::MatrixXd> normals;
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count());
+  std::vector<Eigen::Matrix4d> normals;
+  Eigen::Matrix4d all = Eigen::Matrix4d::Zero();
   for (Eigen::Index b = 0; b < blocks; ++b)
   {
-    normals.push_back(statistics.at(static_cast<std::size_t>(b), channel).normal());
+    normals.emplace_back(
+      statistics.at(static_cast<std::size_t>(b), channel).normal()(there, there));
     all += normals.back();
   }
-  const Eigen::Vector2d line = all(plain, plain).ldlt().solve(all(plain, residual));
+  const Eigen::Vector2d line = all.topLeftCorner<2, 2>().ldlt().solve(all.col(Residual).head<2>());
   // product = noise x what it adds + blur x square, of each block; all over the deviation that the product has.
   Eigen::MatrixX2d known = Eigen::MatrixX2d::Zero(blocks, 2);
   Eigen::VectorXd product = Eigen::VectorXd::Zero(blocks);
@@ -218,12 +225,12 @@ double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
   for (Eigen::Index b = 0; b < blocks; ++b)
   {
     const BlockSums& sums = statistics.at(static_cast<std::size_t>(b), channel);
-    const Eigen::MatrixXd& normal = normals[static_cast<std::size_t>(b)];
-    const double size = std::sqrt(normal(blur, blur));
+    const Eigen::Matrix4d& normal = normals[static_cast<std::size_t>(b)];
+    const double size = std::sqrt(normal(Blur, Blur));
     if (size > 0.0)
     {
       known.row(b) << sums.pixels * sums.residualOfNoise / size, size;
-      product[b] = (normal(blur, residual) - normal(blur, plain).dot(line)) / size;
+      product[b] = (normal(Blur, Residual) - normal.row(Blur).head<2>().dot(line)) / size;
       square += sums.blurOfNoise;
       added += sums.residualOfNoise;
     }
@@ -316,7 +323,8 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
         sums.level = found.level.mean();
         addDifferences(found, block.window, sums);
       }
-      double ofScene = 0.0;
+      const Eigen::Index last = found.columns.cols() - 1;
+      Eigen::VectorXd ofScene = Eigen::VectorXd::Zero(found.columns.cols());
       if (weights != nullptr)
       {
         const Eigen::ArrayXd variance = found.level.unaryExpr(
@@ -328,24 +336,26 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
         sums.noise = variance.sum();
         sums.chance = (variance * weight).sum();
         found.columns.array().colwise() *= weight.sqrt();
-        ofScene = weights->sceneNoise[channel] * weight.sum();
+        if (const double scene = weights->sceneNoise[channel] * weight.sum(); scene > 0.0)
+        {
+          ofScene = scene * found.ofNoise(last);
+          ofScene[last] -= scene;
+        }
+      }
+      else
+      {
+        const auto blur = std::find(found.there.begin(), found.there.end(), FieldColumn::blur());
+        const Eigen::VectorXd ofNoise = found.ofNoise(blur - found.there.begin());
+        sums.blurOfNoise = ofNoise[blur - found.there.begin()];
+        sums.residualOfNoise = ofNoise[last];
       }
       sums.there = found.there;
-      const auto blur = std::find(found.there.begin(), found.there.end(), FieldColumn::blur());
-      if (blur != found.there.end())
-      {
-        const Eigen::Index at = blur - found.there.begin();
-        const Eigen::VectorXd ofNoise = found.ofNoise(at);
-        sums.blurOfNoise = ofNoise[at];
-        sums.residualOfNoise = ofNoise.tail<1>().value();
-      }
       const Eigen::MatrixXd columns = found.columns.transpose();
       sums.products.setZero(columns.rows(), columns.rows());
       addOuterProduct(sums.products, columns, columns);
       sums.products.triangularView<Eigen::StrictlyUpper>() = sums.products.transpose();
-      // The squares of the derivatives keep it: without it the matrix need not be one of squares.
-      sums.products.rightCols<1>() -= ofScene * found.ofNoise(columns.rows() - 1);
-      sums.products.bottomRightCorner<1, 1>().array() += ofScene;
+      // Squares of derivatives keep it, so that no sum of columns has a negative one.
+      sums.products.rightCols<1>() -= ofScene;
       sums.products.bottomRows<1>() = sums.products.rightCols<1>().transpose();
     };
     forColumns(data, model, glare, block, asked, add);

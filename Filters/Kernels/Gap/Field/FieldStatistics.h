@@ -32,7 +32,7 @@ struct BlockSums
   double gradient = 0.0; // mean squared gradient of the prediction
   // A pixel's variance by the difference of the two halves of the block, as if noise were white; 0: nothing known.
   double halves = 0.0;
-  // ChannelColumns::ofNoise of the square of the derivative by blur, and of its product with the residual.
+  // Without weights: ChannelColumns::ofNoise of the square of the derivative by blur, and of its product with the residual.
   double blurOfNoise = 0.0;
   double residualOfNoise = 0.0;
 };
@@ -64,7 +64,7 @@ struct FieldStatistics
 
 // Blur and stray light must not gain from taking away noise of the simulated image: the weighted products of derivatives and residual
 // are without it, and the squares of the residual have as much of it as if nothing were blurred.
-// weights: null: all pixels the same. asked: for which steps, beside those that change something, there are columns.
+// weights: null: all pixels the same; the blur is asked for then. asked: for which steps, beside those that change something, there are columns.
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked = everyStep());
 

@@ -90,7 +90,6 @@ TEST(FieldFit, ProductsOfNoiseInTheScene)
 // A falloff about a center of its own and a gradient that bends are nearly the same: linear steps lead far away.
 TEST(FieldFit, TheEnergyToldIsThatOfTheModelReached)
 {
-  const FieldLoop loop = inTurn;
   const std::vector<FieldChoice> choices = fieldChoices({});
   const FieldSet set{ &choiceOf(choices, "vignetting", 3),
     &choiceOf(choices, "illumination_gradient", 3) };
@@ -101,15 +100,15 @@ TEST(FieldFit, TheEnergyToldIsThatOfTheModelReached)
       [&](double u, int, int x, int y, double)
       { return u * (1.0 + 0.05 * scene.fieldX(x) - 0.03 * scene.fieldY(y)); });
     const FieldPair images = pair.pair();
-    const FieldData data = prepareFieldData(images, seed, loop);
+    const FieldData data = prepareFieldData(images, seed, inTurn);
     FieldModel start(data.channels());
-    const FieldWeights weights = fieldWeights(fieldStatistics(data, start, nullptr, loop));
+    const FieldWeights weights = fieldWeights(fieldStatistics(data, start, nullptr, inTurn));
     start[imageParameter("vignetting", "falloff")].setConstant(-0.2);
     start[imageParameter("vignetting", "center_x")].setConstant(0.9);
     start[imageParameter("vignetting", "center_y")].setConstant(-0.6);
-    const FieldHypothesis found = refitted(data, weights, set, start, loop);
+    const FieldHypothesis found = refitted(data, weights, set, start, inTurn);
     const double reached =
-      FieldFitter(data, fieldStatistics(data, found.fit.next, &weights, loop)).energy();
+      FieldFitter(data, fieldStatistics(data, found.fit.next, &weights, inTurn)).energy();
     EXPECT_LT(reached, 1.02 * found.fit.energy) << "seed " << seed;
     EXPECT_LT(FieldFitter(data, *found.statistics).energy(), 1.02 * found.fit.energy)
       << "seed " << seed;

@@ -114,14 +114,16 @@ TEST(FieldGap, AnImageUpsideDownIsSaidToBe)
   EXPECT_EQ(said(), 1);
 }
 
+// There a few scenes are enough to run every path.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool UnderSanitizers = true;
+#else
+constexpr bool UnderSanitizers = false;
+#endif
+
 TEST(FieldGap, QuietWithoutEffect)
 {
-  // Twelve scenes tell a false-alarm rate; under the sanitizers three are enough to run every path.
-#ifdef __SANITIZE_ADDRESS__
-  constexpr std::uint64_t Scenes = 3;
-#else
-  constexpr std::uint64_t Scenes = 12;
-#endif
+  constexpr std::uint64_t Scenes = UnderSanitizers ? 3 : 12; // these tell a false-alarm rate
   int blamed = 0;
   for (std::uint64_t seed = 0; seed < Scenes; ++seed)
   {
@@ -138,11 +140,7 @@ TEST(FieldGap, QuietWithoutEffect)
 // As demosaicing and denoising leave it: each pixel's noise is a mean over its 3 x 3 neighbours.
 TEST(FieldGap, QuietWithNoiseThatNeighboursShare)
 {
-#ifdef __SANITIZE_ADDRESS__
-  constexpr std::uint64_t Scenes = 1;
-#else
-  constexpr std::uint64_t Scenes = 4;
-#endif
+  constexpr std::uint64_t Scenes = UnderSanitizers ? 1 : 4;
   for (std::uint64_t seed = 0; seed < Scenes; ++seed)
   {
     const TestScene scene(140 + seed);

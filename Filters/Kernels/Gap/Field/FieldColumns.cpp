@@ -428,14 +428,16 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     found.ofNoise = [&](Eigen::Index column) -> Eigen::VectorXd
     {
       Eigen::MatrixX4d slopes = Eigen::MatrixX4d::Zero(found.columns.cols(), 4);
-      Eigen::VectorXd usual(slopes.rows());
-      Eigen::VectorXd moved(slopes.rows());
-      for (Eigen::Index n = 0; count > 0 && n < 4; ++n)
+      if (count > 0)
       {
         const int middle = found.pixel[found.pixel.size() / 2];
+        Eigen::VectorXd usual(slopes.rows());
         columnsAt(middle, Eigen::Vector4d::Zero(), usual);
-        columnsAt(middle, NoiseStep * Eigen::Vector4d::Unit(n), moved);
-        slopes.col(n) = (moved - usual) / NoiseStep;
+        for (Eigen::Index n = 0; n < 4; ++n)
+        {
+          columnsAt(middle, NoiseStep * Eigen::Vector4d::Unit(n), slopes.col(n));
+        }
+        slopes = (slopes.colwise() - usual) / NoiseStep;
       }
       const Eigen::Vector4d ofColumn = light->covarianceOfNoise() * slopes.row(column).transpose();
       return slopes * ofColumn;

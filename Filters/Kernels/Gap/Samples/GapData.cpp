@@ -89,6 +89,16 @@ void averageReadings(const GapCapture& capture, GapData& data)
   data.count = Eigen::MatrixXd::Zero(channels, samples);
   data.scatter = Eigen::MatrixXd::Zero(channels, samples);
   data.variance = Eigen::MatrixXd::Zero(channels, samples);
+  data.step = Eigen::VectorXd::Zero(channels);
+  for (Eigen::Index k = 0; k < channels; ++k)
+  {
+    std::vector<double> values(static_cast<std::size_t>(capture.readings.cols()));
+    const auto row = capture.readings.row(k);
+    values.erase(std::copy_if(row.begin(), row.end(), values.begin(),
+                   [](double v) { return std::isfinite(v); }),
+      values.end());
+    data.step[k] = stepBetween(std::move(values));
+  }
   for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
   {
     const Eigen::Index sample = capture.sampleOf[static_cast<std::size_t>(j)];
@@ -106,6 +116,52 @@ void averageReadings(const GapCapture& capture, GapData& data)
     }
   }
 }
+
+constexpr std::size_t FewestValues = 8;
+constexpr double FewestSteps = 32.0; // between the extremes; fewer may be those of a chart
+constexpr double OffMultiple = 0.1;  // steps; counts over white have as few as four digits
+constexpr double Equal = 1e-9;       // of the range
+constexpr int MostStepsApart = 4;    // of the two nearest values
+
+// The step of which all these differences are multiples, about this large; 0 where they are not.
+double commonStep(const std::vector<double>& ascending, double about)
+{
+  double length = 0.0;
+  double steps = 0.0;
+  for (const double difference : ascending)
+  {
+    const double step = steps > 0.0 ? length / steps : about;
+    const double count = std::round(difference / step);
+    if (count < 1.0 || std::fabs(difference / step - count) > OffMultiple)
+    {
+      return 0.0;
+    }
+    length += difference;
+    steps += count;
+  }
+  return steps < FewestSteps ? 0.0 : length / steps;
+}
+}
+
+double stepBetween(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  std::vector<double> differences;
+  for (std::size_t i = 1; i < values.size(); ++i)
+  {
+    if (const double d = values[i] - values[i - 1]; d > Equal * (values.back() - values.front()))
+    {
+      differences.push_back(d);
+    }
+  }
+  std::sort(differences.begin(), differences.end());
+  double step = 0.0;
+  for (int apart = 1;
+       apart <= MostStepsApart && differences.size() + 1 >= FewestValues && !(step > 0.0); ++apart)
+  {
+    step = commonStep(differences, differences.front() / apart);
+  }
+  return step;
 }
 
 void fillInUnknown(SceneSamples& samples)
@@ -136,7 +192,7 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options, Sam
 {
   validate(capture);
   GapData data{ capture.camera, alignedScene(capture), capture.names, {}, {}, {}, {}, {}, {}, {},
-    std::move(leftOut), {}, 0, 0 };
+    {}, std::move(leftOut), {}, 0, 0 };
   for (Eigen::Index i = static_cast<Eigen::Index>(data.names.size()); i < data.scene.size(); ++i)
   {
     data.names.push_back("sample " + std::to_string(i + 1));

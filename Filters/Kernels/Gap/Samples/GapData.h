@@ -22,6 +22,7 @@ struct GapData
   Eigen::MatrixXd observed;
   Eigen::MatrixXd count;     // readings behind each element
   Eigen::MatrixXd scatter;   // sum of squared deviations of the readings from their mean
+  Eigen::VectorXd step;      // K, to which the readings are rounded; 0 where no step shows
   Eigen::MatrixXd simulated; // the nominal camera
   Eigen::MatrixXd variance;  // of observed - simulated from noise alone
   Eigen::MatrixXd weight;    // of a squared residual in a fit
@@ -39,6 +40,10 @@ struct GapData
 // Positions and orders that are NaN, as a lid's beside a chart: in the middle of the field, captured first. A column of nothing else
 // stays.
 void fillInUnknown(SceneSamples& samples);
+
+// The step to which values are rounded, of which there are several and far apart: all are multiples of it from one another; 0 where
+// they are not.
+double stepBetween(std::vector<double> values);
 
 // Averages and aligns; variance is 0, weight is left empty.
 // Errors: as diagnoseGap.

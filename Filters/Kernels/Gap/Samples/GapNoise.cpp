@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
+#include "Kernels/Numerics/Angle.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 #include "Kernels/Spectra/Interpolation.h"
 
@@ -17,27 +18,57 @@ namespace
 {
 constexpr double FineStep = 1.0;           // nm
 constexpr double MedianOfNormal = 0.67449; // of the sizes of standard normal values
+constexpr int Harmonics = 10;
 
 // Of one reading of each element, K x S.
-Eigen::ArrayXXd readingVariances(const GapData& data, const CameraNoise& noise)
+struct ReadingVariances
 {
-  return data.observed.unaryExpr([&noise](double u) { return noiseVariance(noise, u); }).array();
-}
+  Eigen::ArrayXXd within; // between its repeats
+  Eigen::ArrayXXd common; // of the error by rounding that they share
+
+  ReadingVariances(const GapData& data, const CameraNoise& noise)
+    : within(data.channels(), data.samples())
+    , common(data.channels(), data.samples())
+  {
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      for (Eigen::Index k = 0; k < data.channels(); ++k)
+      {
+        const double variance = noiseVariance(noise, data.observed(k, i));
+        common(k, i) = sharedRounding(variance, data.step[k]);
+        within(k, i) = variance + data.step[k] * data.step[k] / 12.0 - common(k, i);
+      }
+    }
+  }
+};
 
 // Variances of the repeats are as uncertain as they are large: four rounds of weights.
 CameraNoise fitRepeats(const GapData& data)
 {
   const Eigen::ArrayXXd degrees = (data.count.array() - 1.0).max(0.0);
-  const Eigen::ArrayXXd variance = data.scatter.array() / degrees.max(1.0);
+  const Eigen::ArrayXXd variance =
+    (data.scatter.array() / degrees.max(1.0)).colwise() - data.step.array().square() / 12.0;
   const Eigen::ArrayXXd response = (degrees > 0.0).select(data.observed.array(), 0.0);
   CameraNoise noise{ std::sqrt(data.scatter.sum() / std::fmax(degrees.sum(), 1.0)) };
   for (int round = 0; round < 4; ++round)
   {
-    const Eigen::ArrayXXd weight = degrees / readingVariances(data, noise).max(1e-14).square();
+    const Eigen::ArrayXXd weight =
+      degrees / ReadingVariances(data, noise).within.max(1e-14).square();
     noise = fittedNoise(response.reshaped(), variance.reshaped(), weight.reshaped());
   }
   return noise;
 }
+}
+
+double sharedRounding(double variance, double step)
+{
+  double sum = 0.0;
+  for (int n = 1; n <= Harmonics && step > 0.0; ++n)
+  {
+    const double cycle = TwoPi * n / step;
+    sum += 2.0 / (cycle * cycle) * std::exp(-cycle * cycle * variance);
+  }
+  return sum;
 }
 
 NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& given)
@@ -62,7 +93,7 @@ NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& gi
   }
   const double ratio =
     (data.count.array() > 1.0)
-      .select(data.scatter.array() / readingVariances(data, *given).max(1e-14), 0.0)
+      .select(data.scatter.array() / ReadingVariances(data, *given).within.max(1e-14), 0.0)
       .sum() /
     finding.degrees;
   finding.excess = finding.shown = std::sqrt(ratio);
@@ -81,8 +112,9 @@ NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& gi
 
 Eigen::MatrixXd readingVariance(const GapData& data, const CameraNoise& noise)
 {
+  const ReadingVariances one(data, noise);
   // A short series of equal rounded readings is no proof of no noise at all.
-  return (readingVariances(data, noise) / data.count.array().max(1.0) + 1e-12).matrix();
+  return (one.within / data.count.array().max(1.0) + one.common + 1e-12).matrix();
 }
 
 Eigen::VectorXd reflectanceErrorGain(const CameraModel& camera)

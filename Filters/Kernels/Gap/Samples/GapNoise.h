@@ -38,7 +38,11 @@ struct NoiseFinding
 // Without a model the repeats' variances are fitted by read^2 + shot^2 u, weighted, not negative.
 NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& given);
 
-// Variance of the averaged readings; K x S.
+// Variance of what the mean of many readings that are rounded to a step errs by, noise of this variance having been added before:
+// step^2 / 12 without noise, nothing where it is half of a step or more (Widrow and Kollar, Quantization Noise, 2008).
+double sharedRounding(double variance, double step);
+
+// Variance of the averaged readings, rounding included; K x S.
 Eigen::MatrixXd readingVariance(const GapData& data, const CameraNoise& noise);
 
 // Squared standard deviation that a reflectance error of 1 (independent from wavelength to wavelength)

@@ -67,6 +67,14 @@ void noteNoise(std::vector<std::string>& notes, const GapData& data, const GapCa
   {
     notes.push_back("One reading a sample: the noise model could not be checked.");
   }
+  const double rounding =
+    std::sqrt(data.step.squaredNorm() / 12.0 / static_cast<double>(data.channels()));
+  if (rounding * rounding * static_cast<double>(data.elements) >
+    Decision::SmallPart * measuredOnly(data, data.variance).sum())
+  {
+    notes.push_back(textOf(3, "The readings are rounded, to steps of ", data.step.maxCoeff(),
+      ": the error by it, ", rounding, " of white, is taken for noise."));
+  }
   if (reflectanceNoise > 1e-5) // instruments give four or five digits
   {
     notes.push_back(

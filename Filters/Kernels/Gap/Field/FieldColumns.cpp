@@ -278,7 +278,7 @@ public:
       [](const ChannelStep& step) { return step.placed->from != nullptr; });
     for (int i = 0; needed && i < pixels; ++i)
     {
-      addElsewhere(data.pair, data.scene(), factor, placeOf(i), Channel, Others);
+      addElsewhere(data.pair, data.scene(), factor, Block.place(i), Channel, Others);
     }
     const ChannelSteps active = model.steps(ImageStage::Scene, ImageStage::Light, channel);
     for (int i = 0; i < pixels; ++i)
@@ -291,7 +291,7 @@ public:
   // What the steps are told, but for other channels and lines.
   ImagePixel pixel(int number) const
   {
-    const ImagePlace place = placeOf(number);
+    const ImagePlace place = Block.place(number);
     ImagePixel pixel;
     pixel.x = Data.pair.fieldX(place.x);
     pixel.y = Data.pair.fieldY(place.y);
@@ -317,11 +317,6 @@ public:
   Eigen::Matrix4d covarianceOfNoise() const { return msi::covarianceOfNoise(Near.x, Near.y); }
 
 private:
-  ImagePlace placeOf(int number) const
-  {
-    return { Block.window.x + number % Block.window.width,
-      Block.window.y + number / Block.window.width };
-  }
   // Moved as in the middle of the block, and to first order by what is different at this pixel.
   double scene(int number, const ImagePixel& pixel) const
   {

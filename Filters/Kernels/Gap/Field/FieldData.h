@@ -51,6 +51,11 @@ struct FieldBlock
   std::vector<float> real; // pixel after pixel; NaN: not usable
   // Of each value the passes 1 .. TailPasses of the broad tail (ScatterTail).
   std::vector<double> tail;
+
+  ImagePlace place(int pixel) const noexcept
+  {
+    return { window.x + pixel % window.width, window.y + pixel / window.width };
+  }
 };
 
 struct FieldData
@@ -62,6 +67,7 @@ struct FieldData
   std::vector<FieldBlock> blocks;
   std::vector<ImageWindow> leftOut; // blocks
   double usablePart = 0.0;          // of the image's pixels
+  double defectPart = 0.0;          // of the blocks' values: hot and dead pixels
   SceneCells cells;
 
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
@@ -70,7 +76,8 @@ struct FieldData
 };
 
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and
-// that lies a little inside the image. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.
+// that lies a little inside the image; but no values that stand out in the real image alone, from all of their neighbours, as those of
+// hot and dead pixels do. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.
 // Two thirds are for training, in FieldFolds folds, whole groups (dealBlocks) in one of them.
 // The tail needs the surround: images of more than 2 million pixels are looked at in nine windows of at most
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.

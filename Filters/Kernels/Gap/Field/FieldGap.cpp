@@ -265,6 +265,13 @@ std::vector<std::string> notesOn(
       " % of the pixels is 0 in all channels of one image, as registration leaves it, and takes no "
       "part"));
   }
+  if (data.defectPart > 0.0)
+  {
+    notes.push_back(textOf(2, "in the real image ", 100.0 * data.defectPart,
+      " % of the values looked at stand out from all of their neighbours, as those of hot and dead "
+      "pixels "
+      "do, and take no part"));
+  }
   if ((finding.weights.sceneNoise > 0.0).any())
   {
     notes.push_back(textOf(2, "the simulated image has noise of its own, ",

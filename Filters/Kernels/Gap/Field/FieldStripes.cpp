@@ -47,9 +47,8 @@ std::vector<LineValues> lineSums(const FieldData& data, const std::vector<FieldR
     for (Eigen::Index n = 0; n < part.residual.size(); ++n)
     {
       LineValues& fold = folds[static_cast<std::size_t>(block.fold)];
-      const int pixel = part.pixel[static_cast<std::size_t>(n)];
-      const int line = alongRows ? block.window.y + pixel / block.window.width
-                                 : block.window.x + pixel % block.window.width;
+      const ImagePlace place = block.place(part.pixel[static_cast<std::size_t>(n)]);
+      const int line = alongRows ? place.y : place.x;
       const double u = ofGain ? part.gain[n] : 1.0;
       const double size = std::fabs(part.residual[n]);
       const double weight = limit.size() > 0 && size > limit[k] ? limit[k] / size : 1.0;

@@ -84,9 +84,8 @@ LabelSums labelSums(const FieldData& data, const FieldBlock& block, const FieldM
     const Eigen::VectorXd left = residual - found.columns * weight(found.there);
     for (Eigen::Index n = 0; n < left.size(); ++n)
     {
-      const int pixel = found.pixel[static_cast<std::size_t>(n)];
-      const int label = data.pair.labels[data.pair.index(
-        block.window.x + pixel % block.window.width, block.window.y + pixel / block.window.width)];
+      const ImagePlace place = block.place(found.pixel[static_cast<std::size_t>(n)]);
+      const int label = data.pair.labels[data.pair.index(place.x, place.y)];
       if (label != 0)
       {
         Eigen::ArrayX3d sums = Eigen::ArrayX3d::Zero(data.channels(), 3);

@@ -1,10 +1,12 @@
 // What goes wrong with captured image pairs every day.
 #include "Kernels/Gap/Field/TestFieldReport.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 namespace
@@ -60,6 +62,28 @@ TEST(FieldMistakes, ASpotAloneIsTheGap)
   EXPECT_NE(report.verdict, GapVerdict::NoGap);
   EXPECT_NE(report.verdict, GapVerdict::Explained);
   EXPECT_TRUE(says(report, "blocks of pixels, without which there is no gap: far"));
+}
+
+// One value of 500 is white or black, as in a sensor with hot and dead pixels, now and then two beside each other.
+TEST(FieldMistakes, HotAndDeadPixelsTakeNoPart)
+{
+  const TestScene scene(65);
+  const TestPair clean =
+    changed(scene, 75, [](double u, int, int, int, double) { return exponent(u); });
+  TestPair pair = clean;
+  const msi::CounterRandom random(76);
+  for (std::size_t i = 0; i < pair.real.size(); ++i)
+  {
+    const double chance = random.uniform(i);
+    pair.real[i] = chance < 0.001 ? 1.0F : chance > 0.999 ? 0.0F : pair.real[i];
+  }
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  expectFirst(report, "detector_nonlinearity", "level");
+  expectParameter(report, "detector_nonlinearity", "exponent", 0.93, 0.003);
+  EXPECT_NEAR(report.gap.rmsAfter, diagnose(clean).gap.rmsAfter, 0.0002);
+  EXPECT_TRUE(says(report, "stand out from all of their neighbours"));
+  EXPECT_FALSE(says(diagnose(clean), "stand out from all of their neighbours"));
 }
 
 // Registration moves an image and fills what comes in from outside with 0.

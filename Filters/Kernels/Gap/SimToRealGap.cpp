@@ -98,7 +98,7 @@ bool actsOnSpectra(const EffectChoice& choice)
 class TableDiagnosis
 {
 public:
-  TableDiagnosis(const GapCapture& capture, const GapOptions& options, SampleList leftOut = {})
+  TableDiagnosis(const GapCapture& capture, const GapOptions& options, IndexList leftOut = {})
     : Capture(capture)
     , Options(options)
     , Data(prepareGapData(capture, options, std::move(leftOut)))
@@ -119,7 +119,7 @@ public:
     Observed.emplace(Data, Data.usable, Choices, Options.seed);
     const int first = unlessOdd ? 1 : 0;
     Options.forAll(Data.folds + 1 - first, [&](int job) { search(first + job); });
-    Odd = Steps.stopped() ? SampleList() : oddSamples(Data, Before, After);
+    Odd = Steps.stopped() ? IndexList() : oddElements(Data, Before, After);
     if (unlessOdd && Odd.empty())
     {
       search(0);
@@ -142,7 +142,7 @@ public:
   }
 
   const GapData& data() const noexcept { return Data; }
-  const SampleList& odd() const noexcept { return Odd; } // once it has run
+  const IndexList& odd() const noexcept { return Odd; } // once it has run
 
 private:
   // What is known of the noise before effects are.
@@ -321,7 +321,7 @@ private:
   std::optional<SampleObservation> Observed;
   FoundSets Found;
   AxisShares Where, Rest;
-  SampleList Odd;
+  IndexList Odd;        // elements
   double Doubted = 0.0; // variance that sums over wavelength were taken to have and do not
   double ReflectanceNoise = 0.0;
   double TakenForNoise = 0.0; // energy of an error of each sample that only what is left shows
@@ -346,21 +346,28 @@ void GapOptions::forAll(int count, const std::function<void(int)>& body) const
 std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions& options)
 {
   requireKnown(options.without);
-  SampleList leftOut;
+  GapCapture good = capture;
+  const std::vector<OddReading> oddReadings = leaveOutOddReadings(good, options);
+  IndexList leftOut;
   std::optional<TableDiagnosis> last;
-  const auto diagnose = [&](SampleList& odd, bool unlessOdd)
+  const auto diagnose = [&](IndexList& odd, bool unlessOdd)
   {
     leftOut.insert(leftOut.end(), odd.begin(), odd.end());
     std::sort(leftOut.begin(), leftOut.end());
-    last.emplace(capture, options, leftOut);
+    last.emplace(good, options, leftOut);
     std::optional<GapReport> report = last->run(unlessOdd);
     odd = last->odd();
     return report;
   };
-  return diagnoseWithoutOdd(
-    diagnose, [](GapReport& report) -> GapReport& { return report; },
+  std::optional<GapReport> report = diagnoseWithoutOdd(
+    diagnose, [](GapReport& one) -> GapReport& { return one; },
     [&] { return !mixUpOf(last->data()).empty(); },
-    [&] { return oddSamplesNote(last->data(), leftOut, ", without which there is no gap"); });
+    [&] { return oddElementsNote(last->data(), ", without which there is no gap"); });
+  if (report && !oddReadings.empty())
+  {
+    report->notes.insert(report->notes.begin(), oddReadingsNote(good, oddReadings));
+  }
+  return report;
 }
 
 } // namespace msi

@@ -707,6 +707,38 @@ TEST(DegenerateCapture, AnOddSampleIsNamedAndLeftOut)
   EXPECT_TRUE(report.gapAfter.col(5).array().isNaN().all());
 }
 
+// One of two readings of a sample, nothing in one channel, made a scatter of many times the noise.
+TEST(DegenerateCapture, AnOddReadingIsNamedAndLeftOut)
+{
+  msi::GapCapture capture = captureWith({ { "detector_nonlinearity", "gamma", "", { 0.95 } } });
+  capture.readings(2, 11) = 0.0;
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes,
+    "Odd? A reading of " + capture.camera.channels()[2] +
+      " of sample 6 (1 of 1344 readings) left out: far from other readings of the same sample."));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "detector_nonlinearity");
+  EXPECT_TRUE(report.gapAfter.allFinite());
+}
+
+// A missing value written as 0, which every reading shows.
+TEST(DegenerateCapture, AnOddValueIsNamedAndLeftOut)
+{
+  msi::GapCapture capture = captureWith({ { "detector_nonlinearity", "gamma", "", { 0.95 } } });
+  capture.readings.block(2, 10, 1, 2).setZero();
+  capture.readings.block(5, 60, 1, 2).setOnes();
+  const msi::GapReport report = diagnosisOf(capture);
+  const auto& channels = capture.camera.channels();
+  EXPECT_TRUE(says(report.notes,
+    "Odd? " + channels[2] + " of sample 6 and " + channels[5] +
+      " of sample 31 (2 of 672 values) left out: far from"));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "detector_nonlinearity");
+  EXPECT_EQ(report.gapAfter.array().isNaN().count(), 2);
+}
+
 TEST(DegenerateCapture, OddSamplesAloneAreTheGap)
 {
   msi::GapCapture capture = captureWith({});

@@ -188,17 +188,24 @@ void fillInUnknown(SceneSamples& samples)
   fill(samples.order, 0.0);
 }
 
-GapData prepareGapData(const GapCapture& capture, const GapOptions& options, SampleList leftOut)
+std::vector<std::string> sampleNames(const GapCapture& capture)
+{
+  std::vector<std::string> names = capture.names;
+  for (Eigen::Index i = static_cast<Eigen::Index>(names.size());
+       i < capture.samples.reflectance.cols(); ++i)
+  {
+    names.push_back("sample " + std::to_string(i + 1));
+  }
+  return names;
+}
+
+GapData prepareGapData(const GapCapture& capture, const GapOptions& options, IndexList leftOut)
 {
   validate(capture);
-  GapData data{ capture.camera, alignedScene(capture), capture.names, {}, {}, {}, {}, {}, {}, {},
-    {}, std::move(leftOut), {}, 0, 0 };
-  for (Eigen::Index i = static_cast<Eigen::Index>(data.names.size()); i < data.scene.size(); ++i)
-  {
-    data.names.push_back("sample " + std::to_string(i + 1));
-  }
+  GapData data{ capture.camera, alignedScene(capture), sampleNames(capture), {}, {}, {}, {}, {}, {},
+    {}, {}, std::move(leftOut), {}, 0, 0 };
   averageReadings(capture, data);
-  data.count(Eigen::all, data.leftOut).setZero();
+  data.count.reshaped()(data.leftOut).setZero();
   data.simulated = cameraResponse(data.camera)(data.scene.reflectance());
   for (Eigen::Index j = 0; j < data.samples(); ++j)
   {
@@ -206,7 +213,7 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options, Sam
     {
       data.count.col(j).setZero();
     }
-    if ((data.count.col(j).array() > 0.0).any())
+    if (data.anyMeasured(j))
     {
       data.usable.push_back(j);
     }

@@ -1,6 +1,7 @@
 // A capture made ready for fitting: one grid, averaged readings, weights, folds.
 #pragma once
 
+#include "Kernels/Doubts/OddOnes.h"
 #include "Kernels/Gap/SimToRealGap.h"
 
 #include <Eigen/Core>
@@ -27,12 +28,13 @@ struct GapData
   Eigen::MatrixXd variance;  // of observed - simulated from noise alone
   Eigen::MatrixXd weight;    // of a squared residual in a fit
   SampleList usable;         // with a reflectance and a reading, and not left out
-  SampleList leftOut;        // whose readings are not looked at
+  IndexList leftOut;         // elements, column by column, whose readings are not looked at
   std::vector<int> fold;     // S: 0 .. folds - 1; -1: not usable
   int folds = 0;
   Eigen::Index elements = 0; // with weight
 
   auto measured() const { return count.array() > 0.0; }
+  bool anyMeasured(Eigen::Index sample) const { return (count.col(sample).array() > 0.0).any(); }
   Eigen::Index channels() const noexcept { return observed.rows(); }
   Eigen::Index samples() const noexcept { return observed.cols(); }
 };
@@ -45,10 +47,12 @@ void fillInUnknown(SceneSamples& samples);
 // they are not.
 double stepBetween(std::vector<double> values);
 
+std::vector<std::string> sampleNames(const GapCapture& capture);
+
 // Averages and aligns; variance is 0, weight is left empty.
 // Errors: as diagnoseGap.
 GapData prepareGapData(
-  const GapCapture& capture, const GapOptions& options, SampleList leftOut = {});
+  const GapCapture& capture, const GapOptions& options, IndexList leftOut = {});
 
 // Of the weighted gap, without Decision::largeGain.
 double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight);

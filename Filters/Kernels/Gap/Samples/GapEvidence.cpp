@@ -2,10 +2,14 @@
 
 #include "Kernels/Doubts/OddOnes.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <set>
+#include <vector>
 
 namespace msi
 {
@@ -88,18 +92,64 @@ double noticed(const GapData& data, const Eigen::MatrixXd& before, const Eigen::
     std::fmax(explained / allowed.sum(), 2.0 * beyond / explained));
 }
 
-SampleList oddSamples(
+IndexList oddElements(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
 {
   // Causes that odd samples have led astray leave more of the others.
-  const Eigen::MatrixXd least = before.cwiseAbs2().cwiseMin(after.cwiseAbs2());
-  SampleList odd =
-    oddOnes(data.weight.cwiseProduct(least)(Eigen::all, data.usable).colwise().mean().transpose(),
-      data.leftOut.size());
-  for (Eigen::Index& sample : odd)
+  Eigen::MatrixXd left = data.weight.cwiseProduct(before.cwiseAbs2().cwiseMin(after.cwiseAbs2()));
+  const Eigen::Index channels = data.channels();
+  IndexList elements;
+  std::vector<double> relative; // to what is usual in the channel
+  for (Eigen::Index k = 0; k < channels; ++k)
   {
-    sample = data.usable[static_cast<std::size_t>(sample)];
+    std::vector<double> values;
+    for (const Eigen::Index i : data.usable)
+    {
+      if (data.measured()(k, i))
+      {
+        elements.push_back(k + channels * i);
+        values.push_back(left(k, i));
+      }
+    }
+    if (!values.empty())
+    {
+      const double usual =
+        std::fmax(orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)), 1.0);
+      std::transform(values.begin(), values.end(), std::back_inserter(relative),
+        [usual](double value) { return value / usual; });
+    }
   }
+  const auto vectorOf = [](const std::vector<double>& values)
+  {
+    return Eigen::Map<const Eigen::VectorXd>(
+      values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  std::vector<Eigen::Index> oddOfSample(static_cast<std::size_t>(data.samples()), 0);
+  IndexList odd;
+  for (const Eigen::Index n : oddOnes(vectorOf(relative), data.leftOut.size()))
+  {
+    odd.push_back(elements[static_cast<std::size_t>(n)]);
+    left(odd.back()) = 0.0;
+    ++oddOfSample[static_cast<std::size_t>(odd.back() / channels)];
+  }
+  std::set<Eigen::Index> samples;
+  for (const Eigen::Index n : oddOnes(left(Eigen::all, data.usable).colwise().mean().transpose(),
+         data.leftOut.size() / static_cast<std::size_t>(channels)))
+  {
+    samples.insert(data.usable[static_cast<std::size_t>(n)]);
+  }
+  for (const Eigen::Index i : data.usable)
+  {
+    if (samples.count(i) > 0 || 4 * oddOfSample[static_cast<std::size_t>(i)] > channels)
+    {
+      for (Eigen::Index k = 0; k < channels; ++k)
+      {
+        odd.push_back(k + channels * i);
+      }
+    }
+  }
+  std::sort(odd.begin(), odd.end());
+  odd.erase(std::unique(odd.begin(), odd.end()), odd.end());
   return odd;
 }
 

@@ -36,8 +36,9 @@ double negligibleEnergy(
 double noticed(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
   const Eigen::MatrixXd& integration);
 
-// oddOnes() by what is left of them with and without the causes found.
-SampleList oddSamples(
+// oddOnes() by what is left of them with and without the causes found: single elements, by what is usual in their channel, and samples;
+// a sample of which more than a quarter are odd is one. Elements, column by column.
+IndexList oddElements(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
 
 // Whether a change of the response stands in so few samples that none of them can be left out to check it.

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Samples/GapNoise.h"
 
+#include "Kernels/Doubts/OddOnes.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Numerics/Angle.h"
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace msi
 {
@@ -108,6 +111,68 @@ NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& gi
     finding.excess = 1.0;
   }
   return finding;
+}
+
+namespace
+{
+// Of one channel of a sample: the one that is farthest from the median of all and of what is simulated.
+void leaveOutFarthest(GapCapture& capture, const GapData& data, const OddReading& odd)
+{
+  std::vector<double> values{ data.simulated(odd.channel, odd.sample) };
+  std::vector<double*> readings;
+  for (std::size_t r = 0; r < capture.sampleOf.size(); ++r)
+  {
+    double& reading = capture.readings(odd.channel, static_cast<Eigen::Index>(r));
+    if (capture.sampleOf[r] == odd.sample && std::isfinite(reading))
+    {
+      values.push_back(reading);
+      readings.push_back(&reading);
+    }
+  }
+  const double median = orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2));
+  **std::max_element(readings.begin(), readings.end(),
+    [median](const double* a, const double* b) {
+      return std::fabs(*a - median) < std::fabs(*b - median);
+    }) = std::numeric_limits<double>::quiet_NaN();
+}
+}
+
+std::vector<OddReading> leaveOutOddReadings(GapCapture& capture, const GapOptions& options)
+{
+  std::vector<OddReading> all;
+  for (;;)
+  {
+    const GapData data = prepareGapData(capture, options);
+    const ReadingVariances expected(data, findNoise(data, capture.noise).reading);
+    std::vector<OddReading> repeated;
+    std::vector<double> scatter;
+    for (const Eigen::Index i : data.usable)
+    {
+      for (Eigen::Index k = 0; k < data.channels(); ++k)
+      {
+        if (data.count(k, i) > 1.0)
+        {
+          repeated.push_back({ k, i });
+          scatter.push_back(data.scatter(k, i) /
+            ((data.count(k, i) - 1.0) * std::fmax(expected.within(k, i), 1e-14)));
+        }
+      }
+    }
+    const IndexList odd = repeated.empty()
+      ? IndexList()
+      : oddOnes(Eigen::Map<const Eigen::VectorXd>(
+                  scatter.data(), static_cast<Eigen::Index>(scatter.size())),
+          all.size());
+    if (odd.empty())
+    {
+      return all;
+    }
+    for (const Eigen::Index n : odd)
+    {
+      all.push_back(repeated[static_cast<std::size_t>(n)]);
+      leaveOutFarthest(capture, data, all.back());
+    }
+  }
 }
 
 Eigen::MatrixXd readingVariance(const GapData& data, const CameraNoise& noise)

@@ -42,6 +42,17 @@ NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& gi
 // step^2 / 12 without noise, nothing where it is half of a step or more (Widrow and Kollar, Quantization Noise, 2008).
 double sharedRounding(double variance, double step);
 
+// A reading of one channel of one sample.
+struct OddReading
+{
+  Eigen::Index channel = 0;
+  Eigen::Index sample = 0;
+};
+
+// Readings far from others of the same sample, which are few and make most of the scatter: the one of each that is farthest from the
+// others and from what is simulated becomes NaN in the capture.
+std::vector<OddReading> leaveOutOddReadings(GapCapture& capture, const GapOptions& options);
+
 // Variance of the averaged readings, rounding included; K x S.
 Eigen::MatrixXd readingVariance(const GapData& data, const CameraNoise& noise);
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace msi
 {
@@ -152,10 +153,18 @@ void noteScene(std::vector<std::string>& notes, const GapData& data, const Scene
 void noteSamples(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
 {
   const auto usable = static_cast<Eigen::Index>(data.usable.size());
-  const auto leftOut = static_cast<Eigen::Index>(data.leftOut.size());
-  if (usable + leftOut < data.samples())
+  std::set<Eigen::Index> leftOut; // samples
+  for (const Eigen::Index element : data.leftOut)
   {
-    notes.push_back(textOf(3, data.samples() - usable - leftOut, " of ", data.samples(),
+    if (!data.anyMeasured(element / data.channels()))
+    {
+      leftOut.insert(element / data.channels());
+    }
+  }
+  const Eigen::Index unusable = data.samples() - usable - static_cast<Eigen::Index>(leftOut.size());
+  if (unusable > 0)
+  {
+    notes.push_back(textOf(3, unusable, " of ", data.samples(),
       " samples have no reading or no reflectance and were left out."));
   }
   std::size_t parameters = 0;
@@ -321,17 +330,57 @@ std::string mixUpOf(const GapData& data)
     data.camera.channels(), data.names);
 }
 
-std::string oddSamplesNote(
-  const GapData& data, const SampleList& samples, const std::string& consequence)
+namespace
 {
-  std::vector<std::string> names;
-  for (const Eigen::Index i : samples)
+std::string elementName(const std::vector<std::string>& channels,
+  const std::vector<std::string>& samples, Eigen::Index channel, Eigen::Index sample)
+{
+  return channels[static_cast<std::size_t>(channel)] + " of " +
+    samples[static_cast<std::size_t>(sample)];
+}
+}
+
+std::string oddElementsNote(const GapData& data, const std::string& consequence)
+{
+  std::vector<std::string> samples, values;
+  for (const Eigen::Index element : data.leftOut)
   {
-    names.push_back(data.names[static_cast<std::size_t>(i)]);
+    const Eigen::Index channel = element % data.channels();
+    const Eigen::Index sample = element / data.channels();
+    if (data.anyMeasured(sample))
+    {
+      values.push_back(elementName(data.camera.channels(), data.names, channel, sample));
+    }
+    else if (channel == 0)
+    {
+      samples.push_back(data.names[static_cast<std::size_t>(sample)]);
+    }
   }
-  return textOf(3, "Odd? ", listed(names), " (", samples.size(), " of ", data.samples(),
-    " samples)", consequence,
-    ": far from what is found in all others. Look at label, patch and readings.");
+  std::string text = "Odd? ";
+  if (!samples.empty())
+  {
+    text += textOf(3, listed(samples), " (", samples.size(), " of ", data.samples(), " samples)");
+  }
+  if (!values.empty())
+  {
+    text += textOf(3, samples.empty() ? "" : "; ", listedFew(values), " (", values.size(), " of ",
+      data.observed.size(), " values)");
+  }
+  return text + consequence +
+    ": far from what is found in all others. Look at label, patch and readings.";
+}
+
+std::string oddReadingsNote(const GapCapture& capture, const std::vector<OddReading>& readings)
+{
+  const std::vector<std::string> samples = sampleNames(capture);
+  std::vector<std::string> names;
+  for (const OddReading& odd : readings)
+  {
+    names.push_back(elementName(capture.camera.channels(), samples, odd.channel, odd.sample));
+  }
+  return textOf(3, "Odd? A reading of ", listedFew(names), " (", readings.size(), " of ",
+    capture.readings.size(),
+    " readings) left out: far from other readings of the same sample. Look at them.");
 }
 
 std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
@@ -344,7 +393,7 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   }
   if (!data.leftOut.empty())
   {
-    notes.push_back(oddSamplesNote(data, data.leftOut, " left out"));
+    notes.push_back(oddElementsNote(data, " left out"));
   }
   noteNoise(notes, data, capture, noise, reflectanceNoise, report);
   noteScene(notes, data, capture.samples);

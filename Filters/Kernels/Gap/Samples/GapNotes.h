@@ -31,9 +31,9 @@ void addExcessNoise(
 // mixUp() of samples, channels and places.
 std::string mixUpOf(const GapData& data);
 
-// What the report says of oddSamples(). consequence: " left out".
-std::string oddSamplesNote(
-  const GapData& data, const SampleList& samples, const std::string& consequence);
+// What the report says of the elements that are left out. consequence: " left out".
+std::string oddElementsNote(const GapData& data, const std::string& consequence);
+std::string oddReadingsNote(const GapCapture& capture, const std::vector<OddReading>& readings);
 
 // What the data cannot decide, and why.
 std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,

@@ -15,6 +15,12 @@ constexpr double BesideLargest = 0.1; // of the largest
 constexpr std::size_t Few = 3;
 constexpr std::size_t OneIn = 8; // at the most
 constexpr double MuchOfLeft = 0.25;
+constexpr Eigen::Index WholeFrom = 4; // more than 1 / this of a group
+
+Eigen::VectorXd vectorOf(const std::vector<double>& values)
+{
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
 }
 
 IndexList oddOnes(const Eigen::VectorXd& left, std::size_t leftOut)
@@ -34,6 +40,73 @@ IndexList oddOnes(const Eigen::VectorXd& left, std::size_t leftOut)
   const std::size_t all = leftOut + static_cast<std::size_t>(left.size());
   const bool few = leftOut + odd.size() <= std::max(Few, all / OneIn);
   return few && ofOdd > MuchOfLeft * left.sum() ? odd : IndexList{};
+}
+
+IndexList oddElements(const Eigen::MatrixXd& left, const Eigen::MatrixXi& kind, std::size_t leftOut)
+{
+  std::vector<std::vector<double>> ofKind(static_cast<std::size_t>(kind.maxCoeff()) + 1);
+  const auto listOf = [&](Eigen::Index element) -> std::vector<double>&
+  { return ofKind[static_cast<std::size_t>(kind(element))]; };
+  IndexList elements;
+  for (Eigen::Index e = 0; e < left.size(); ++e)
+  {
+    if (!std::isnan(left(e)))
+    {
+      elements.push_back(e);
+      listOf(e).push_back(left(e));
+    }
+  }
+  for (std::vector<double>& values : ofKind)
+  {
+    // Only what is usual from here on.
+    values.assign(values.empty() ? 0 : 1,
+      values.empty() ? 0.0
+                     : orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)));
+  }
+  std::vector<double> relative;
+  for (const Eigen::Index e : elements)
+  {
+    relative.push_back(left(e) / std::fmax(listOf(e).front(), 1.0));
+  }
+  Eigen::MatrixXd others = left.array().isNaN().select(0.0, left);
+  Eigen::ArrayXi count = (!left.array().isNaN()).cast<int>().colwise().sum();
+  Eigen::ArrayXi single = Eigen::ArrayXi::Zero(count.size());
+  IndexList odd;
+  for (const Eigen::Index n : oddOnes(vectorOf(relative), leftOut))
+  {
+    odd.push_back(elements[static_cast<std::size_t>(n)]);
+    others(odd.back()) = 0.0;
+    ++single[odd.back() / left.rows()];
+  }
+  IndexList groups;
+  std::vector<double> mean;
+  for (Eigen::Index g = 0; g < left.cols(); ++g)
+  {
+    if (count[g] > 0)
+    {
+      groups.push_back(g);
+      mean.push_back(others.col(g).sum() / count[g]);
+    }
+  }
+  std::vector<char> whole(static_cast<std::size_t>(left.cols()), 0);
+  for (const Eigen::Index n :
+    oddOnes(vectorOf(mean), leftOut / static_cast<std::size_t>(left.rows())))
+  {
+    whole[static_cast<std::size_t>(groups[static_cast<std::size_t>(n)])] = 1;
+  }
+  for (const Eigen::Index g : groups)
+  {
+    if (whole[static_cast<std::size_t>(g)] != 0 || WholeFrom * single[g] > count[g])
+    {
+      for (Eigen::Index e = g * left.rows(); e < (g + 1) * left.rows(); ++e)
+      {
+        odd.push_back(e);
+      }
+    }
+  }
+  std::sort(odd.begin(), odd.end());
+  odd.erase(std::unique(odd.begin(), odd.end()), odd.end());
+  return odd;
 }
 
 } // namespace msi

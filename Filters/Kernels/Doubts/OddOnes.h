@@ -14,4 +14,12 @@ using IndexList = std::vector<Eigen::Index>;
 // of all that is left. left: squares, of each, over what noise allows.
 IndexList oddOnes(const Eigen::VectorXd& left, std::size_t leftOut = 0);
 
+// Those of the elements of several groups (channels of samples, pixels of blocks), by what is usual for their kind, and all elements of
+// groups that are odd or of which more than a quarter is.
+//
+// left: as above, a column a group; NaN: there is none. kind: of each element, from 0 on. leftOut: elements.
+// Returns places in `left`, column by column, ascending.
+IndexList oddElements(
+  const Eigen::MatrixXd& left, const Eigen::MatrixXi& kind, std::size_t leftOut = 0);
+
 } // namespace msi

@@ -442,7 +442,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
 }
 
 std::vector<FieldResidual> fieldResiduals(
-  const FieldData& data, const FieldModel& model, const FieldLoop& loop)
+  const FieldData& data, const FieldModel& model, const FieldLoop& loop, bool testToo)
 {
   const AskedSteps asked{ &FieldColumn::stepOf(FieldColumn::gain()) };
   const Eigen::Index K = data.channels();
@@ -452,7 +452,7 @@ std::vector<FieldResidual> fieldResiduals(
     [&](int b)
     {
       const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
-      if (block.fold < 0)
+      if (block.fold < 0 && !testToo)
       {
         return;
       }

@@ -64,8 +64,8 @@ struct FieldResidual
   Eigen::ArrayXd level, gain, residual;
 };
 
-// Block after block, of each its channels; blocks of the test part have no pixels.
+// Block after block, of each its channels; blocks of the test part have no pixels, unless they are asked for.
 std::vector<FieldResidual> fieldResiduals(
-  const FieldData& data, const FieldModel& model, const FieldLoop& loop);
+  const FieldData& data, const FieldModel& model, const FieldLoop& loop, bool testToo = false);
 
 } // namespace msi

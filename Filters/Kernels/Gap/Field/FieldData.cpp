@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace msi
 {
@@ -431,13 +432,32 @@ void addTails(FieldData& data, const Region& region)
 }
 }
 
-void leaveOut(FieldData& data, const std::vector<Eigen::Index>& blocks)
+void leaveOut(FieldData& data, const std::vector<Eigen::Index>& pixels)
 {
-  for (auto b = blocks.rbegin(); b != blocks.rend(); ++b)
+  const auto size = static_cast<Eigen::Index>(data.blocks.front().window.pixels());
+  const std::size_t K = data.pair.channels.size();
+  std::map<Eigen::Index, std::vector<int>> ofBlocks;
+  for (const Eigen::Index pixel : pixels)
   {
-    const auto block = data.blocks.begin() + *b;
-    data.leftOut.push_back(block->window);
-    data.blocks.erase(block);
+    ofBlocks[pixel / size].push_back(static_cast<int>(pixel % size));
+  }
+  for (auto entry = ofBlocks.rbegin(); entry != ofBlocks.rend(); ++entry)
+  {
+    const auto block = data.blocks.begin() + entry->first;
+    if (static_cast<Eigen::Index>(entry->second.size()) == size)
+    {
+      data.leftOut.push_back(block->window);
+      data.blocks.erase(block);
+      continue;
+    }
+    for (const int pixel : entry->second)
+    {
+      const ImagePlace place = block->place(pixel);
+      data.leftOut.push_back({ place.x, place.y, 1, 1 });
+      std::fill_n(
+        block->real.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(pixel) * K), K,
+        std::numeric_limits<float>::quiet_NaN());
+    }
   }
 }
 

@@ -65,7 +65,7 @@ struct FieldData
   std::vector<float> filled; // filledScene()
   Eigen::ArrayXd unit;       // of the real image's channels, K; FieldBlock::real is divided by it
   std::vector<FieldBlock> blocks;
-  std::vector<ImageWindow> leftOut; // blocks
+  std::vector<ImageWindow> leftOut; // blocks, and single pixels of others
   double usablePart = 0.0;          // of the image's pixels
   double defectPart = 0.0;          // of the blocks' values: hot and dead pixels
   SceneCells cells;
@@ -85,8 +85,8 @@ struct FieldData
 // Holds pointers to the images of the pair.
 FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, const FieldLoop& loop);
 
-// Blocks that take no part from here on.
-void leaveOut(FieldData& data, const std::vector<Eigen::Index>& blocks);
+// Pixels, counted block after block, that take no part from here on.
+void leaveOut(FieldData& data, const std::vector<Eigen::Index>& pixels);
 
 // Draws at most `most` blocks and deals them to folds and test, whole groups at a time: what errs in one block (a material whose
 // color is simulated wrongly) errs in its neighbours, too, and may not vouch for itself.

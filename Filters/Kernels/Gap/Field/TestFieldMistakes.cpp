@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace
@@ -49,7 +50,8 @@ TEST(FieldMistakes, ASpotIsNamedAndLeftOut)
   expectFirst(report, "detector_nonlinearity", "level");
   expectParameter(report, "detector_nonlinearity", "exponent", 0.93, 0.003);
   EXPECT_TRUE(says(report, "Odd? "));
-  EXPECT_TRUE(says(report, "blocks of pixels left out: far from what is found in all others"));
+  EXPECT_TRUE(
+    says(report, "% of the pixels looked at left out: far from what is found in all others"));
   EXPECT_TRUE(says(report, "x -0.5")); // the spot's middle is at -0.54, -0.13
 }
 
@@ -61,7 +63,35 @@ TEST(FieldMistakes, ASpotAloneIsTheGap)
   SCOPED_TRACE(describe(report));
   EXPECT_NE(report.verdict, GapVerdict::NoGap);
   EXPECT_NE(report.verdict, GapVerdict::Explained);
-  EXPECT_TRUE(says(report, "blocks of pixels, without which there is no gap: far"));
+  EXPECT_TRUE(says(report, "% of the pixels looked at, without which there is no gap: far"));
+}
+
+// Highlights of some ten pixels all over the image, which the simulation does not have: nearly every third block has one.
+TEST(FieldMistakes, HighlightsEverywhereAreLeftOut)
+{
+  const TestScene scene(66);
+  TestPair pair = changed(scene, 77, [](double u, int, int, int, double) { return exponent(u); });
+  const msi::CounterRandom random(78);
+  for (std::uint64_t n = 0; n < 24; ++n)
+  {
+    const double x = random.uniform(2 * n) * scene.width();
+    const double y = random.uniform(2 * n + 1) * scene.height();
+    for (int j = 0; j < scene.height(); ++j)
+    {
+      for (int i = 0; i < scene.width(); ++i)
+      {
+        if (std::hypot(i - x, j - y) < 2.0)
+        {
+          setPixel(pair, i, j, 0.95F);
+        }
+      }
+    }
+  }
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  expectFirst(report, "detector_nonlinearity", "level");
+  expectParameter(report, "detector_nonlinearity", "exponent", 0.93, 0.004);
+  EXPECT_TRUE(says(report, "% of the pixels looked at left out"));
 }
 
 // One value of 500 is white or black, as in a sensor with hot and dead pixels, now and then two beside each other.

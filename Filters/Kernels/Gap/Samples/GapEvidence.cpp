@@ -2,14 +2,11 @@
 
 #include "Kernels/Doubts/OddOnes.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
-#include <set>
-#include <vector>
+#include <limits>
 
 namespace msi
 {
@@ -96,61 +93,12 @@ IndexList oddElements(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
 {
   // Causes that odd samples have led astray leave more of the others.
-  Eigen::MatrixXd left = data.weight.cwiseProduct(before.cwiseAbs2().cwiseMin(after.cwiseAbs2()));
-  const Eigen::Index channels = data.channels();
-  IndexList elements;
-  std::vector<double> relative; // to what is usual in the channel
-  for (Eigen::Index k = 0; k < channels; ++k)
-  {
-    std::vector<double> values;
-    for (const Eigen::Index i : data.usable)
-    {
-      if (data.measured()(k, i))
-      {
-        elements.push_back(k + channels * i);
-        values.push_back(left(k, i));
-      }
-    }
-    if (!values.empty())
-    {
-      const double usual =
-        std::fmax(orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)), 1.0);
-      std::transform(values.begin(), values.end(), std::back_inserter(relative),
-        [usual](double value) { return value / usual; });
-    }
-  }
-  const auto vectorOf = [](const std::vector<double>& values)
-  {
-    return Eigen::Map<const Eigen::VectorXd>(
-      values.data(), static_cast<Eigen::Index>(values.size()));
-  };
-  std::vector<Eigen::Index> oddOfSample(static_cast<std::size_t>(data.samples()), 0);
-  IndexList odd;
-  for (const Eigen::Index n : oddOnes(vectorOf(relative), data.leftOut.size()))
-  {
-    odd.push_back(elements[static_cast<std::size_t>(n)]);
-    left(odd.back()) = 0.0;
-    ++oddOfSample[static_cast<std::size_t>(odd.back() / channels)];
-  }
-  std::set<Eigen::Index> samples;
-  for (const Eigen::Index n : oddOnes(left(Eigen::all, data.usable).colwise().mean().transpose(),
-         data.leftOut.size() / static_cast<std::size_t>(channels)))
-  {
-    samples.insert(data.usable[static_cast<std::size_t>(n)]);
-  }
-  for (const Eigen::Index i : data.usable)
-  {
-    if (samples.count(i) > 0 || 4 * oddOfSample[static_cast<std::size_t>(i)] > channels)
-    {
-      for (Eigen::Index k = 0; k < channels; ++k)
-      {
-        odd.push_back(k + channels * i);
-      }
-    }
-  }
-  std::sort(odd.begin(), odd.end());
-  odd.erase(std::unique(odd.begin(), odd.end()), odd.end());
-  return odd;
+  const Eigen::MatrixXd least = before.cwiseAbs2().cwiseMin(after.cwiseAbs2());
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::VectorXi channel = Eigen::VectorXi::LinSpaced(
+    static_cast<int>(data.channels()), 0, static_cast<int>(data.channels()) - 1);
+  return oddElements(data.measured().select(data.weight.cwiseProduct(least), none),
+    channel.replicate(1, data.samples()), data.leftOut.size());
 }
 
 bool inFewSamples(const GapData& data, const Eigen::MatrixXd& change)

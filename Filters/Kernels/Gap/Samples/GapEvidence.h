@@ -36,8 +36,7 @@ double negligibleEnergy(
 double noticed(const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
   const Eigen::MatrixXd& integration);
 
-// oddOnes() by what is left of them with and without the causes found: single elements, by what is usual in their channel, and samples;
-// a sample of which more than a quarter are odd is one. Elements, column by column.
+// oddElements() by what is left of them with and without the causes found, channels of samples.
 IndexList oddElements(
   const GapData& data, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
 

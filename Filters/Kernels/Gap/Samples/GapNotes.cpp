@@ -374,6 +374,7 @@ std::string oddReadingsNote(const GapCapture& capture, const std::vector<OddRead
 {
   const std::vector<std::string> samples = sampleNames(capture);
   std::vector<std::string> names;
+  names.reserve(readings.size());
   for (const OddReading& odd : readings)
   {
     names.push_back(elementName(capture.camera.channels(), samples, odd.channel, odd.sample));

@@ -152,9 +152,11 @@ std::vector<OddReading> leaveOutOddReadings(GapCapture& capture, const GapOption
       {
         if (data.count(k, i) > 1.0)
         {
+          // One step from one rounded reading to another is never odd.
+          const double usual = std::fmax(expected.within(k, i), 0.5 * data.step[k] * data.step[k]);
           repeated.push_back({ k, i });
-          scatter.push_back(data.scatter(k, i) /
-            ((data.count(k, i) - 1.0) * std::fmax(expected.within(k, i), 1e-14)));
+          scatter.push_back(
+            data.scatter(k, i) / ((data.count(k, i) - 1.0) * std::fmax(usual, 1e-14)));
         }
       }
     }

@@ -1,9 +1,11 @@
 #include "Kernels/Gap/Samples/GapNoise.h"
 #include "Kernels/Gap/Samples/GapTestData.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <random>
@@ -158,6 +160,31 @@ TEST(GapNoise, RoundingIsExpected)
   };
   EXPECT_NEAR(expected(msi::CameraNoise{ 0.001, 0.0 }), seen, 0.15 * seen);
   EXPECT_NEAR(expected(std::nullopt), seen, 0.4 * seen);
+}
+
+// Of three readings, of which the capture keeps two; nothing where readings only jump by the step to which they are rounded, or
+// where all exposures differ.
+TEST(GapNoise, OnlyFewReadingsAreOdd)
+{
+  msi::GapCapture capture = captureOf(rasterSamples(96), {}, 3, 0.0002);
+  msi::GapCapture rounded = capture;
+  rounded.readings = (capture.readings / 0.0047).array().round() * 0.0047;
+  EXPECT_TRUE(msi::leaveOutOddReadings(rounded, {}).empty());
+  msi::GapCapture flickering = capture;
+  const msi::CounterRandom random(9);
+  for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
+  {
+    flickering.readings.col(j) *=
+      1.0 + 0.03 * (random.uniform(static_cast<std::uint64_t>(j)) - 0.5);
+  }
+  EXPECT_TRUE(msi::leaveOutOddReadings(flickering, {}).empty());
+  capture.readings(4, 3 * 20 + 1) = 1.0;
+  capture.readings(2, 3 * 50 + 2) = 0.0;
+  const std::vector<msi::OddReading> odd = msi::leaveOutOddReadings(capture, {});
+  ASSERT_EQ(odd.size(), 2U);
+  EXPECT_TRUE(std::isnan(capture.readings(4, 3 * 20 + 1)));
+  EXPECT_TRUE(std::isnan(capture.readings(2, 3 * 50 + 2)));
+  EXPECT_EQ(capture.readings.array().isNaN().count(), 2);
 }
 
 TEST(GapNoise, RepeatsGiveTheNoiseWhereNoModelIsGiven)

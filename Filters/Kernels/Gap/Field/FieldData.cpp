@@ -2,14 +2,12 @@
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Doubts/PairSums.h"
-#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace msi
 {
@@ -312,90 +310,6 @@ void findBlocks(FieldData& data, const std::vector<Region>& regions, int size)
   data.usablePart = usable / std::fmax(looked, 1.0);
 }
 
-// The gap of a pixel of a block, beside that of its neighbours.
-struct LonePixel
-{
-  float* real;
-  double difference; // to their median
-  bool outside;      // of their range, by more than that
-};
-
-std::vector<LonePixel> lonePixels(FieldData& data, std::size_t channel)
-{
-  const FieldPair& pair = data.pair;
-  const std::size_t K = pair.channels.size();
-  const double unit = data.unit[static_cast<Eigen::Index>(channel)];
-  const auto gap = [&](int x, int y)
-  {
-    const std::size_t value = pair.index(x, y) * K + channel;
-    return static_cast<double>(pair.real[value]) / unit - static_cast<double>(data.scene()[value]);
-  };
-  std::vector<LonePixel> pixels;
-  for (FieldBlock& block : data.blocks)
-  {
-    for (int i = 0; i < static_cast<int>(block.window.pixels()); ++i)
-    {
-      float& real = block.real[static_cast<std::size_t>(i) * K + channel];
-      const ImagePlace place = block.place(i);
-      const ImageWindow near = grown({ place.x, place.y, 1, 1 }, 1, pair.extent);
-      std::vector<double> others;
-      for (int y = near.y; y < near.y + near.height; ++y)
-      {
-        for (int x = near.x; x < near.x + near.width; ++x)
-        {
-          const double value = gap(x, y);
-          if (std::isfinite(value) && (x != place.x || y != place.y))
-          {
-            others.push_back(value);
-          }
-        }
-      }
-      if (std::isfinite(real) && others.size() > 2)
-      {
-        std::sort(others.begin(), others.end());
-        const double own = gap(place.x, place.y);
-        const double middle = others[others.size() / 2];
-        // But for one each, which may be defect, too.
-        const double low = others[1];
-        const double high = others[others.size() - 2];
-        pixels.push_back({ &real, std::fabs(own - middle),
-          own > high + (high - low) || own < low - (high - low) });
-      }
-    }
-  }
-  return pixels;
-}
-
-// Hot and dead pixels; returns which part of all they are. Until no others stand out, as large ones hide small ones.
-double leaveOutDefects(FieldData& data)
-{
-  double all = 0.0;
-  double defect = 0.0;
-  for (std::size_t k = 0; k < data.pair.channels.size(); ++k)
-  {
-    std::vector<LonePixel> pixels = lonePixels(data, k);
-    all += static_cast<double>(pixels.size());
-    for (bool more = true; more;)
-    {
-      double energy = 0.0;
-      for (const LonePixel& pixel : pixels)
-      {
-        energy += pixel.difference * pixel.difference;
-      }
-      const double limit =
-        Decision::OutlierDeviations * std::sqrt(energy / static_cast<double>(pixels.size()));
-      const auto defects = std::partition(pixels.begin(), pixels.end(),
-        [limit](const LonePixel& pixel) { return !pixel.outside || pixel.difference <= limit; });
-      more = defects != pixels.end();
-      defect += static_cast<double>(pixels.end() - defects);
-      std::for_each(defects, pixels.end(),
-        [](const LonePixel& pixel) { *pixel.real = std::numeric_limits<float>::quiet_NaN(); });
-      pixels.erase(defects, pixels.end());
-    }
-  }
-  return defect / std::fmax(all, 1.0);
-}
-
 void addTails(FieldData& data, const Region& region)
 {
   const std::size_t K = data.pair.channels.size();
@@ -430,35 +344,6 @@ void addTails(FieldData& data, const Region& region)
     }
   }
 }
-}
-
-void leaveOut(FieldData& data, const std::vector<Eigen::Index>& pixels)
-{
-  const auto size = static_cast<Eigen::Index>(data.blocks.front().window.pixels());
-  const std::size_t K = data.pair.channels.size();
-  std::map<Eigen::Index, std::vector<int>> ofBlocks;
-  for (const Eigen::Index pixel : pixels)
-  {
-    ofBlocks[pixel / size].push_back(static_cast<int>(pixel % size));
-  }
-  for (auto entry = ofBlocks.rbegin(); entry != ofBlocks.rend(); ++entry)
-  {
-    const auto block = data.blocks.begin() + entry->first;
-    if (static_cast<Eigen::Index>(entry->second.size()) == size)
-    {
-      data.leftOut.push_back(block->window);
-      data.blocks.erase(block);
-      continue;
-    }
-    for (const int pixel : entry->second)
-    {
-      const ImagePlace place = block->place(pixel);
-      data.leftOut.push_back({ place.x, place.y, 1, 1 });
-      std::fill_n(
-        block->real.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(pixel) * K), K,
-        std::numeric_limits<float>::quiet_NaN());
-    }
-  }
 }
 
 FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, const FieldLoop& loop)
@@ -496,7 +381,6 @@ FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, cons
   data.cells = SceneCells(data.pair);
   loop(static_cast<int>(data.blocks.size()),
     [&](int i) { readBlock(data, data.blocks[static_cast<std::size_t>(i)]); });
-  data.defectPart = leaveOutDefects(data);
   loop(static_cast<int>(regions.size()),
     [&](int i) { addTails(data, regions[static_cast<std::size_t>(i)]); });
   return data;

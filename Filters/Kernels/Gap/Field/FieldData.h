@@ -67,7 +67,7 @@ struct FieldData
   std::vector<FieldBlock> blocks;
   std::vector<ImageWindow> leftOut; // blocks, and single pixels of others
   double usablePart = 0.0;          // of the image's pixels
-  double defectPart = 0.0;          // of the blocks' values: hot and dead pixels
+  double defectPart = 0.0;          // of the blocks' values: leaveOutDefects()
   SceneCells cells;
 
   Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
@@ -76,17 +76,13 @@ struct FieldData
 };
 
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and
-// that lies a little inside the image; but no values that stand out in the real image alone, from all of their neighbours, as those of
-// hot and dead pixels do. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.
+// that lies a little inside the image. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels.
 // Two thirds are for training, in FieldFolds folds, whole groups (dealBlocks) in one of them.
 // The tail needs the surround: images of more than 2 million pixels are looked at in nine windows of at most
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.
 // Errors: std::invalid_argument for an empty image, no channel, or too few usable pixels.
 // Holds pointers to the images of the pair.
 FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, const FieldLoop& loop);
-
-// Pixels, counted block after block, that take no part from here on.
-void leaveOut(FieldData& data, const std::vector<Eigen::Index>& pixels);
 
 // Draws at most `most` blocks and deals them to folds and test, whole groups at a time: what errs in one block (a material whose
 // color is simulated wrongly) errs in its neighbours, too, and may not vouch for itself.

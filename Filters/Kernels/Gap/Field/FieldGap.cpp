@@ -5,6 +5,7 @@
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldObservation.h"
+#include "Kernels/Gap/Field/FieldOddPixels.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/Shrink.h"
@@ -223,38 +224,6 @@ std::string mixUpOf(const FieldPair& pair)
     rasterOf(pair, pair.simulated, width, height), arrangements, pair.channels);
 }
 
-// Which pixels, one of those that lie near each other, from the first on.
-std::string oddPixelsNote(const FieldData& data, const std::string& consequence)
-{
-  constexpr std::size_t MostPlaces = 3;
-  constexpr double NearPixels = 64.0;
-  std::vector<Eigen::Vector2d> places;
-  std::string text;
-  std::size_t left = 0;
-  for (const ImageWindow& window : data.leftOut)
-  {
-    left += window.pixels();
-    const Eigen::Vector2d place = middleOf(data.pair, window);
-    const bool named = std::any_of(places.begin(), places.end(),
-      [&](const Eigen::Vector2d& other) { return (place - other).norm() < NearPixels; });
-    if (!named && places.size() < MostPlaces)
-    {
-      places.push_back(place);
-      text +=
-        textOf(2, text.empty() ? "" : "; ", "x ", data.pair.fieldX(window.x + 0.5 * window.width),
-          ", y ", data.pair.fieldY(window.y + 0.5 * window.height));
-    }
-  }
-  std::size_t all = left;
-  for (const FieldBlock& block : data.blocks)
-  {
-    all += block.window.pixels();
-  }
-  return textOf(2, "Odd? ", 100.0 * static_cast<double>(left) / static_cast<double>(all),
-    " % of the pixels looked at", consequence, ": far from what is found in all others. Look near ",
-    text, " of the field for dust, glare, a shadow or something that moved.");
-}
-
 std::vector<std::string> notesOn(
   const FieldData& data, const FieldFinding& finding, const std::vector<FieldChoice>& choices)
 {
@@ -353,73 +322,6 @@ std::vector<std::string> notesOn(
   return notes;
 }
 
-// By how steep the simulated image is there: pixels of one kind are as many as those of another, pixels x blocks.
-Eigen::MatrixXi kindsOfPixels(const FieldData& data)
-{
-  constexpr Eigen::Index Kinds = 8;
-  const auto rows = static_cast<Eigen::Index>(data.blocks.front().window.pixels());
-  const auto K = static_cast<Eigen::Index>(data.channels());
-  Eigen::ArrayXXd slope(rows, static_cast<Eigen::Index>(data.blocks.size()));
-  const ImageExtent& extent = data.pair.extent;
-  const auto scene = [&](int x, int y)
-  {
-    const auto pixel =
-      data.pair.index(std::clamp(x, 0, extent.width - 1), std::clamp(y, 0, extent.height - 1));
-    return Eigen::Map<const Eigen::ArrayXf>(data.scene() + pixel * static_cast<std::size_t>(K), K);
-  };
-  for (Eigen::Index b = 0; b < slope.cols(); ++b)
-  {
-    for (Eigen::Index p = 0; p < rows; ++p)
-    {
-      const auto [x, y] = data.blocks[static_cast<std::size_t>(b)].place(static_cast<int>(p));
-      slope(p, b) = static_cast<double>((
-        (scene(x + 1, y) - scene(x - 1, y)).square() + (scene(x, y + 1) - scene(x, y - 1)).square())
-                                          .sum());
-    }
-  }
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(slope.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index(0));
-  std::stable_sort(order.begin(), order.end(),
-    [&slope](Eigen::Index a, Eigen::Index b) { return slope(a) < slope(b); });
-  Eigen::MatrixXi kind(slope.rows(), slope.cols());
-  for (std::size_t n = 0; n < order.size(); ++n)
-  {
-    kind(order[n]) = static_cast<int>(Kinds * static_cast<Eigen::Index>(n) / slope.size());
-  }
-  return kind;
-}
-
-// oddElements() by what is left of them with and without the effects found, mean over the channels.
-IndexList oddPixels(const FieldData& data, const FieldFinding& finding, const FieldLoop& loop)
-{
-  const std::vector<FieldResidual> before =
-    fieldResiduals(data, finding.before().model, loop, true);
-  const std::vector<FieldResidual> after = fieldResiduals(data, finding.after().model, loop, true);
-  const auto rows = static_cast<Eigen::Index>(data.blocks.front().window.pixels());
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(data.blocks.size()));
-  Eigen::MatrixXd count = sum;
-  for (std::size_t i = 0; i < before.size(); ++i)
-  {
-    const std::size_t block = i / data.pair.channels.size();
-    const CameraNoise& noise = finding.weights.noise[i % data.pair.channels.size()];
-    for (Eigen::Index n = 0; n < before[i].residual.size(); ++n)
-    {
-      const Eigen::Index pixel = before[i].pixel[static_cast<std::size_t>(n)];
-      const double left =
-        std::fmin(std::fabs(before[i].residual[n]), std::fabs(after[i].residual[n]));
-      sum(pixel, static_cast<Eigen::Index>(block)) +=
-        left * left / noiseVariance(noise, after[i].level[n]);
-      count(pixel, static_cast<Eigen::Index>(block)) += 1.0;
-    }
-  }
-  std::size_t leftOut = 0;
-  for (const ImageWindow& window : data.leftOut)
-  {
-    leftOut += window.pixels();
-  }
-  return oddElements(sum.cwiseQuotient(count), kindsOfPixels(data), leftOut); // 0 / 0: none
-}
-
 // odd: the pixels that are, counted block after block; unchanged where it was stopped. unlessOdd: where some are goes no further than to find them.
 std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldChoice>& choices,
   const Eigen::MatrixXd& start, const GapOptions& options, const FieldLoop& loop, IndexList& odd,
@@ -444,7 +346,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
   {
     return std::nullopt;
   }
-  odd = oddPixels(data, finding, loop);
+  odd = oddPixels(data, finding.weights, finding.before().model, finding.after().model, loop);
   if (unlessOdd && !odd.empty())
   {
     return std::nullopt;
@@ -507,6 +409,7 @@ std::optional<FieldGap> diagnoseField(const FramelessPair& pair, const GapOption
     return std::nullopt;
   }
   FieldData data = prepareFieldData(pair, options.seed, loop);
+  leaveOutDefects(data);
   const Eigen::MatrixXd start = registrationStart(data.pair, loop);
   return diagnoseWithoutOdd(
     [&](IndexList& odd, bool unlessOdd)

@@ -20,9 +20,11 @@ int main(int argc, char** argv)
     { "second", writeSecondCases },
     { "images", writeImageCases },
     { "developed", writeDevelopedImageCases },
+    { "spotted", writeSpottedImageCases },
 #ifdef MULTISPECTRAL_HAS_FORMATS
     { "raw", writeRawCases },
     { "linearised", writeLinearisedCases },
+    { "careless", writeCarelessCases },
     { "ridge", writeRidgeCases },
     { "chart", writeChartCases },
 #endif

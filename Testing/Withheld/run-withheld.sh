@@ -1,13 +1,14 @@
 #!/bin/sh
 # Judges the diagnosis on cases whose effects it is not told: run-withheld.sh [small|full] [SEED] [SETS] [ENGINE]
-#   SETS    of "bench second cameras curved next images developed scenes raw linearised ridge chart", default all: a virtual
+#   SETS    of "bench second cameras curved next images developed spotted scenes raw linearised careless ridge chart", default all: a virtual
 #           bench; a second generator that shares nothing with the first; a third one, in Python, with cameras of 3 to 30
 #           channels and other lamps; such cameras with curved detectors, fitted as linear; those of "cameras" for which a next
 #           capture is recommended, together with that capture (the column "open" has them without); image pairs; the same with
-#           noise that neighbours share and noise in the simulated image; others, in Python, of 3 to 12 channels; effects planted
-#           in real measurements: as they are, after every channel was made linear, with the camera fitted by ridge regression,
-#           and of a filter-wheel camera. cameras, curved, raw, linearised, ridge and chart need MULTISPECTRAL_DATA, next needs
-#           cameras, scenes has photographs where it is set
+#           noise that neighbours share and noise in the simulated image, and with hot pixels and highlights; others, in Python,
+#           of 3 to 12 channels; effects planted in real measurements: as they are, after every channel was made linear, these
+#           with rounded and with wrong readings, with the camera fitted by ridge regression, and of a filter-wheel camera.
+#           cameras, curved, raw, linearised, careless, ridge and chart need MULTISPECTRAL_DATA, next needs cameras, scenes has
+#           photographs where it is set
 #   ENGINE  a diagnosis known to Diagnose/Engines.cpp, default "present"
 # Builds what it needs, writes the cases and, apart, their keys, diagnoses without the keys, prints all sets side by side.
 # THREADS=2: cases at a time. RESUME=1 goes on with the results of a run that was stopped, made by the same version.
@@ -15,7 +16,7 @@ set -eu
 
 size=${1:-small}
 seed=${2:-2026}
-sets=${3:-bench second cameras curved next images developed scenes raw linearised ridge chart}
+sets=${3:-bench second cameras curved next images developed spotted scenes raw linearised careless ridge chart}
 engine=${4:-present}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build="$root/build/withheld"

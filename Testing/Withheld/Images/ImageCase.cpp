@@ -82,8 +82,34 @@ const std::vector<std::string>& axesOfImage(const std::string& effect)
   return known.at(effect);
 }
 
+// One value of 500 from a hot or dead pixel, and thirty highlights of some fifteen pixels.
+void addSpots(ImagePair& pair, Random& random)
+{
+  for (float& value : pair.real)
+  {
+    const double which = withheld::uniform(random, 0.0, 1.0);
+    value = which < 0.001 ? 0.0F : which > 0.999 ? 1.0F : value;
+  }
+  for (int n = 0; n < 30; ++n)
+  {
+    const double x = withheld::uniform(random, 0.0, pair.width);
+    const double y = withheld::uniform(random, 0.0, pair.height);
+    for (std::size_t i = 0; i < pair.real.size(); ++i)
+    {
+      const int pixel = static_cast<int>(i) / pair.channels;
+      if (std::hypot(pixel % pair.width - x, pixel / pair.width - y) < 2.2)
+      {
+        pair.real[i] = std::max(pair.real[i], 0.95F);
+      }
+    }
+  }
+}
+
+// What happens to a pair once it is captured; may be null.
+using Spoil = void (*)(ImagePair&, Random&);
+
 void writeCase(
-  CaseWriter& writer, bool developed, const Request& request, std::uint64_t seed, std::string* name)
+  CaseWriter& writer, Spoil spoil, const Request& request, std::uint64_t seed, std::string* name)
 {
   Random random(seed);
   const ImageScene scene(
@@ -158,9 +184,9 @@ void writeCase(
         simulated[k][i] * color[static_cast<std::size_t>(label % 64) * truth.size() + k]));
     }
   }
-  if (developed)
+  if (spoil != nullptr)
   {
-    addNoiseOfDevelopment(pair, random);
+    spoil(pair, random);
   }
   const std::string made = writer.add(pair, key);
   if (name != nullptr)
@@ -169,10 +195,10 @@ void writeCase(
   }
 }
 
-void writeCases(CaseWriter& writer, bool developed, bool full, std::uint64_t seed)
+void writeCases(CaseWriter& writer, Spoil spoil, bool full, std::uint64_t seed)
 {
   const auto write = [&](const Request& request, std::uint64_t own, std::string* name)
-  { writeCase(writer, developed, request, own, name); };
+  { writeCase(writer, spoil, request, own, name); };
   Random random(seed * 15485863 + 11);
   for (const std::string& name : imageFaultNames())
   {
@@ -210,12 +236,17 @@ void writeCases(CaseWriter& writer, bool developed, bool full, std::uint64_t see
 
 void writeImageCases(CaseWriter& writer, bool full, std::uint64_t seed)
 {
-  writeCases(writer, false, full, seed);
+  writeCases(writer, nullptr, full, seed);
 }
 
 void writeDevelopedImageCases(CaseWriter& writer, bool full, std::uint64_t seed)
 {
-  writeCases(writer, true, full, seed);
+  writeCases(writer, addNoiseOfDevelopment, full, seed);
+}
+
+void writeSpottedImageCases(CaseWriter& writer, bool full, std::uint64_t seed)
+{
+  writeCases(writer, addSpots, full, seed);
 }
 
 } // namespace withheld

@@ -12,5 +12,7 @@ namespace withheld
 void writeImageCases(CaseWriter& writer, bool full, std::uint64_t seed);
 // The same pairs with noise of developed images: neighbours of the real one share it, and the simulated one has noise of its own.
 void writeDevelopedImageCases(CaseWriter& writer, bool full, std::uint64_t seed);
+// The same pairs with hot and dead pixels and with highlights that are not simulated.
+void writeSpottedImageCases(CaseWriter& writer, bool full, std::uint64_t seed);
 
 } // namespace withheld

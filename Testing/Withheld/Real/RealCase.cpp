@@ -52,7 +52,17 @@ double rms(const Eigen::MatrixXd& gap)
   return std::sqrt(gap.squaredNorm() / static_cast<double>(gap.size()));
 }
 
-std::string write(CaseWriter& writer, Source source, const Request& request, std::uint64_t seed)
+void spoil(Eigen::MatrixXd& reading, Random& random)
+{
+  for (double& u : reading.reshaped())
+  {
+    const double which = uniform(random, 0.0, 1.0);
+    u = which < 0.002 ? 0.0 : which > 0.998 ? 1.0 : std::round(u * 200.0) / 200.0;
+  }
+}
+
+std::string write(
+  CaseWriter& writer, Source source, bool careless, const Request& request, std::uint64_t seed)
 {
   Random random(seed);
   const auto needs = [&request](std::initializer_list<const char*> names)
@@ -144,6 +154,13 @@ std::string write(CaseWriter& writer, Source source, const Request& request, std
       }
     }
   }
+  for (Eigen::MatrixXd& reading : readings)
+  {
+    if (careless)
+    {
+      spoil(reading, random);
+    }
+  }
   capture.repeats = static_cast<int>(readings.size());
   capture.cameraWavelengths = real.cameraWavelengths;
   for (Eigen::Index w = 0; w < real.camera.cols(); ++w)
@@ -165,7 +182,8 @@ std::string write(CaseWriter& writer, Source source, const Request& request, std
   return writer.add(capture, key);
 }
 
-void writeCases(CaseWriter& writer, Source source, bool full, std::uint64_t seed)
+void writeCases(
+  CaseWriter& writer, Source source, bool full, std::uint64_t seed, bool careless = false)
 {
   if (!haveRealSamples())
   {
@@ -184,24 +202,25 @@ void writeCases(CaseWriter& writer, Source source, bool full, std::uint64_t seed
     for (int n = 0; n < (full ? 2 : 1); ++n)
     {
       const std::uint64_t own = random();
-      const std::string twin = write(writer, source, { "single", { name }, "", "", "" }, own);
+      const std::string twin =
+        write(writer, source, careless, { "single", { name }, "", "", "" }, own);
       if (full && n == 0)
       {
-        write(writer, source, { "removed", { name }, "", name, twin }, own);
+        write(writer, source, careless, { "removed", { name }, "", name, twin }, own);
       }
     }
   }
   for (int n = 0; n < (full ? 16 : 3); ++n)
   {
-    write(writer, source, { "several", someOf(random, names, 2), "", "", "" }, random());
+    write(writer, source, careless, { "several", someOf(random, names, 2), "", "", "" }, random());
   }
   for (int n = 0; n < (full ? 8 : 2); ++n)
   {
-    write(writer, source, { "clean", {}, "", "", "" }, random());
+    write(writer, source, careless, { "clean", {}, "", "", "" }, random());
   }
   for (std::size_t n = 0; n < (full ? 10 : 2); ++n)
   {
-    write(writer, source,
+    write(writer, source, careless,
       { "stranger", {}, realStrangerNames()[n % realStrangerNames().size()], "", "" }, random());
   }
 }
@@ -215,6 +234,11 @@ void writeRawCases(CaseWriter& writer, bool full, std::uint64_t seed)
 void writeLinearisedCases(CaseWriter& writer, bool full, std::uint64_t seed)
 {
   writeCases(writer, Source::Linearised, full, seed);
+}
+
+void writeCarelessCases(CaseWriter& writer, bool full, std::uint64_t seed)
+{
+  writeCases(writer, Source::Linearised, full, seed, true);
 }
 
 void writeRidgeCases(CaseWriter& writer, bool full, std::uint64_t seed)

@@ -150,18 +150,25 @@ void noteScene(std::vector<std::string>& notes, const GapData& data, const Scene
   }
 }
 
-void noteSamples(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
+// Those of which nothing is left.
+std::set<Eigen::Index> samplesLeftOut(const GapData& data)
 {
-  const auto usable = static_cast<Eigen::Index>(data.usable.size());
-  std::set<Eigen::Index> leftOut; // samples
+  std::set<Eigen::Index> samples;
   for (const Eigen::Index element : data.leftOut)
   {
     if (!data.anyMeasured(element / data.channels()))
     {
-      leftOut.insert(element / data.channels());
+      samples.insert(element / data.channels());
     }
   }
-  const Eigen::Index unusable = data.samples() - usable - static_cast<Eigen::Index>(leftOut.size());
+  return samples;
+}
+
+void noteSamples(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
+{
+  const auto usable = static_cast<Eigen::Index>(data.usable.size());
+  const Eigen::Index unusable =
+    data.samples() - usable - static_cast<Eigen::Index>(samplesLeftOut(data).size());
   if (unusable > 0)
   {
     notes.push_back(textOf(3, unusable, " of ", data.samples(),
@@ -343,17 +350,17 @@ std::string elementName(const std::vector<std::string>& channels,
 std::string oddElementsNote(const GapData& data, const std::string& consequence)
 {
   std::vector<std::string> samples, values;
+  for (const Eigen::Index sample : samplesLeftOut(data))
+  {
+    samples.push_back(data.names[static_cast<std::size_t>(sample)]);
+  }
   for (const Eigen::Index element : data.leftOut)
   {
-    const Eigen::Index channel = element % data.channels();
     const Eigen::Index sample = element / data.channels();
     if (data.anyMeasured(sample))
     {
-      values.push_back(elementName(data.camera.channels(), data.names, channel, sample));
-    }
-    else if (channel == 0)
-    {
-      samples.push_back(data.names[static_cast<std::size_t>(sample)]);
+      values.push_back(
+        elementName(data.camera.channels(), data.names, element % data.channels(), sample));
     }
   }
   std::string text = "Odd? ";

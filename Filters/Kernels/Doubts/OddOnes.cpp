@@ -16,63 +16,63 @@ constexpr std::size_t Few = 3;
 constexpr std::size_t OneIn = 8; // at the most
 constexpr double MuchOfLeft = 0.25;
 constexpr Eigen::Index WholeFrom = 4; // more than 1 / this of a group
-
-Eigen::VectorXd vectorOf(const std::vector<double>& values)
-{
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
 }
 
-IndexList oddOnes(const Eigen::VectorXd& left, std::size_t leftOut)
+IndexList oddOnes(const std::vector<double>& left, std::size_t leftOut)
 {
-  const double usual = std::fmax(orderStatistic(left, left.size() / 2), 1.0);
-  const double far = std::fmax(Far * Far * usual, BesideLargest * left.maxCoeff());
+  if (left.empty())
+  {
+    return {};
+  }
+  const double usual =
+    std::fmax(orderStatistic(left, static_cast<std::ptrdiff_t>(left.size() / 2)), 1.0);
+  const double far =
+    std::fmax(Far * Far * usual, BesideLargest * *std::max_element(left.begin(), left.end()));
   IndexList odd;
   double ofOdd = 0.0;
-  for (Eigen::Index n = 0; n < left.size(); ++n)
+  double all = 0.0;
+  for (std::size_t n = 0; n < left.size(); ++n)
   {
+    all += left[n];
     if (left[n] > far)
     {
-      odd.push_back(n);
+      odd.push_back(static_cast<Eigen::Index>(n));
       ofOdd += left[n];
     }
   }
-  const std::size_t all = leftOut + static_cast<std::size_t>(left.size());
-  const bool few = leftOut + odd.size() <= std::max(Few, all / OneIn);
-  return few && ofOdd > MuchOfLeft * left.sum() ? odd : IndexList{};
+  const bool few = leftOut + odd.size() <= std::max(Few, (leftOut + left.size()) / OneIn);
+  return few && ofOdd > MuchOfLeft * all ? odd : IndexList{};
 }
 
 IndexList oddElements(const Eigen::MatrixXd& left, const Eigen::MatrixXi& kind, std::size_t leftOut)
 {
-  std::vector<std::vector<double>> ofKind(static_cast<std::size_t>(kind.maxCoeff()) + 1);
-  const auto listOf = [&](Eigen::Index element) -> std::vector<double>&
-  { return ofKind[static_cast<std::size_t>(kind(element))]; };
   IndexList elements;
+  std::vector<std::vector<double>> ofKind(static_cast<std::size_t>(kind.maxCoeff()) + 1);
   for (Eigen::Index e = 0; e < left.size(); ++e)
   {
     if (!std::isnan(left(e)))
     {
       elements.push_back(e);
-      listOf(e).push_back(left(e));
+      ofKind[static_cast<std::size_t>(kind(e))].push_back(left(e));
     }
   }
-  for (std::vector<double>& values : ofKind)
+  std::vector<double> usual;
+  for (const std::vector<double>& values : ofKind)
   {
-    // Only what is usual from here on.
-    values.assign(values.empty() ? 0 : 1,
-      values.empty() ? 0.0
-                     : orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)));
+    usual.push_back(values.empty()
+        ? 1.0
+        : std::fmax(orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)), 1.0));
   }
   std::vector<double> relative;
   for (const Eigen::Index e : elements)
   {
-    relative.push_back(left(e) / std::fmax(listOf(e).front(), 1.0));
+    relative.push_back(left(e) / usual[static_cast<std::size_t>(kind(e))]);
   }
   Eigen::MatrixXd others = left.array().isNaN().select(0.0, left);
   Eigen::ArrayXi count = (!left.array().isNaN()).cast<int>().colwise().sum();
   Eigen::ArrayXi single = Eigen::ArrayXi::Zero(count.size());
   IndexList odd;
-  for (const Eigen::Index n : oddOnes(vectorOf(relative), leftOut))
+  for (const Eigen::Index n : oddOnes(relative, leftOut))
   {
     odd.push_back(elements[static_cast<std::size_t>(n)]);
     others(odd.back()) = 0.0;
@@ -89,8 +89,7 @@ IndexList oddElements(const Eigen::MatrixXd& left, const Eigen::MatrixXi& kind, 
     }
   }
   std::vector<char> whole(static_cast<std::size_t>(left.cols()), 0);
-  for (const Eigen::Index n :
-    oddOnes(vectorOf(mean), leftOut / static_cast<std::size_t>(left.rows())))
+  for (const Eigen::Index n : oddOnes(mean, leftOut / static_cast<std::size_t>(left.rows())))
   {
     whole[static_cast<std::size_t>(groups[static_cast<std::size_t>(n)])] = 1;
   }

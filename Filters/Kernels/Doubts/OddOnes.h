@@ -12,7 +12,7 @@ using IndexList = std::vector<Eigen::Index>;
 
 // Numbers of those that are few, with those left out before, and far beyond most others in what is left of them, which is much
 // of all that is left. left: squares, of each, over what noise allows.
-IndexList oddOnes(const Eigen::VectorXd& left, std::size_t leftOut = 0);
+IndexList oddOnes(const std::vector<double>& left, std::size_t leftOut = 0);
 
 // Those of the elements of several groups (channels of samples, pixels of blocks), by what is usual for their kind, and all elements of
 // groups that are odd or of which more than a quarter is.

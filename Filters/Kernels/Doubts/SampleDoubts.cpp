@@ -70,7 +70,7 @@ std::string oddQuestion(
   Eigen::VectorXd squares = (left.array().colwise() / deviation).square().colwise().mean();
   squares /= std::fmax(median(squares), LeastDeviation * LeastDeviation);
   std::vector<std::string> odd;
-  for (const Eigen::Index i : oddOnes(squares))
+  for (const Eigen::Index i : oddOnes({ squares.begin(), squares.end() }))
   {
     odd.push_back(samples.names[static_cast<std::size_t>(i)]);
   }

@@ -154,12 +154,10 @@ std::string write(
       }
     }
   }
-  for (Eigen::MatrixXd& reading : readings)
+  if (careless)
   {
-    if (careless)
-    {
-      spoil(reading, random);
-    }
+    std::for_each(readings.begin(), readings.end(),
+      [&random](Eigen::MatrixXd& reading) { spoil(reading, random); });
   }
   capture.repeats = static_cast<int>(readings.size());
   capture.cameraWavelengths = real.cameraWavelengths;

@@ -246,8 +246,7 @@ std::vector<std::string> notesOn(
   {
     notes.push_back(textOf(2, "in the real image ", 100.0 * data.defectPart,
       " % of the values looked at stand out from all of their neighbours, as those of hot and dead "
-      "pixels "
-      "do, and take no part"));
+      "pixels do, and take no part"));
   }
   if ((finding.weights.sceneNoise > 0.0).any())
   {
@@ -322,7 +321,8 @@ std::vector<std::string> notesOn(
   return notes;
 }
 
-// odd: the pixels that are, counted block after block; unchanged where it was stopped. unlessOdd: where some are goes no further than to find them.
+// odd: the pixels that are, counted block after block; unchanged where it was stopped. unlessOdd: where some are goes no further than
+// to find them.
 std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldChoice>& choices,
   const Eigen::MatrixXd& start, const GapOptions& options, const FieldLoop& loop, IndexList& odd,
   bool unlessOdd)

@@ -150,7 +150,7 @@ Eigen::MatrixXi kindsOfPixels(const FieldData& data)
 {
   constexpr Eigen::Index Kinds = 8;
   const auto rows = static_cast<Eigen::Index>(data.blocks.front().window.pixels());
-  const auto K = static_cast<Eigen::Index>(data.channels());
+  const Eigen::Index K = data.channels();
   Eigen::ArrayXXd slope(rows, static_cast<Eigen::Index>(data.blocks.size()));
   const ImageExtent& extent = data.pair.extent;
   const auto scene = [&](int x, int y)

@@ -32,12 +32,23 @@ bool isInSpot(int x, int y)
   return std::hypot(x - 40.0, y - 60.0) < 7.0;
 }
 
-void setPixel(TestPair& pair, int x, int y, float value)
+// Where inside(x, y), in all channels of the real image.
+template <typename Inside>
+void paint(TestPair& pair, const TestScene& scene, const Inside& inside, float value)
 {
   const std::size_t channels = pair.channels.size();
-  const auto first =
-    pair.real.begin() + static_cast<std::ptrdiff_t>(pair.pair().index(x, y) * channels);
-  std::fill_n(first, channels, value);
+  for (int y = 0; y < scene.height(); ++y)
+  {
+    for (int x = 0; x < scene.width(); ++x)
+    {
+      if (inside(x, y))
+      {
+        std::fill_n(
+          pair.real.begin() + static_cast<std::ptrdiff_t>(pair.pair().index(x, y) * channels),
+          channels, value);
+      }
+    }
+  }
 }
 }
 
@@ -76,16 +87,8 @@ TEST(FieldMistakes, HighlightsEverywhereAreLeftOut)
   {
     const double x = random.uniform(2 * n) * scene.width();
     const double y = random.uniform(2 * n + 1) * scene.height();
-    for (int j = 0; j < scene.height(); ++j)
-    {
-      for (int i = 0; i < scene.width(); ++i)
-      {
-        if (std::hypot(i - x, j - y) < 2.0)
-        {
-          setPixel(pair, i, j, 0.95F);
-        }
-      }
-    }
+    paint(
+      pair, scene, [&](int i, int j) { return std::hypot(i - x, j - y) < 2.0; }, 0.95F);
   }
   const GapReport report = diagnose(pair);
   SCOPED_TRACE(describe(report));
@@ -121,16 +124,8 @@ TEST(FieldMistakes, AFrameOfZerosTakesNoPart)
 {
   const TestScene scene(63);
   TestPair pair = changed(scene, 73, [](double u, int, int, int, double) { return exponent(u); });
-  for (int y = 0; y < scene.height(); ++y)
-  {
-    for (int x = 0; x < scene.width(); ++x)
-    {
-      if (x < 18 || y >= scene.height() - 12)
-      {
-        setPixel(pair, x, y, 0.0F);
-      }
-    }
-  }
+  paint(
+    pair, scene, [&](int x, int y) { return x < 18 || y >= scene.height() - 12; }, 0.0F);
   const GapReport report = diagnose(pair);
   SCOPED_TRACE(describe(report));
   expectFirst(report, "detector_nonlinearity", "level");

@@ -160,11 +160,7 @@ std::vector<OddReading> leaveOutOddReadings(GapCapture& capture, const GapOption
         }
       }
     }
-    const IndexList odd = repeated.empty()
-      ? IndexList()
-      : oddOnes(Eigen::Map<const Eigen::VectorXd>(
-                  scatter.data(), static_cast<Eigen::Index>(scatter.size())),
-          all.size());
+    const IndexList odd = oddOnes(scatter, all.size());
     if (odd.empty())
     {
       return all;

@@ -57,6 +57,7 @@ IndexList oddElements(const Eigen::MatrixXd& left, const Eigen::MatrixXi& kind, 
     }
   }
   std::vector<double> usual;
+  usual.reserve(ofKind.size());
   for (const std::vector<double>& values : ofKind)
   {
     usual.push_back(values.empty()
@@ -64,6 +65,7 @@ IndexList oddElements(const Eigen::MatrixXd& left, const Eigen::MatrixXi& kind, 
         : std::fmax(orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)), 1.0));
   }
   std::vector<double> relative;
+  relative.reserve(elements.size());
   for (const Eigen::Index e : elements)
   {
     relative.push_back(left(e) / usual[static_cast<std::size_t>(kind(e))]);

@@ -41,17 +41,16 @@ def own_sources(root, build):
     return found
 
 
-def headers_of_objects(root, build):
-    """For each object file the project's own headers that it was built from."""
-    listing = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True,
-                             check=True).stdout
+def headers_of_objects(root, build, listing):
+    """For each object file the project's own files that it was built from, out of ninja's listing; ccache makes paths relative to the build."""
     headers = {}
     current = None
     for line in listing.splitlines():
+        path = os.path.normpath(os.path.join(build, line.strip()))
         if line and not line.startswith((" ", "ninja:")):
             current = headers.setdefault(line.split(":")[0], [])
-        elif current is not None and line.strip().startswith(root + os.sep):
-            current.append(line.strip())
+        elif current is not None and path.startswith(root + os.sep):
+            current.append(path)
     return headers
 
 
@@ -84,7 +83,8 @@ def main():
     version = subprocess.run([tool, "--version"], capture_output=True, check=True).stdout
     with open(os.path.join(root, ".clang-tidy"), "rb") as file:
         configuration = version + " ".join(arguments).encode() + file.read()
-    headers = headers_of_objects(root, build)
+    listing = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True, check=True).stdout
+    headers = headers_of_objects(root, build, listing)
     memory = os.path.join(build, "tidy" if arguments is ARGUMENTS else "analyzer")
     os.makedirs(memory, exist_ok=True)
     stamps = {path: os.path.join(memory, key_of(root, entry, headers, configuration))

@@ -7,6 +7,7 @@ import unittest
 
 import check_documentation
 import check_includes
+import check_tidy
 
 
 class Tree(unittest.TestCase):
@@ -101,6 +102,21 @@ class Pages(Tree):
     def test_texts_of_the_proxy_itself_are_required(self):
         self.assertIn("WhiteLevel", self.faults(PAGE, PROXY.replace("<Documentation>z</Documentation>", ""))[0])
         self.assertIn("label", self.faults(PAGE, PROXY.replace(' label="White Level"', ' label="white"'))[0])
+
+
+class Tidy(unittest.TestCase):
+    def test_a_source_is_due_after_any_change_of_what_it_is_built_from(self):
+        """Also where ccache has written the paths relative to the build."""
+        listing = """CMakeFiles/Kernels.dir/unity_0.cxx.o: #deps 3, deps mtime 1 (VALID)
+    ../test/Unity/unity_0.cxx
+    ../../Filters/Kernels/Gap/Gap.cpp
+    /project/Filters/Kernels/Gap/Gap.h
+    /usr/include/c++/12/vector
+"""
+        self.assertEqual(check_tidy.headers_of_objects("/project", "/project/build/test", listing),
+                         {"CMakeFiles/Kernels.dir/unity_0.cxx.o": ["/project/build/test/Unity/unity_0.cxx",
+                                                                   "/project/Filters/Kernels/Gap/Gap.cpp",
+                                                                   "/project/Filters/Kernels/Gap/Gap.h"]})
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ constexpr double Outlier = 6.0;        // deviations of the usual one
 constexpr double Dead = 0.01;      // variance over that of the others, each over what is simulated
 constexpr double SamePlace = 1e-3; // squared distance
 constexpr std::size_t PairsNamed = 3;
+constexpr Eigen::Index FewestCopied = 4; // values that are the same
 
 double leftOf(const std::vector<PairSums>& channels)
 {
@@ -52,11 +53,11 @@ std::string deadChannel(
   return {};
 }
 
-// Two that are each other's best match.
 using Pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
 // Empty without pairs.
-std::string exchanged(std::string text, const Pairs& pairs, const std::vector<std::string>& names)
+std::string told(
+  std::string text, const Pairs& pairs, const std::vector<std::string>& names, const char* what)
 {
   if (pairs.empty())
   {
@@ -67,8 +68,36 @@ std::string exchanged(std::string text, const Pairs& pairs, const std::vector<st
     text += (p == 0 ? " " : ", ") + names[static_cast<std::size_t>(pairs[p].first)] + " and " +
       names[static_cast<std::size_t>(pairs[p].second)];
   }
-  return text + (pairs.size() > PairsNamed ? " and others" : "") +
-    " fit much better when they are exchanged.";
+  return text + (pairs.size() > PairsNamed ? " and others" : "") + what;
+}
+
+// Each other's best match.
+std::string exchanged(const char* text, const Pairs& pairs, const std::vector<std::string>& names)
+{
+  return told(text, pairs, names, " fit much better when they are exchanged.");
+}
+
+// Channels that have the same values where they should not.
+std::string copiedChannels(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+  const std::vector<std::string>& names)
+{
+  Pairs pairs;
+  for (Eigen::Index a = 0; a < observed.rows(); ++a)
+  {
+    for (Eigen::Index b = a + 1; b < observed.rows(); ++b)
+    {
+      const Eigen::ArrayXd apart = observed.row(a) - observed.row(b);
+      const bool same = (apart.isNaN() || apart == 0.0).all();
+      const auto both = (!apart.isNaN()).count();
+      if (same && both >= FewestCopied && !sumsOf(observed.row(a), simulated.row(a)).isFlat() &&
+        simulated.row(a) != simulated.row(b))
+      {
+        pairs.emplace_back(a, b);
+      }
+    }
+  }
+  return told("Twice? Channels", pairs, names,
+    " have the same values: was the same file or column taken for both?");
 }
 
 std::string exchangedChannels(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
@@ -250,6 +279,10 @@ std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simula
   const std::vector<std::string>& columns)
 {
   std::string found = deadChannel(sumsOfChannels(observed, simulated), channels);
+  if (found.empty())
+  {
+    found = copiedChannels(observed, simulated, channels);
+  }
   if (found.empty())
   {
     found = betterThanTold(observed, simulated, arrangements, channels, columns);

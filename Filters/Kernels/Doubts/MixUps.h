@@ -1,5 +1,5 @@
 // Readings that seem to belong to other samples, places or channels than they are said to: a chart the other way round, filters in
-// another order. And a channel that does not work.
+// another order. And channels that do not work, or are there twice.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ std::vector<Arrangement> arrangementsOf(
 // places are at least 0.04 apart.
 std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);
 
-// In words, which channel is dead, else what fits much better than as told: a quarter of the squares left, after a gain of each
+// In words, which channel is dead, else which have the same values, else what fits much better than as told: a quarter of the squares left, after a gain of each
 // channel. Empty: nothing.
 // observed, simulated: K x S, NaN: not measured. channels, columns: K and S names; without columns no single ones are looked at.
 std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,

@@ -113,6 +113,23 @@ TEST_F(MixUps, ADeadChannel)
            "nothing before it?" });
 }
 
+TEST_F(MixUps, AChannelThatIsThereTwice)
+{
+  Observed.row(3) = Observed.row(1);
+  Observed(1, 20) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(found(),
+    Texts{ "Twice? Channels B and D have the same values: was the same file or column taken for "
+           "both?" });
+}
+
+// A camera whose channels differ by nothing, before grey samples.
+TEST_F(MixUps, ChannelsThatShouldBeTheSameAreNoCopies)
+{
+  Simulated.row(3) = Simulated.row(1);
+  Observed.row(3) = Observed.row(1);
+  EXPECT_EQ(found(), Texts());
+}
+
 // A flat field has nothing to go together with.
 TEST_F(MixUps, AFlatFieldHasNone)
 {

@@ -146,6 +146,13 @@ TEST_F(SampleDoubts, ExchangedChannels)
     (Texts{ "medium: Mixed up? Channels B and E fit much better when they are exchanged." }));
 }
 
+TEST_F(SampleDoubts, AChannelThatIsThereTwice)
+{
+  Medium.set.response.row(1) = Medium.set.response.row(4);
+  ASSERT_EQ(ofBoth().size(), 1u);
+  EXPECT_EQ(ofBoth().front().find("medium: Twice? Channels B and E have the same values"), 0u);
+}
+
 TEST_F(SampleDoubts, AnotherExposureOrDark)
 {
   const msi::SampleSet right = Medium.set;

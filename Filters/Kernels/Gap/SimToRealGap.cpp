@@ -349,23 +349,28 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   GapCapture good = capture;
   const std::vector<OddReading> oddReadings = leaveOutOddReadings(good, options);
   IndexList leftOut;
+  std::string mixedUp;
   std::optional<TableDiagnosis> last;
   const auto diagnose = [&](IndexList& odd, bool unlessOdd)
   {
     leftOut.insert(leftOut.end(), odd.begin(), odd.end());
     std::sort(leftOut.begin(), leftOut.end());
     last.emplace(good, options, leftOut);
+    mixedUp = leftOut.empty() ? mixUpOf(last->data()) : mixedUp;
     std::optional<GapReport> report = last->run(unlessOdd);
     odd = last->odd();
     return report;
   };
   std::optional<GapReport> report = diagnoseWithoutOdd(
     diagnose, [](GapReport& one) -> GapReport& { return one; },
-    [&] { return !mixUpOf(last->data()).empty(); },
     [&] { return oddElementsNote(last->data(), ", without which there is no gap"); });
   if (report && !oddReadings.empty())
   {
     report->notes.insert(report->notes.begin(), oddReadingsNote(good, oddReadings));
+  }
+  if (report && !mixedUp.empty())
+  {
+    report->notes.insert(report->notes.begin(), mixedUp);
   }
   return report;
 }

@@ -707,6 +707,22 @@ TEST(DegenerateCapture, AnOddSampleIsNamedAndLeftOut)
   EXPECT_TRUE(report.gapAfter.col(5).array().isNaN().all());
 }
 
+// Two labels exchanged: the rest is diagnosed all the same.
+TEST(DegenerateCapture, ExchangedSamplesAreNamedAndLeftOut)
+{
+  msi::GapCapture capture = captureWith({ { "detector_nonlinearity", "gamma", "", { 0.95 } } });
+  for (int& sample : capture.sampleOf)
+  {
+    sample = sample == 5 ? 40 : sample == 40 ? 5 : sample;
+  }
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "Mixed up? Samples sample 6 and sample 41 fit much better"));
+  EXPECT_TRUE(says(report.notes, "Odd? sample 6 and sample 41 (2 of 96 samples) left out"));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "detector_nonlinearity");
+}
+
 // One of two readings of a sample, nothing in one channel, made a scatter of many times the noise.
 TEST(DegenerateCapture, AnOddReadingIsNamedAndLeftOut)
 {

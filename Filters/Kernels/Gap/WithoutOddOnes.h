@@ -11,20 +11,24 @@
 namespace msi
 {
 
-// Where something unknown is more likely than not, the diagnosis is done again without those that are odd, until none are; that
-// counts where it makes something unknown half as likely.
+// Where the gap is not explained, the diagnosis is done again without those that are odd, until none are; that counts where the odds
+// of something unknown fall to less than half.
 //   diagnose(odd, unlessOdd): without `odd`, too, which is then what is odd after it. With unlessOdd its result is empty where some
 //   are. Where it was stopped both are empty.
-//   reportOf(result): its report. mixedUp(): whether all is in disorder.
+//   reportOf(result): its report.
 //   note(): what is said of all that are left out, where without them there is no gap.
-template <typename Diagnose, typename ReportOf, typename MixedUp, typename Note>
-auto diagnoseWithoutOdd(const Diagnose& diagnose, const ReportOf& reportOf, const MixedUp& mixedUp,
-  const Note& note) -> decltype(diagnose(std::declval<IndexList&>(), false))
+template <typename Diagnose, typename ReportOf, typename Note>
+auto diagnoseWithoutOdd(const Diagnose& diagnose, const ReportOf& reportOf, const Note& note)
+  -> decltype(diagnose(std::declval<IndexList&>(), false))
 {
   IndexList odd;
   auto all = diagnose(odd, false);
-  const auto unknown = [&](auto& result) { return reportOf(*result).probabilityOf("unknown"); };
-  if (!all || odd.empty() || unknown(all) <= 0.5 || mixedUp())
+  const auto odds = [&](auto& result) // of something unknown
+  {
+    const double unknown = reportOf(*result).probabilityOf("unknown");
+    return unknown / (1.0 - unknown);
+  };
+  if (!all || odd.empty() || reportOf(*all).verdict <= GapVerdict::Explained)
   {
     return all;
   }
@@ -43,7 +47,7 @@ auto diagnoseWithoutOdd(const Diagnose& diagnose, const ReportOf& reportOf, cons
     notes.insert(notes.begin(), note());
     return all;
   }
-  return unknown(others) < 0.5 * unknown(all) ? std::move(others) : std::move(all);
+  return odds(others) < 0.5 * odds(all) ? std::move(others) : std::move(all);
 }
 
 } // namespace msi

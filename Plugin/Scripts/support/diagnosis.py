@@ -133,8 +133,8 @@ def print_summary(gap):
 
 
 def mistakes(gap):
-    """Notes on what seems to be wrong with the capture itself: look at these first."""
-    return [row["note"] for row in gap.records("notes") if row["note"].startswith(("Mixed up?", "Dead?", "Odd?", "Noise?"))]
+    """Notes on what seems to be wrong with the capture itself, which begin with a question: look at these first."""
+    return [row["note"] for row in gap.records("notes") if re.match(r"[A-Z][a-z ]*\?", row["note"])]
 
 
 def next_capture(figures, gap):

@@ -418,7 +418,6 @@ std::optional<FieldGap> diagnoseField(const FramelessPair& pair, const GapOption
       return diagnose(data, choices, start, options, loop, odd, unlessOdd);
     },
     [](FieldGap& gap) -> GapReport& { return gap.report; },
-    [&] { return !mixUpOf(data.pair).empty(); },
     [&] { return oddPixelsNote(data, ", without which there is no gap"); });
 }
 

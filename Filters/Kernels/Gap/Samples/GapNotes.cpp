@@ -395,10 +395,6 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   const NoiseFinding& noise, double reflectanceNoise, const GapReport& report)
 {
   std::vector<std::string> notes;
-  if (std::string mixedUp = mixUpOf(data); !mixedUp.empty())
-  {
-    notes.push_back(std::move(mixedUp));
-  }
   if (!data.leftOut.empty())
   {
     notes.push_back(oddElementsNote(data, " left out"));

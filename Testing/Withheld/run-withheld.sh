@@ -6,7 +6,7 @@
 #           capture is recommended, together with that capture (the column "open" has them without); image pairs; the same with
 #           noise that neighbours share and noise in the simulated image, and with hot pixels and highlights; others, in Python,
 #           of 3 to 12 channels; effects planted in real measurements: as they are, after every channel was made linear, these
-#           with rounded and with wrong readings, with the camera fitted by ridge regression, and of a filter-wheel camera.
+#           with rounded and with wrong readings and labels, with the camera fitted by ridge regression, and of a filter-wheel camera.
 #           cameras, curved, raw, linearised, careless, ridge and chart need MULTISPECTRAL_DATA, next needs cameras, scenes has
 #           photographs where it is set
 #   ENGINE  a diagnosis known to Diagnose/Engines.cpp, default "present"

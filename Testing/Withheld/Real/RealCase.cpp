@@ -156,8 +156,14 @@ std::string write(
   }
   if (careless)
   {
-    std::for_each(readings.begin(), readings.end(),
-      [&random](Eigen::MatrixXd& reading) { spoil(reading, random); });
+    const int last = static_cast<int>(S) - 1;
+    const int first = integer(random, 0, last);
+    const int second = integer(random, 0, last);
+    for (Eigen::MatrixXd& reading : readings)
+    {
+      spoil(reading, random);
+      reading.col(first).swap(reading.col(second)); // labels exchanged
+    }
   }
   capture.repeats = static_cast<int>(readings.size());
   capture.cameraWavelengths = real.cameraWavelengths;

@@ -14,7 +14,7 @@ namespace withheld
 void writeRawCases(CaseWriter& writer, bool full, std::uint64_t seed);
 void writeLinearisedCases(CaseWriter& writer, bool full, std::uint64_t seed);
 void writeRidgeCases(CaseWriter& writer, bool full, std::uint64_t seed);
-// The linear ones again, rounded to 1/200 of white, and one reading of 250 nothing or full scale.
+// The linear ones again, rounded to 1/200 of white, one reading of 250 nothing or full scale, and two labels exchanged.
 void writeCarelessCases(CaseWriter& writer, bool full, std::uint64_t seed);
 // filterwheel-cc24: 24 patches through 7 filters; the camera is light x filter as measured, scaled on half of the patches.
 void writeChartCases(CaseWriter& writer, bool full, std::uint64_t seed);

@@ -46,11 +46,12 @@ def headers_of_objects(root, build, listing):
     headers = {}
     current = None
     for line in listing.splitlines():
-        path = os.path.normpath(os.path.join(build, line.strip()))
-        if line and not line.startswith((" ", "ninja:")):
+        if line.startswith(" ") and current is not None:
+            path = os.path.normpath(os.path.join(build, line.strip()))
+            if path.startswith(root + os.sep):
+                current.append(path)
+        elif line and not line.startswith("ninja:"):
             current = headers.setdefault(line.split(":")[0], [])
-        elif current is not None and path.startswith(root + os.sep):
-            current.append(path)
     return headers
 
 

@@ -112,11 +112,16 @@ class Tidy(unittest.TestCase):
     ../../Filters/Kernels/Gap/Gap.cpp
     /project/Filters/Kernels/Gap/Gap.h
     /usr/include/c++/12/vector
+
+Plugin/moc.cxx.o: #deps 1, deps mtime 1 (VALID)
+    Plugin/moc.cxx
+
 """
         self.assertEqual(check_tidy.headers_of_objects("/project", "/project/build/test", listing),
                          {"CMakeFiles/Kernels.dir/unity_0.cxx.o": ["/project/build/test/Unity/unity_0.cxx",
                                                                    "/project/Filters/Kernels/Gap/Gap.cpp",
-                                                                   "/project/Filters/Kernels/Gap/Gap.h"]})
+                                                                   "/project/Filters/Kernels/Gap/Gap.h"],
+                          "Plugin/moc.cxx.o": ["/project/build/test/Plugin/moc.cxx"]})
 
 
 if __name__ == "__main__":

@@ -145,12 +145,12 @@ TEST_F(NoGap, IsBesideTwoExchangedSamples)
 {
   exchangeTwoSamples();
   Gap->Update();
-  auto* summary = output(vtkSimToRealGap::SUMMARY);
-  EXPECT_EQ(textCell(summary, 0, "verdict"), "unexplained");
-  const std::string where = textCell(summary, 0, "unexplained_where");
-  EXPECT_TRUE(where == "sample s3" || where == "sample s18") << where;
-  EXPECT_EQ(texts(vtkSimToRealGap::NOTES, "note")
-              .count("Mixed up? Samples s3 and s18 fit much better when they are exchanged."),
+  const std::set<std::string> notes = texts(vtkSimToRealGap::NOTES, "note");
+  EXPECT_EQ(
+    notes.count("Mixed up? Samples s3 and s18 fit much better when they are exchanged."), 1u);
+  EXPECT_EQ(
+    notes.count("Odd? s3 and s18 (2 of 40 samples), without which there is no gap: far from "
+                "what is found in all others. Look at label, patch and readings."),
     1u);
 }
 

@@ -763,6 +763,7 @@ TEST(DegenerateCapture, OddSamplesAloneAreTheGap)
   const msi::GapReport report = diagnosisOf(capture);
   EXPECT_EQ(report.verdict, GapVerdict::Unexplained);
   EXPECT_TRUE(report.causes.empty());
+  EXPECT_EQ(report.unexplained.where, "sample 21");
   EXPECT_TRUE(says(report.notes,
     "Odd? sample 6 and sample 21 (2 of 96 samples), without which there is no gap: far"));
 }

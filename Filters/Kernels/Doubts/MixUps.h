@@ -23,8 +23,8 @@ std::vector<Arrangement> arrangementsOf(
 // places are at least 0.04 apart.
 std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);
 
-// In words, which channel is dead, else which have the same values, else what fits much better than as told: a quarter of the squares left, after a gain of each
-// channel. Empty: nothing.
+// In words, which channel is dead, else which have the same values, else what fits much better than as told: a quarter of the
+// squares left, after a gain of each channel. Empty: nothing.
 // observed, simulated: K x S, NaN: not measured. channels, columns: K and S names; without columns no single ones are looked at.
 std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,

@@ -10,8 +10,8 @@
  * Output: the table with the responses as columns C400 or C1, .. in place of those it had, metadata kept, Repeats
  * times; or the image with the array "Responses".
  *
- * Pieces: an image is asked for in the extent wanted, with the margin that misregistration, defocus and local stray
- * light reach; whole where veiling glare needs the scene's mean. The same bytes for any number of threads and pieces.
+ * Pieces: an image is asked for in the extent wanted, with the margin that distortion, misregistration, defocus
+ * and local stray light reach; whole where veiling glare needs the scene's mean. The same bytes for any number of threads and pieces.
  */
 #ifndef vtkCameraSimulator_h
 #define vtkCameraSimulator_h

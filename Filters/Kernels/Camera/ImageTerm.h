@@ -1,6 +1,7 @@
 // What an effect does to a model of image pairs: its numbers, its step, and which of the numbers a form of it sets.
 #pragma once
 
+#include "Kernels/Camera/Imaging/ImageDisplacement.h"
 #include "Kernels/Camera/Imaging/ImageWindow.h"
 
 #include <cstddef>
@@ -88,13 +89,6 @@ enum class ImageStage
   Detector
 };
 
-struct ImageDisplacement
-{
-  double right, down; // pixels
-  double magnification;
-  double rotation; // degrees, right towards down
-};
-
 // One step of the model: the numbers of an effect, or of effects that share them. `numbers` are those of one channel.
 struct ImageStep
 {
@@ -107,8 +101,9 @@ struct ImageStep
   std::vector<unsigned> further = {};
   // Derivative by number n in terms of those that apply() gave at `numbers`, where the numbers are `about`. null: its own.
   void (*change)(int n, const double* numbers, const double* about, double* derivatives) = nullptr;
-  // Of the stages Scene and Surround: how the scene is moved, its variance of blur (pixels^2), weights of the passes of its surround.
-  ImageDisplacement (*displacement)(const double* numbers) = nullptr;
+  // Of the stages Scene and Surround: how the scene is moved (the numbers are then the parameters of the library's form, in its order),
+  // its variance of blur (pixels^2), weights of the passes of its surround.
+  void (*displace)(const double* numbers, ImageDisplacement& displacement) = nullptr;
   double (*blurVariance)(const double* numbers) = nullptr;
   void (*tail)(const double* numbers, double* weights) = nullptr;
 

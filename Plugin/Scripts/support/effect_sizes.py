@@ -121,6 +121,14 @@ def _displacement(_form, p):
     return ", ".join(parts) or "less than 0.01 pixels"
 
 
+def _distortion(_form, p):
+    at_the_end = {name: p.get(name, [0.0])[0] for name in ("radial", "keystone_right", "keystone_down", "aspect", "shear")}
+    radial, tilts = at_the_end.pop("radial"), list(at_the_end.values())
+    parts = [f"{'pincushion' if radial > 0 else 'barrel'}, {_percent(radial)} at the end of the longer side"] if radial else []
+    parts += [f"the view is tilted, up to {_percent(max(tilts, key=abs))} at the end of the longer side"] if any(tilts) else []
+    return "; ".join(parts)
+
+
 def _banding(form, p):
     across = "column to column" if form.startswith("column") else "row to row"
     white = " of white" if form.endswith("offsets") else ""
@@ -153,6 +161,7 @@ WORDS = {
                                  if len(p["offset"]) == 1 else _channels([100 * v for v in p["offset"]], "% of white")),
     "saturation": lambda f, p: f"responses end at {_percent(p['level'][0])} of white",
     "excess_noise": _noise,
+    "distortion": _distortion,
     "misregistration": _displacement,
     "defocus": lambda f, p: (f"a blur of {max(p['blur']):.2g} pixels (standard deviation)" if len(p["blur"]) == 1 else
                              f"a blur of {min(p['blur']):.2g} to {max(p['blur']):.2g} pixels (standard deviation), by channel"),

@@ -21,8 +21,8 @@ NEXT = {
               "simulation. Diagnose the patches as a table (samples.csv and responses.csv in the capture), which covers the effects of "
               "light and filters.",
     "region": "The remaining gap lies in single regions: look for reflections, shadows and dirt there on the map.",
-    "edges": "The remaining gap lies along edges, as with distortion or a point spread that is not round. Register the images first, or "
-             "capture a grid target through each filter.",
+    "edges": "The remaining gap lies along edges, as with a point spread that is not round, or one that changes over the field. Capture a "
+             "grid target through each filter.",
     "position": "The remaining gap changes smoothly over the field, but neither as a plane of light nor as a lens's vignetting: capture a "
                 "flat field.",
     "channel": "The remaining gap differs from channel to channel: capture a gray ramp, which separates gains, offsets and the spectrum of "

@@ -29,6 +29,28 @@ ImageFault field(
     } };
 }
 
+// Where the light of a place on the detector comes from: of all channels alike.
+ImageFault moved(
+  const std::string& kind, const std::function<void(double& x, double& y, double size)>& place)
+{
+  return { kind,
+    [place](ImageFaults& f, double size)
+    {
+      for (Place& one : f.moved)
+      {
+        const Place before = one;
+        one = [before, place, size](double& x, double& y)
+        {
+          if (before)
+          {
+            before(x, y);
+          }
+          place(x, y, size);
+        };
+      }
+    } };
+}
+
 std::vector<double> around(Random& random, int count, double spread)
 {
   std::vector<double> values;
@@ -131,6 +153,43 @@ const std::map<std::string, Maker>& makers()
             };
           } };
       } },
+    { "distortion",
+      [](Random& random, int, int width, int height) -> ImageFault
+      {
+        const double middleX = 0.5 * width;
+        const double middleY = 0.5 * height;
+        const double half = std::max(middleX, middleY);
+        if (chance(random, 0.5))
+        {
+          const double s = sign(random);
+          return moved("division model of a lens",
+            [=](double& x, double& y, double size)
+            {
+              const double a = (x - middleX) / half;
+              const double b = (y - middleY) / half;
+              const double division = 1.0 + 0.01 * s * size * (a * a + b * b);
+              x = middleX + half * a / division;
+              y = middleY + half * b / division;
+            });
+        }
+        // The scene's plane leans away from the camera, 3 half widths before it.
+        const double lean = 0.04 * sign(random);
+        const double axis = uniform(random, 0.0, 6.2832);
+        return moved("leaning plane",
+          [=](double& x, double& y, double size)
+          {
+            const double a = (x - middleX) / half;
+            const double b = (y - middleY) / half;
+            const double along = a * std::cos(axis) + b * std::sin(axis);
+            const double across = b * std::cos(axis) - a * std::sin(axis);
+            // The view ray through (along, across, 3) meets the plane.
+            const double scale = 1.0 / (1.0 - along / 3.0 * std::tan(lean * size));
+            const double u = along * scale / std::cos(lean * size);
+            const double v = across * scale;
+            x = middleX + half * (u * std::cos(axis) - v * std::sin(axis));
+            y = middleY + half * (u * std::sin(axis) + v * std::cos(axis));
+          });
+      } },
     { "exposure_gain",
       [](Random& random, int, int, int) -> ImageFault
       {
@@ -196,12 +255,17 @@ const std::map<std::string, Maker>& makers()
               const double sine = std::sin(size * turn[k]) / (1.0 + size * larger[k]);
               const double dx = size * right[k];
               const double dy = size * down[k];
+              const Place distorted = f.moved[k];
               f.moved[k] = [=](double& x, double& y)
               {
                 const double a = x - dx - 0.5 * width;
                 const double b = y - dy - 0.5 * height;
                 x = 0.5 * width + cosine * a + sine * b;
                 y = 0.5 * height - sine * a + cosine * b;
+                if (distorted)
+                {
+                  distorted(x, y);
+                }
               };
             }
           } };
@@ -251,8 +315,8 @@ const std::vector<std::string>& imageFaultNames()
 
 const std::vector<std::string>& imageStrangerNames()
 {
-  static const std::vector<std::string> names{ "barrel distortion", "dust",
-    "wrong colors of patches", "two amplifiers" };
+  static const std::vector<std::string> names{ "dust", "sharpening", "wrong colors of patches",
+    "two amplifiers" };
   return names;
 }
 
@@ -276,22 +340,23 @@ ImageFault drawImageStranger(const std::string& name, Random& random, const Imag
 {
   const int width = scene.width();
   const int height = scene.height();
-  if (name == "barrel distortion")
+  if (name == "sharpening")
   {
     return { name,
-      [=](ImageFaults& f, double size)
+      [](ImageFaults& f, double size)
       {
-        for (Place& moved : f.moved)
+        f.other = [size](Planes& planes, const ImageScene& where)
         {
-          moved = [=](double& x, double& y)
+          for (std::vector<double>& plane : planes)
           {
-            const double a = 2.0 * x / width - 1.0;
-            const double b = 2.0 * y / height - 1.0;
-            const double stretch = 0.015 * size * (a * a + b * b - 0.6);
-            x += 0.5 * width * a * stretch;
-            y += 0.5 * height * b * stretch;
-          };
-        }
+            const std::vector<double> soft =
+              blurred({ where.width(), where.height(), plane }, 1.0 / Fine::Parts).value;
+            for (std::size_t i = 0; i < plane.size(); ++i)
+            {
+              plane[i] += 0.5 * size * (plane[i] - soft[i]);
+            }
+          }
+        };
       } };
   }
   struct Spot

@@ -11,7 +11,6 @@
 namespace msi
 {
 
-class ChannelRegistration;
 class ScatterTail;
 struct SymmetricKernel;
 
@@ -29,11 +28,10 @@ std::unique_ptr<PixelOperator> makePixelOperator(const BoundEffect& effect)
   return std::make_unique<Operator>(effect);
 }
 
-// `step` is what the diagnosis of image pairs does. Of the others at most one is set: the channels are moved, blurred, scattered, get light from elsewhere in the image, then change
-// pixel by pixel.
+// `step` is what the diagnosis of image pairs does, and how the channels are moved. Of the others at most one is set: then they are
+// blurred, scattered, get light from elsewhere in the image, and change pixel by pixel.
 struct ImageFactories
 {
-  ChannelRegistration (*makeRegistration)(const BoundEffect&, const ImageExtent&) = nullptr;
   SymmetricKernel (*makeBlur)(const BoundEffect&) = nullptr;
   ScatterTail (*makeTail)(const BoundEffect&) = nullptr;
   LightFrom lightFrom = nullptr; // times the first parameter of the form

@@ -1,6 +1,5 @@
 // Channels whose images do not lie on one another.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Imaging/ChannelRegistration.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <vector>
@@ -34,25 +33,22 @@ struct MisregistrationOfImage
     return 1.0;
   }
 
-  static ImageDisplacement displacementOf(const double* numbers)
+  static void displace(const double* numbers, ImageDisplacement& displacement)
   {
-    return { numbers[Right], numbers[Down], numbers[Magnification], numbers[Rotation] };
+    displacement.right = numbers[Right];
+    displacement.down = numbers[Down];
+    displacement.magnification = numbers[Magnification];
+    displacement.rotation = numbers[Rotation];
   }
 
   static const ImageStep& step()
   {
     static const ImageStep made{ ImageStage::Scene,
       { { 0.0, ImageAxis::Edges }, { 0.0, ImageAxis::Edges }, {}, {} }, moved, {}, nullptr,
-      displacementOf };
+      displace };
     return made;
   }
 };
-
-ChannelRegistration makeRegistration(const BoundEffect& effect, const ImageExtent& extent)
-{
-  return { effect.perChannel("right"), effect.perChannel("down"),
-    effect.perChannel("magnification"), effect.perChannel("rotation"), extent };
-}
 }
 
 Effect misregistration()
@@ -78,7 +74,6 @@ Effect misregistration()
     { "grid target for each filter" }, EffectTrait::ActsOnEdges,
     { { "per_channel", { right, down } }, { "per_channel", { right, down, magnification } },
       { "per_channel", { right, down, magnification, rotation } } } };
-  effect.onImage.makeRegistration = makeRegistration;
   effect.onImage.step = &MisregistrationOfImage::step();
   return effect;
 }

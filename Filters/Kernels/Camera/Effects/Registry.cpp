@@ -18,7 +18,7 @@ MakeEffect filterBandwidth, filterShift, filterLeak, illuminantDrift;
 MakeEffect illuminationGradient, vignetting, veilingGlare, localStrayLight;
 MakeEffect exposureGain, channelGain, channelCrosstalk, sessionDrift;
 MakeEffect detectorNonlinearity, darkOffset, saturation, unmodelledResponse, excessNoise;
-MakeEffect misregistration, defocus, ghostReflection, lag, banding;
+MakeEffect distortion, misregistration, defocus, ghostReflection, lag, banding;
 
 namespace
 {
@@ -97,7 +97,7 @@ const Library& library()
       { specularComponent, translucency, fluorescence, interreflection, mediumGain, filterBandwidth,
         filterShift, filterLeak, illuminantDrift, illuminationGradient, vignetting, veilingGlare,
         localStrayLight, exposureGain, channelGain, channelCrosstalk, sessionDrift,
-        detectorNonlinearity, darkOffset, saturation, unmodelledResponse, excessNoise,
+        detectorNonlinearity, darkOffset, saturation, unmodelledResponse, excessNoise, distortion,
         misregistration, defocus, ghostReflection, lag, banding })
     {
       made.effects.push_back(make());

@@ -540,23 +540,16 @@ std::vector<ImageWindow> displacementTiles(const ImageExtent& extent)
 ChannelRegistration undoing(
   const std::vector<ChannelDisplacement>& displacements, const ImageExtent& extent)
 {
-  const auto count = static_cast<Eigen::Index>(displacements.size());
-  Eigen::ArrayXd right(count);
-  Eigen::ArrayXd down(count);
-  Eigen::ArrayXd magnification(count);
-  Eigen::ArrayXd rotation(count);
-  for (Eigen::Index k = 0; k < count; ++k)
+  std::vector<ImageDisplacement> back;
+  for (const ChannelDisplacement& d : displacements)
   {
-    const ChannelDisplacement& d = displacements[static_cast<std::size_t>(k)];
     const double scale = 1.0 / (1.0 + d.magnification);
     const double cosine = scale * std::cos(d.rotation * Degree);
     const double sine = scale * std::sin(d.rotation * Degree);
-    right[k] = -(cosine * d.right + sine * d.down);
-    down[k] = -(cosine * d.down - sine * d.right);
-    magnification[k] = scale - 1.0;
-    rotation[k] = -d.rotation;
+    back.push_back({ -(cosine * d.right + sine * d.down), -(cosine * d.down - sine * d.right),
+      scale - 1.0, -d.rotation });
   }
-  return { right, down, magnification, rotation, extent };
+  return { std::move(back), extent };
 }
 
 ShownPixels::ShownPixels(const ChannelDisplacement& d, const ImageExtent& extent) noexcept

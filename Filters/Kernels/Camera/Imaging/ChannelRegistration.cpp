@@ -1,8 +1,6 @@
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
 
 #include "Kernels/Camera/Imaging/WeightedSum.h"
-#include "Kernels/Numerics/Angle.h"
-#include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <array>
@@ -72,30 +70,15 @@ Cubic sourceOf(int position, int extent, double displacement, double magnificati
 }
 }
 
-ChannelRegistration::ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd down,
-  Eigen::ArrayXd magnification, const Eigen::ArrayXd& rotation, const ImageExtent& extent)
-  : Right(std::move(right))
-  , Down(std::move(down))
-  , Magnification(std::move(magnification))
-  , Rotation(rotation * Degree)
+ChannelRegistration::ChannelRegistration(
+  std::vector<ImageDisplacement> displacements, const ImageExtent& extent)
+  : Displacements(std::move(displacements))
   , Extent(extent)
-  , Reach(0)
 {
-  if (Right.size() != Down.size() || Right.size() != Magnification.size() ||
-    Right.size() != Rotation.size())
+  for (const ImageDisplacement& displacement : Displacements)
   {
-    reject("a registration has ", Right.size(), " displacements to the right, ", Down.size(),
-      " down, ", Magnification.size(), " magnifications and ", Rotation.size(),
-      " rotations; expected one of each for every channel");
-  }
-  const double half = 0.5 * std::max(extent.width, extent.height);
-  const double corner = 0.5 * std::hypot(extent.width, extent.height);
-  for (Eigen::Index k = 0; k < Right.size(); ++k)
-  {
-    const double largest = std::max(std::abs(Right[k]), std::abs(Down[k])) +
-      std::abs(Magnification[k]) * half +
-      std::abs(Rotation[k]) * (corner + std::hypot(Right[k], Down[k]));
-    Reach = std::max(Reach, static_cast<int>(std::ceil(largest / (1.0 + Magnification[k]))) + 2);
+    const double farthest = ShownPlace(displacement, extent).farthest();
+    Reach = std::max(Reach, static_cast<int>(std::ceil(farthest)) + 2);
   }
 }
 
@@ -120,13 +103,11 @@ void RegistrationRows::begin(const ChannelRegistration& registration, const Imag
 {
   Window = window;
   Extent = registration.Extent;
-  Right = registration.Right;
-  Down = registration.Down;
-  Magnification = registration.Magnification;
-  Rotation = registration.Rotation;
-  Turned = (Rotation != 0.0).any();
+  Displacements = registration.Displacements;
+  Turned = !std::all_of(Displacements.begin(), Displacements.end(),
+    [](const ImageDisplacement& displacement) { return displacement.alongAxes(); });
   Reach = registration.Reach;
-  Channels = static_cast<std::size_t>(Down.size());
+  Channels = Displacements.size();
   Count = static_cast<std::size_t>(window.width) * Channels;
   Taken = 0;
   Given = 0;
@@ -134,11 +115,11 @@ void RegistrationRows::begin(const ChannelRegistration& registration, const Imag
   Out.resize(Count);
   if (!Turned)
   {
-    beginAlongAxes(registration);
+    beginAlongAxes();
   }
 }
 
-void RegistrationRows::beginAlongAxes(const ChannelRegistration& registration)
+void RegistrationRows::beginAlongAxes()
 {
   const ImageWindow& window = Window;
   std::vector<Cubic> cubics(Count);
@@ -147,10 +128,10 @@ void RegistrationRows::beginAlongAxes(const ChannelRegistration& registration)
   for (int x = 0; x < window.width; ++x)
   {
     Cubic* cubic = cubics.data() + static_cast<std::size_t>(x) * Channels;
-    for (Eigen::Index k = 0; k < Down.size(); ++k)
+    for (std::size_t k = 0; k < Channels; ++k)
     {
-      cubic[k] =
-        sourceOf(window.x + x, Extent.width, registration.Right[k], registration.Magnification[k]);
+      cubic[k] = sourceOf(
+        window.x + x, Extent.width, Displacements[k].right, Displacements[k].magnification);
     }
     const Span span = spanOf(cubic, Channels);
     most = std::max(most, span.last - span.first + 1);
@@ -203,16 +184,14 @@ void RegistrationRows::turnRow(int y)
   const double middleX = 0.5 * (Extent.width - 1);
   const double middleY = 0.5 * (Extent.height - 1);
   const auto channels = static_cast<std::ptrdiff_t>(Channels);
-  for (Eigen::Index k = 0; k < Down.size(); ++k)
+  for (std::ptrdiff_t k = 0; k < channels; ++k)
   {
-    const double cosine = std::cos(Rotation[k]) / (1.0 + Magnification[k]);
-    const double sine = std::sin(Rotation[k]) / (1.0 + Magnification[k]);
-    const double offY = y - middleY - Down[k];
+    const ShownPlace shown(Displacements[static_cast<std::size_t>(k)], Extent);
     for (int i = 0; i < Window.width; ++i)
     {
-      const double offX = Window.x + i - middleX - Right[k];
-      const Cubic across = cubicAt(middleX + cosine * offX + sine * offY);
-      const Cubic down = cubicAt(middleY + cosine * offY - sine * offX);
+      const Eigen::Vector2d place = shown({ Window.x + i - middleX, y - middleY });
+      const Cubic across = cubicAt(middleX + place.x());
+      const Cubic down = cubicAt(middleY + place.y());
       float sum = 0.0F;
       for (int v = 0; v < 4; ++v)
       {
@@ -239,10 +218,10 @@ const float* RegistrationRows::next()
     return Out.data();
   }
   std::vector<Cubic> cubics(Channels);
-  for (Eigen::Index k = 0; k < Down.size(); ++k)
+  for (std::size_t k = 0; k < Channels; ++k)
   {
-    cubics[static_cast<std::size_t>(k)] =
-      sourceOf(Window.y + Given, Extent.height, Down[k], Magnification[k]);
+    cubics[k] = sourceOf(
+      Window.y + Given, Extent.height, Displacements[k].down, Displacements[k].magnification);
   }
   const Span span = spanOf(cubics.data(), Channels);
   const int pixels = span.last - span.first + 1;

@@ -1,6 +1,7 @@
-// Displacement, magnification and rotation of each channel's image.
+// Moves the image of each channel.
 #pragma once
 
+#include "Kernels/Camera/Imaging/ImageDisplacement.h"
 #include "Kernels/Camera/Imaging/ImageWindow.h"
 #include "Kernels/Camera/Imaging/RowRing.h"
 
@@ -33,18 +34,15 @@ Eigen::Array<Number, 4, 1> cubicConvolutionSlope(Number t)
       4 * t - 1 - 3 * t2, 9 * t2 - 10 * t, 1 + 8 * t - 9 * t2, 3 * t2 - 2 * t);
 }
 
-// Turns the image of channel k by rotation_k degrees (from right to down) and magnifies it by 1 + magnification_k, both
-// about the middle of the image, then moves it by (right_k, down_k) pixels.
+// Each pixel of channel k gets the value of its ShownPlace.
 //
 // Interpolation: cubicConvolution(): exact for quadratics, the identity for whole pixels.
-// NaN:    spreads over the pixels that all channels together read; with a rotation over those that its channel reads.
+// NaN:    spreads over the pixels that all channels together read; where one is turned or distorted over those that its channel reads.
 // Edges: the image's edge repeats; near a cut edge of a buffer the result is provisional (see reach()).
-// Errors: std::invalid_argument for arrays of different length.
 class ChannelRegistration
 {
 public:
-  ChannelRegistration(Eigen::ArrayXd right, Eigen::ArrayXd down, Eigen::ArrayXd magnification,
-    const Eigen::ArrayXd& rotation, const ImageExtent& extent);
+  ChannelRegistration(std::vector<ImageDisplacement> displacements, const ImageExtent& extent);
 
   // Pixels around a window that its result depends on.
   int reach() const noexcept { return Reach; }
@@ -55,12 +53,9 @@ public:
 private:
   friend class RegistrationRows;
 
-  Eigen::ArrayXd Right;
-  Eigen::ArrayXd Down;
-  Eigen::ArrayXd Magnification;
-  Eigen::ArrayXd Rotation; // radians
+  std::vector<ImageDisplacement> Displacements;
   ImageExtent Extent;
-  int Reach;
+  int Reach = 0;
 };
 
 // The same of an image that comes row by row: the same bytes, and memory for the rows that are read alone.
@@ -90,7 +85,7 @@ private:
     int offset;
   };
 
-  void beginAlongAxes(const ChannelRegistration& registration);
+  void beginAlongAxes();
   void take(const float* row);
   bool hasNext() const noexcept
   {
@@ -102,11 +97,8 @@ private:
 
   ImageWindow Window;
   ImageExtent Extent;
-  Eigen::ArrayXd Right;
-  Eigen::ArrayXd Down;
-  Eigen::ArrayXd Magnification;
-  Eigen::ArrayXd Rotation;
-  bool Turned = false;
+  std::vector<ImageDisplacement> Displacements;
+  bool Turned = false; // or distorted
   int Reach = 0;
   std::size_t Channels = 0;
   std::size_t Count = 0; // values of a row

@@ -45,6 +45,22 @@ struct SceneView
   }
 };
 
+void displace(
+  const BoundEffect& effect, const ImageStep& step, std::vector<ImageDisplacement>& displacements)
+{
+  const std::vector<EffectParameter>& parameters = effect.form().parameters;
+  const auto K = static_cast<Eigen::Index>(displacements.size());
+  Eigen::MatrixXd numbers(static_cast<Eigen::Index>(parameters.size()), K);
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+  {
+    numbers.row(static_cast<Eigen::Index>(p)) = effect.perChannel(parameters[p].name).matrix();
+  }
+  for (Eigen::Index k = 0; k < K; ++k)
+  {
+    step.displace(numbers.col(k).data(), displacements[static_cast<std::size_t>(k)]);
+  }
+}
+
 Eigen::Map<Eigen::MatrixXf> blockOf(float* values, int rows, int columns)
 {
   return { values, rows, columns };
@@ -85,12 +101,14 @@ struct ImageSimulator::Implementation
     {
       MediumNumber.push_back(Chain.mediumNumber(medium));
     }
+    std::vector<ImageDisplacement> displacements;
     for (const BoundEffect& effect : Chain.active())
     {
       const ImageFactories& make = registered(effect.definition()).onImage;
-      if (make.makeRegistration != nullptr)
+      if (make.step != nullptr && make.step->displace != nullptr)
       {
-        Registration.emplace(make.makeRegistration(effect, extent));
+        displacements.resize(static_cast<std::size_t>(channels()));
+        displace(effect, *make.step, displacements);
       }
       if (make.makeBlur != nullptr)
       {
@@ -109,6 +127,10 @@ struct ImageSimulator::Implementation
       {
         OnPixels.push_back(make.makePixels(effect));
       }
+    }
+    if (!displacements.empty())
+    {
+      Registration.emplace(displacements, extent);
     }
   }
 

@@ -41,12 +41,12 @@ struct ImageWorkspace
 
 // From a reflectance image (N values a pixel) to a response image (K values a pixel), window by window.
 //
-// Order:  that of CameraSimulator; after the irradiance of the single pixels: misregistration, defocus, local
+// Order:  that of CameraSimulator; after the irradiance of the single pixels: distortion, misregistration, defocus, local
 //         stray light, veiling glare, lag, banding; after the detector effects the noise.
 // Pieces: a pixel's bytes depend neither on the window nor on the piece that supplied its surround.
 //         Without neighbourhood effects and noise they are those of cameraResponse() in single precision.
 // Field:  (x, y) run from -1 to 1 over the longer side, from pixel center to pixel center.
-// NaN:    stays in its pixel; with misregistration, defocus or local stray light it spreads over their reach.
+// NaN:    stays in its pixel; with distortion, misregistration, defocus or local stray light it spreads over their reach.
 // Errors: std::invalid_argument from the constructor as EffectChain, for an empty extent, and for
 //         session_drift (it concerns samples captured one after the other); from the calls for a window
 //         outside the image or not covered by what is available, or media that are missing.

@@ -152,9 +152,7 @@ TEST(ChannelRegistration, MovesAQuadraticExactly)
 {
   const auto surface = [](double x, double y)
   { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y; };
-  const msi::ChannelRegistration move(Eigen::Array3d(0.0, 2.0, -0.37),
-    Eigen::Array3d(0.0, -1.0, 1.62), Eigen::Array3d(0.0, 0.0, 0.01), Eigen::Array3d::Zero(),
-    PictureExtent);
+  const msi::ChannelRegistration move({ {}, { 2.0, -1.0 }, { -0.37, 1.62, 0.01 } }, PictureExtent);
   PixelBuffer picture = pictureOf(3, [&](int x, int y, int) { return surface(x, y); });
   const PixelBuffer before = picture;
   PixelBuffer scratch;
@@ -179,8 +177,7 @@ TEST(ChannelRegistration, TurnsAQuadraticAboutTheMiddle)
   { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y + 0.0001 * x * y; };
   constexpr double Degrees = 2.5;
   const double angle = Degrees * 3.141592653589793 / 180.0;
-  const msi::ChannelRegistration turn(Eigen::Array2d(0.0, 0.6), Eigen::Array2d(0.0, -1.3),
-    Eigen::Array2d(0.0, -0.01), Eigen::Array2d(0.0, Degrees), PictureExtent);
+  const msi::ChannelRegistration turn({ {}, { 0.6, -1.3, -0.01, Degrees } }, PictureExtent);
   PixelBuffer picture = pictureOf(2, [&](int x, int y, int) { return surface(x, y); });
   const PixelBuffer before = picture;
   PixelBuffer scratch;
@@ -200,16 +197,32 @@ TEST(ChannelRegistration, TurnsAQuadraticAboutTheMiddle)
   }
 }
 
-TEST(ChannelRegistration, RefusesArraysOfDifferentLength)
+// As the library says: p comes from p - p (radial p^2 + keystone p) - aspect (x, -y) - shear (y, x).
+TEST(ChannelRegistration, DistortsAQuadratic)
 {
-  EXPECT_EQ(messageOf(
-              []
-              {
-                msi::ChannelRegistration move(Eigen::ArrayXd::Zero(3), Eigen::ArrayXd::Zero(2),
-                  Eigen::ArrayXd::Zero(3), Eigen::ArrayXd::Zero(3), PictureExtent);
-              }),
-    "a registration has 3 displacements to the right, 2 down, 3 magnifications and 3 rotations; "
-    "expected one of each for every channel");
+  const auto surface = [](double x, double y)
+  { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y + 0.0001 * x * y; };
+  const msi::ChannelRegistration distort(
+    { {}, { 0.6, 0.0, 0.0, 0.0, 0.02, -0.01, 0.03, 0.015, -0.025 } }, PictureExtent);
+  PixelBuffer picture = pictureOf(2, [&](int x, int y, int) { return surface(x, y); });
+  const PixelBuffer before = picture;
+  PixelBuffer scratch;
+  distort(picture, scratch);
+  for (int y = 10; y < PictureExtent.height - 10; ++y)
+  {
+    for (int x = 10; x < PictureExtent.width - 10; ++x)
+    {
+      ASSERT_EQ(picture.pixel(x, y)[0], before.pixel(x, y)[0]);
+      const double half = std::max(CenterX, CenterY);
+      const double u = (x - CenterX - 0.6) / half;
+      const double v = (y - CenterY) / half;
+      const double growth = 0.02 * (u * u + v * v) - 0.01 * u + 0.03 * v;
+      ASSERT_NEAR(static_cast<double>(picture.pixel(x, y)[1]),
+        surface(CenterX + half * (u - growth * u - 0.015 * u + 0.025 * v),
+          CenterY + half * (v - growth * v + 0.015 * v + 0.025 * u)),
+        2e-5);
+    }
+  }
 }
 
 TEST(SceneMean, IsTheMeanWhateverTheSplit)

@@ -237,21 +237,21 @@ struct Neighbourhood
   }
 };
 
-// By how much the place that a pixel shows differs from its own, as ChannelRegistration: the pixel at p shows
-// R(-rotation) (p - displacement) / (1 + magnification), both from the middle of the image.
+// By how much the scene is moved at a place, and how that changes with the place.
 struct Displacement
 {
   Eigen::Vector2d moved;
-  Eigen::Matrix2d bend; // change with the place
+  Eigen::Matrix2d bend;
 
-  explicit Displacement(const ImageDisplacement& displacement)
-    : moved(displacement.right, displacement.down)
+  Displacement(const ShownPlace& shown, const Eigen::Vector2d& place)
+    : moved(place - shown(place))
   {
-    const double angle = Degree * displacement.rotation;
-    bend << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
-    bend = Eigen::Matrix2d::Identity() - bend / (1.0 + displacement.magnification);
+    for (const Eigen::Index axis : { 0, 1 })
+    {
+      const Eigen::Vector2d step = Eigen::Vector2d::Unit(axis);
+      bend.col(axis) = step - 0.5 * (shown(place + step) - shown(place - step));
+    }
   }
-  Eigen::Vector2d at(const Eigen::Vector2d& place) const { return moved + bend * (place - moved); }
 };
 
 // What happens to the scene before the detector, in one block and channel. Holds references.
@@ -266,8 +266,8 @@ public:
     , Steps(model.steps(ImageStage::Scene, ImageStage::Light, channel, asked))
     , Glare(glare[channel])
     , Middle(middleOf(data.pair, block.window))
-    , Where(model.displacement(channel))
-    , Near(data, block.window, channel, Where.at(Middle), model.blurVariance(channel),
+    , Where(ShownPlace(model.displacement(channel), data.pair.extent), Middle)
+    , Near(data, block.window, channel, Where.moved, model.blurVariance(channel),
         std::any_of(Steps.begin(), Steps.end(),
           [](const ChannelStep& step) { return step.placed->step->stage == ImageStage::Scene; }))
     , TailWeights(model.tailWeights(channel))

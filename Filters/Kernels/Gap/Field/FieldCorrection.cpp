@@ -3,6 +3,7 @@
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldData.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,13 +17,11 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   , Filled(filledScene(pair))
 {
   const auto K = static_cast<Eigen::Index>(pair.channels.size());
-  Eigen::ArrayX4d moved(K, 4);
+  std::vector<ImageDisplacement> displacements;
   Eigen::ArrayXd variance(K);
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    const ImageDisplacement displacement = model.displacement(k);
-    moved.row(k) << displacement.right, displacement.down, displacement.magnification,
-      displacement.rotation;
+    displacements.push_back(model.displacement(k));
     variance[k] = model.blurVariance(k);
     Tail.push_back(model.tailWeights(k));
     for (int pass = Passes; pass < TailPasses; ++pass)
@@ -30,9 +29,11 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
       Passes = Tail.back()[static_cast<std::size_t>(pass)] != 0.0 ? pass + 1 : Passes;
     }
   }
-  if ((moved != 0.0).any())
+  if (std::any_of(imageSteps().begin(), imageSteps().end(),
+        [&model](const PlacedStep& step)
+        { return step.step->displace != nullptr && !model.isNeutral(step); }))
   {
-    Registration.emplace(moved.col(0), moved.col(1), moved.col(2), moved.col(3), pair.extent);
+    Registration.emplace(displacements, pair.extent);
   }
   if ((variance > 0.0).any())
   {

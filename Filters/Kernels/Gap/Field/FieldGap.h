@@ -21,9 +21,9 @@ struct FieldGap
 
 // Empty only where progress() asked to stop.
 //
-// Finds: vignetting, illumination_gradient, veiling_glare, local_stray_light, defocus, misregistration, banding,
-//   ghost_reflection, lag, channel_crosstalk, exposure_gain, channel_gain, dark_offset, detector_nonlinearity, saturation: names, parameters and order of effectLibrary()
-//   and ImageSimulator, so that report.correction runs there.
+// Finds: vignetting, illumination_gradient, veiling_glare, local_stray_light, defocus, distortion, misregistration,
+//   banding, ghost_reflection, lag, channel_crosstalk, exposure_gain, channel_gain, dark_offset, detector_nonlinearity, saturation: names,
+//   parameters and order of effectLibrary() and ImageSimulator, so that report.correction runs there.
 // Method: Documentation/Filters/ImageSimToRealGap.md. Blocks of pixels, two thirds for choosing and fitting
 //   (five folds), one third for the figures (all where no effect is found). Noise from differences of residuals.
 // GapReport::where has the axes channel, level, position, edges, rows, columns, and sample (with labels) or region.

@@ -178,9 +178,9 @@ ImageDisplacement FieldModel::displacement(Eigen::Index channel) const
   ImageDisplacement displacement{};
   for (const PlacedStep& step : imageSteps())
   {
-    if (step.step->displacement != nullptr)
+    if (step.step->displace != nullptr)
     {
-      displacement = step.step->displacement(numbers(step, channel));
+      step.step->displace(numbers(step, channel), displacement);
     }
   }
   return displacement;

@@ -159,7 +159,7 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
     const FieldSet set = joined(base.set, choice);
     GapPreview preview{ option, {}, {} };
     FieldFit fit = fitter.fitFromBestStart(set);
-    if (choice.step().step->displacement != nullptr && !Start.isZero())
+    if (choice.step().step->displace != nullptr && isPerChannel(choice.terms) && !Start.isZero())
     {
       const FieldModel moved = registered(model, choice);
       const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop, stepsOf(set));

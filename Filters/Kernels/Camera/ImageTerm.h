@@ -106,6 +106,8 @@ struct ImageStep
   void (*displace)(const double* numbers, ImageDisplacement& displacement) = nullptr;
   double (*blurVariance)(const double* numbers) = nullptr;
   void (*tail)(const double* numbers, double* weights) = nullptr;
+  // The numbers that move the scene so.
+  void (*place)(const ImageDisplacement& displacement, double* numbers) = nullptr;
 
   std::size_t width() const { return numbers.size() + further.size(); }
 };

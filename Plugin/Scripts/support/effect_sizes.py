@@ -151,7 +151,8 @@ WORDS = {
     "illumination_gradient": _gradient,
     "vignetting": _falloff,
     "veiling_glare": lambda f, p: _of(p["fraction"], "{} of the scene's mean lies over the field"),
-    "local_stray_light": lambda f, p: _of(p["fraction"], "{} of the light falls on the surround"),
+    "local_stray_light": lambda f, p: (_of(p["fraction"], "{} of the light falls on the surround") if p["fraction"][0] >= 0 else
+                                       f"{_percent(p['fraction'][0])} less of the light falls on the surround than is simulated"),
     "exposure_gain": lambda f, p: "all channels " + _brighter(p["gain"][0] - 1.0),
     "channel_gain": lambda f, p: _relative([v - 1.0 for v in p["gain"]], _brighter),
     "channel_crosstalk": _crosstalk,

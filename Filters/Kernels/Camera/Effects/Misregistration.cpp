@@ -35,17 +35,25 @@ struct MisregistrationOfImage
 
   static void displace(const double* numbers, ImageDisplacement& displacement)
   {
-    displacement.right = numbers[Right];
-    displacement.down = numbers[Down];
-    displacement.magnification = numbers[Magnification];
-    displacement.rotation = numbers[Rotation];
+    displacement.right += numbers[Right];
+    displacement.down += numbers[Down];
+    displacement.magnification += numbers[Magnification];
+    displacement.rotation += numbers[Rotation];
+  }
+
+  static void place(const ImageDisplacement& displacement, double* numbers)
+  {
+    numbers[Right] = displacement.right;
+    numbers[Down] = displacement.down;
+    numbers[Magnification] = displacement.magnification;
+    numbers[Rotation] = displacement.rotation;
   }
 
   static const ImageStep& step()
   {
     static const ImageStep made{ ImageStage::Scene,
       { { 0.0, ImageAxis::Edges }, { 0.0, ImageAxis::Edges }, {}, {} }, moved, {}, nullptr,
-      displace };
+      displace, nullptr, nullptr, place };
     return made;
   }
 };
@@ -53,27 +61,36 @@ struct MisregistrationOfImage
 
 Effect misregistration()
 {
-  const std::vector<EffectParameter> parameters = { { "right", "pixels", 0.0, -20.0, 20.0, 0.5,
-                                                      "displacement in x", true },
-    { "down", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", true },
-    { "magnification", "1", 0.0, -0.1, 0.1, 0.001, "relative growth of the image", true },
-    { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
-      "turn from the axis x towards the axis y of the image", true } };
-  const ImageTerm right = imageTerm(MisregistrationOfImage::Right, parameters[0]);
-  const ImageTerm down = imageTerm(MisregistrationOfImage::Down, parameters[1]);
-  const ImageTerm magnification = imageTerm(MisregistrationOfImage::Magnification, parameters[2]);
-  const ImageTerm rotation = imageTerm(MisregistrationOfImage::Rotation, parameters[3]);
+  const auto parameters = [](bool perChannel) -> std::vector<EffectParameter>
+  {
+    return { { "right", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in x", perChannel },
+      { "down", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", perChannel },
+      { "magnification", "1", 0.0, -0.1, 0.1, 0.001, "relative growth of the image", perChannel },
+      { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
+        "turn from the axis x towards the axis y of the image", perChannel } };
+  };
+  // The first so many numbers.
+  const auto form = [&](bool perChannel, std::size_t count) -> ImageForm
+  {
+    ImageForm made{ perChannel ? "per_channel" : "common", {} };
+    for (std::size_t number = 0; number < count; ++number)
+    {
+      made.terms.push_back(imageTerm(number, parameters(perChannel)[number]));
+    }
+    return made;
+  };
   Effect effect;
   effect.definition = { "misregistration", "Misregistration",
-    "The channels' images do not lie on one another: filters of different thickness and wedge, "
-    "chromatic difference of magnification.",
+    "The channels' images do not lie on one another, or all of them not on the scene: filters of "
+    "different thickness and wedge, chromatic difference of magnification, a camera that was "
+    "moved.",
     EffectStage::Image, EffectNeed::Nothing,
     { { "per_channel",
-      "every channel is turned and magnified about the middle of the field, then displaced",
-      parameters } },
+        "every channel is turned and magnified about the middle of the field, then displaced",
+        parameters(true) },
+      { "common", "all channels alike", parameters(false) } },
     { "grid target for each filter" }, EffectTrait::ActsOnEdges,
-    { { "per_channel", { right, down } }, { "per_channel", { right, down, magnification } },
-      { "per_channel", { right, down, magnification, rotation } } } };
+    { form(false, 2), form(false, 4), form(true, 2), form(true, 3), form(true, 4) } };
   effect.onImage.step = &MisregistrationOfImage::step();
   return effect;
 }

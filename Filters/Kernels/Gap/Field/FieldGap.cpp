@@ -48,7 +48,7 @@ struct FieldFinding
 
 // A first, quick search says what is left, which shows the noise.
 void search(FieldFinding& finding, const FieldData& data, const std::vector<FieldChoice>& choices,
-  const Eigen::MatrixXd& start, int maximumEffects, const FieldLoop& loop,
+  const std::vector<ImageDisplacement>& start, int maximumEffects, const FieldLoop& loop,
   const std::function<bool()>& stop)
 {
   const auto statisticsAt = [&](const FieldModel& model)
@@ -324,8 +324,8 @@ std::vector<std::string> notesOn(
 // odd: the pixels that are, counted block after block; unchanged where it was stopped. unlessOdd: where some are goes no further than
 // to find them.
 std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldChoice>& choices,
-  const Eigen::MatrixXd& start, const GapOptions& options, const FieldLoop& loop, IndexList& odd,
-  bool unlessOdd)
+  const std::vector<ImageDisplacement>& start, const GapOptions& options, const FieldLoop& loop,
+  IndexList& odd, bool unlessOdd)
 {
   double done = 0.0;
   bool stopped = false;
@@ -410,7 +410,7 @@ std::optional<FieldGap> diagnoseField(const FramelessPair& pair, const GapOption
   }
   FieldData data = prepareFieldData(pair, options.seed, loop);
   leaveOutDefects(data);
-  const Eigen::MatrixXd start = registrationStart(data.pair, loop);
+  const std::vector<ImageDisplacement> start = registrationStart(data.pair, loop);
   return diagnoseWithoutOdd(
     [&](IndexList& odd, bool unlessOdd)
     {

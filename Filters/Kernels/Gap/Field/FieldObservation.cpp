@@ -59,7 +59,7 @@ bool clips(const FieldChoice& choice)
 }
 
 FieldObservation::FieldObservation(const FieldData& data, const std::vector<FieldChoice>& choices,
-  const FieldWeights& weights, const Eigen::MatrixXd& start, const FieldLoop& loop)
+  const FieldWeights& weights, const std::vector<ImageDisplacement>& start, const FieldLoop& loop)
   : Data(data)
   , Choices(choices)
   , Weights(weights)
@@ -136,9 +136,21 @@ void FieldObservation::findProfiles(FieldModel& model, const std::vector<FieldRe
 FieldModel FieldObservation::registered(const FieldModel& model, const FieldChoice& choice) const
 {
   FieldModel moved = model;
-  for (std::size_t t = 0; t < choice.terms.size(); ++t)
+  std::vector<double> numbers(choice.step().step->numbers.size());
+  for (Eigen::Index k = 0; k < model.channels(); ++k)
   {
-    moved[choice.terms[t].parameter] = Start.col(static_cast<Eigen::Index>(t)).array();
+    choice.step().step->place(Start[static_cast<std::size_t>(k)], numbers.data());
+    for (const ImageTerm& term : choice.terms)
+    {
+      moved[term.parameter][k] = numbers[term.parameter - choice.step().number];
+    }
+  }
+  for (const ImageTerm& term : choice.terms)
+  {
+    if (!term.perChannel)
+    {
+      moved[term.parameter].setConstant(moved[term.parameter].mean());
+    }
   }
   return moved;
 }
@@ -159,7 +171,7 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
     const FieldSet set = joined(base.set, choice);
     GapPreview preview{ option, {}, {} };
     FieldFit fit = fitter.fitFromBestStart(set);
-    if (choice.step().step->displace != nullptr && isPerChannel(choice.terms) && !Start.isZero())
+    if (choice.step().step->place != nullptr && !Start.empty())
     {
       const FieldModel moved = registered(model, choice);
       const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop, stepsOf(set));

@@ -31,7 +31,8 @@ class FieldObservation : public Observation
 public:
   // Hold references.
   FieldObservation(const FieldData& data, const std::vector<FieldChoice>& choices,
-    const FieldWeights& weights, const Eigen::MatrixXd& start, const FieldLoop& loop);
+    const FieldWeights& weights, const std::vector<ImageDisplacement>& start,
+    const FieldLoop& loop);
 
   const std::vector<GapOption>& options() const override { return Options; }
   Eigen::Index channels() const override { return Data.channels(); }
@@ -61,7 +62,7 @@ private:
   const FieldData& Data;
   const std::vector<FieldChoice>& Choices;
   const FieldWeights& Weights;
-  const Eigen::MatrixXd& Start; // of misregistration
+  const std::vector<ImageDisplacement>& Start; // of each channel; empty: none is moved far
   const FieldLoop& Loop;
   std::vector<GapOption> Options;
   double Elements = 0.0;

@@ -39,15 +39,15 @@ std::vector<PixelBuffer> tilesOf(const FieldPair& pair, std::size_t channel)
 }
 }
 
-Eigen::MatrixXd registrationStart(const FieldPair& pair, const FieldLoop& loop)
+std::vector<ImageDisplacement> registrationStart(const FieldPair& pair, const FieldLoop& loop)
 {
   const ImageExtent& extent = pair.extent;
   const auto K = static_cast<int>(pair.channels.size());
-  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(K, 4);
   if (std::min(extent.width, extent.height) < DisplacementSearch::LeastTileSide)
   {
-    return start;
+    return {};
   }
+  std::vector<ImageDisplacement> start(static_cast<std::size_t>(K));
   const double corner = 0.5 * std::hypot(extent.width, extent.height);
   loop(K,
     [&](int channel)
@@ -59,10 +59,13 @@ Eigen::MatrixXd registrationStart(const FieldPair& pair, const FieldLoop& loop)
         corner * std::hypot(found.magnification, Degree * found.rotation);
       if (found.standardError.isFinite().all() && farthest > LeastMove)
       {
-        start.row(channel) << found.right, found.down, found.magnification, found.rotation;
+        start[static_cast<std::size_t>(channel)] = { found.right, found.down, found.magnification,
+          found.rotation };
       }
     });
-  return start;
+  const bool far = std::any_of(start.begin(), start.end(),
+    [](const ImageDisplacement& one) { return one.right != 0.0 || one.down != 0.0; });
+  return far ? start : std::vector<ImageDisplacement>();
 }
 
 namespace

@@ -11,10 +11,10 @@
 namespace msi
 {
 
-// Where each channel of the real image lies by DisplacementSearch: right, down (pixels), magnification, rotation (degrees); K x 4, where
-// a fit by gradients starts. Zero where that is next to nothing, where the images do not tell, and in images smaller than
+// Where each channel of the real image lies by DisplacementSearch, where a fit by gradients starts. Nowhere else where that is next to
+// nothing or the images do not tell; empty where that is so of all channels, and for images smaller than
 // DisplacementSearch::LeastTileSide.
-Eigen::MatrixXd registrationStart(const FieldPair& pair, const FieldLoop& loop);
+std::vector<ImageDisplacement> registrationStart(const FieldPair& pair, const FieldLoop& loop);
 
 // Weight and level of the effect that limits the response.
 const std::vector<ImageTerm>& clippingTerms();

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
-#include <utility>
 
 namespace msi
 {
@@ -349,21 +347,18 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
 {
   const ImageWindow& window = block.window;
   const auto K = static_cast<std::size_t>(data.channels());
-  const auto lightIn = [&](Eigen::Index channel)
+  std::vector<BlockLight> lights; // of each channel
+  lights.reserve(K);
+  for (Eigen::Index channel = 0; channel < data.channels(); ++channel)
   {
-    return channel < data.channels()
-      ? std::make_unique<const BlockLight>(data, model, glare, block, channel, asked)
-      : nullptr;
-  };
-  // In this channel and in those beside it.
-  std::unique_ptr<const BlockLight> previous, light, next = lightIn(0);
+    lights.emplace_back(data, model, glare, block, channel, asked);
+  }
   ChannelColumns found;
   StepDerivatives by;
   for (Eigen::Index channel = 0; channel < data.channels(); ++channel)
   {
-    previous = std::move(light);
-    light = std::move(next);
-    next = lightIn(channel + 1);
+    const auto here = static_cast<std::size_t>(channel);
+    const BlockLight& light = lights[here];
     const float* real = block.real.data() + channel;
     found.pixel.clear();
     for (std::size_t i = 0; i < window.pixels(); ++i)
@@ -378,7 +373,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     const auto count = static_cast<Eigen::Index>(found.pixel.size());
     const ChannelSteps behind =
       model.steps(ImageStage::Exposure, ImageStage::Detector, channel, asked);
-    ChannelSteps steps = light->steps();
+    ChannelSteps steps = light.steps();
     steps.insert(steps.end(), behind.begin(), behind.end());
     found.there.clear();
     for (const ChannelStep& step : steps)
@@ -397,15 +392,15 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     // The columns of a pixel; where the scene and its derivatives to the right, down and by blur are larger by `more`.
     const auto columnsAt = [&](int i, const Eigen::Vector4d& more, auto&& row)
     {
-      ImagePixel pixel = light->pixel(i);
+      ImagePixel pixel = light.pixel(i);
       pixel.right += more[1];
       pixel.down += more[2];
       pixel.blur += more[3];
-      pixel.previous = previous ? &previous->signal(i) : nullptr;
-      pixel.next = next ? &next->signal(i) : nullptr;
+      pixel.previous = here > 0 ? &lights[here - 1].signal(i) : nullptr;
+      pixel.next = here + 1 < K ? &lights[here + 1].signal(i) : nullptr;
       pixel.row = rows[i / window.width];
       pixel.column = columns[i % window.width];
-      pixel.self = light->signal(i, pixel, by, more[0]);
+      pixel.self = light.signal(i, pixel, by, more[0]);
       answer = run(behind, pixel, nullptr, pixel.self, &by);
       by.chain(steps);
       by.values.back() = static_cast<double>(real[static_cast<std::size_t>(i) * K]) - answer;
@@ -434,7 +429,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
         }
         slopes = (slopes.colwise() - usual) / NoiseStep;
       }
-      const Eigen::Vector4d ofColumn = light->covarianceOfNoise() * slopes.row(column).transpose();
+      const Eigen::Vector4d ofColumn = light.covarianceOfNoise() * slopes.row(column).transpose();
       return slopes * ofColumn;
     };
     act(channel, found);

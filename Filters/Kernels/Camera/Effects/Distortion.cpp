@@ -78,14 +78,12 @@ Effect distortion()
   Effect effect;
   effect.definition = { "distortion", "Distortion",
     "Straight lines of the scene are curved, or parallels converge: a lens that magnifies "
-    "otherwise "
-    "towards the edges, a camera that does not look straight at the scene.",
+    "otherwise towards the edges, a camera that does not look straight at the scene.",
     EffectStage::Image, EffectNeed::Nothing,
     { { "common",
       "what lies at p from the middle (as a fraction of half of the longer side) comes to "
-      "p (1 + radial p^2 + keystone_right x + keystone_down y), and by aspect (x, -y) + shear (y, "
-      "x) "
-      "farther",
+      "p (1 + radial p^2 + keystone_right x + keystone_down y), and by aspect (x, -y) + "
+      "shear (y, x) farther",
       parameters } },
     { "grid target" }, EffectTrait::ActsOnEdges,
     { { "common", { term(Image::Radial) } }, { "common", view }, { "common", all } } };

@@ -112,9 +112,9 @@ class Camera:
                 "spots": random.uniform(-1, 1, (14, 2)), "leak": random.uniform(0, 1, (channels, channels))}
 
     def geometry(self, k, strength):
-        """Displacement of the image at x, y, both from the middle, in pixels."""
+        """Displacement of the image at x, y, both from the middle, in pixels, and its growth by the square of the distance and by the place."""
         matrix, move = numpy.eye(2), self.small["move"][k].copy()
-        bend = 0.0
+        bend, slope = 0.0, numpy.zeros(2)
         for name, fault in self.faults:
             if name == "misregistration":
                 size = 3.0 * strength
@@ -126,24 +126,28 @@ class Camera:
                     move += size * fault["move"][k] * 0.5
                     angle = 0.01 * size * fault["turn"] * fault["color"][k]
                     matrix = matrix @ [[numpy.cos(angle), -numpy.sin(angle)], [numpy.sin(angle), numpy.cos(angle)]]
-            elif name == "? barrel":
-                bend += 0.03 * strength * fault["sign"]
-        return numpy.linalg.inv(matrix), move, bend
+            elif name == "distortion" and fault["kind"] < 2:
+                bend += 0.06 * strength * fault["sign"]
+            elif name == "distortion":
+                slope += 0.06 * strength * numpy.array([numpy.sin(fault["angle"]), numpy.cos(fault["angle"])])
+        return numpy.linalg.inv(matrix), move, bend, slope
 
     def seen(self, k, strength):
         scene = self.scene
         plane = scene.light(k, self.colors)
-        matrix, move, bend = self.geometry(k, strength)
+        matrix, move, bend, slope = self.geometry(k, strength)
         middle = 0.5 * (numpy.array(plane.shape) - 1)
-        if bend:
+        if bend or slope.any():
             y, x = numpy.mgrid[:plane.shape[0], :plane.shape[1]]
             y, x = y - middle[0], x - middle[1]
-            larger = 1.0 + bend * ((x ** 2 + y ** 2) / middle[1] ** 2 - 0.5)
+            larger = 1.0 + bend * (x ** 2 + y ** 2) / middle[1] ** 2 + (slope[0] * y + slope[1] * x) / middle[1]
             plane = ndimage.map_coordinates(plane, [y * larger + middle[0], x * larger + middle[1]], order=1, mode="nearest")
         if (move != 0).any() or (matrix != numpy.eye(2)).any():
             plane = ndimage.affine_transform(plane, matrix, middle - matrix @ (middle + move[::-1] * PARTS), order=1, mode="nearest")
         plane = ndimage.gaussian_filter(plane, self.blur * PARTS)
         for name, fault in self.faults:
+            if name == "? sharpened":
+                plane = plane + 4.0 * strength * (plane - ndimage.gaussian_filter(plane, PARTS))
             if name == "defocus":
                 part = abs(fault["color"][k] - fault["at"][0]) if fault["each"] else 1.0
                 radius = 8.0 * strength * part
@@ -221,11 +225,11 @@ class Camera:
         return u + self.small["dark"][:, None, None]
 
 
-EFFECTS = ["banding", "channel_crosstalk", "channel_gain", "dark_offset", "defocus", "detector_nonlinearity", "exposure_gain", "ghost_reflection",
-           "illumination_gradient", "lag", "local_stray_light", "misregistration", "saturation", "veiling_glare", "vignetting"]
-STRANGERS = ["? barrel", "? lamp mirrored", "? dust", "? two taps", "? dark gradient"]
+EFFECTS = ["banding", "channel_crosstalk", "channel_gain", "dark_offset", "defocus", "detector_nonlinearity", "distortion", "exposure_gain",
+           "ghost_reflection", "illumination_gradient", "lag", "local_stray_light", "misregistration", "saturation", "veiling_glare", "vignetting"]
+STRANGERS = ["? sharpened", "? lamp mirrored", "? dust", "? two taps", "? dark gradient"]
 AXES = {"banding": "rows columns", "channel_crosstalk": "channel sample region", "channel_gain": "channel level", "dark_offset": "channel level",
-        "defocus": "edges", "detector_nonlinearity": "level", "exposure_gain": "level channel",
+        "defocus": "edges", "detector_nonlinearity": "level", "distortion": "edges region", "exposure_gain": "level channel",
         "ghost_reflection": "region position sample edges channel level",
         "illumination_gradient": "position", "lag": "channel level sample region", "local_stray_light": "edges position level region channel",
         "misregistration": "edges region", "saturation": "level", "veiling_glare": "channel level", "vignetting": "position"}

@@ -114,10 +114,14 @@ def _noise(form, p):
 
 def _displacement(_form, p):
     moved = max(abs(v) for name in ("right", "down") for v in p.get(name, [0.0]))
-    larger, turned = (max((abs(v) for v in p.get(name, [])), default=0.0) for name in ("magnification", "rotation"))
+    growth, turned = (p.get(name, [0.0]) for name in ("magnification", "rotation"))
+    alike = len(growth) == 1
+    larger, angle = max(growth, key=abs), max(map(abs, turned))
     parts = [f"up to {moved:.2g} pixels"] if moved >= 0.01 else []
-    parts += [f"images up to {_percent(larger)} larger or smaller"] if larger >= 1e-5 else []
-    parts += [f"turned by up to {turned:.2g} degrees"] if turned >= 1e-4 else []
+    if abs(larger) >= 1e-5:
+        more = "larger" if larger > 0 else "smaller"
+        parts += [f"the image {_percent(larger)} {more}" if alike else f"images up to {_percent(larger)} larger or smaller"]
+    parts += [f"turned by {'' if alike else 'up to '}{angle:.2g} degrees"] if angle >= 1e-4 else []
     return ", ".join(parts) or "less than 0.01 pixels"
 
 

@@ -53,9 +53,10 @@ Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double
   : Data(data)
   , Gap(std::fmax(nominal.energy - data.noiseEnergy(), 0.0))
   , Noise(std::fmin(data.noiseEnergy(), nominal.energy))
+  // Above zero, so that two equal data sets give numbers, too.
   , Floor(
       std::fmax(Decision::FormPart * std::fmin(std::fmax(data.inexactEnergy() - Noise, 0.0), Gap),
-        std::numeric_limits<double>::min()))
+        std::numeric_limits<double>::epsilon() * std::fmax(data.noiseEnergy(), 1.0)))
   , Discrepancy(independentNumbers(numbers, data.energies(nominal).before.size(), data.channels()))
   , Reference(std::numeric_limits<double>::infinity())
 {

@@ -213,3 +213,14 @@ TEST(FieldMistakes, AFlatField)
   EXPECT_EQ(report.verdict, GapVerdict::NoGap) << describe(report);
   EXPECT_FALSE(says(report, "units of white"));
 }
+
+TEST(FieldMistakes, TheSameImageTwiceIsNoGap)
+{
+  const TestScene scene(72, 3, 96, 80);
+  TestPair pair = changed(scene, 73, [](double u, int, int, int, double) { return u; });
+  pair.real = pair.simulated;
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::NoGap);
+  EXPECT_GE(report.probabilityOf("nothing"), 0.9); // a number at all
+}

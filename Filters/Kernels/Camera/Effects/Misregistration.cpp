@@ -35,10 +35,10 @@ struct MisregistrationOfImage
 
   static void displace(const double* numbers, ImageDisplacement& displacement)
   {
-    displacement.right += numbers[Right];
-    displacement.down += numbers[Down];
-    displacement.magnification += numbers[Magnification];
-    displacement.rotation += numbers[Rotation];
+    displacement.right = numbers[Right];
+    displacement.down = numbers[Down];
+    displacement.magnification = numbers[Magnification];
+    displacement.rotation = numbers[Rotation];
   }
 
   static void place(const ImageDisplacement& displacement, double* numbers)

@@ -130,7 +130,7 @@ struct ImageSimulator::Implementation
     }
     if (!displacements.empty())
     {
-      Registration.emplace(displacements, extent);
+      Registration.emplace(std::move(displacements), extent);
     }
   }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace
 {
@@ -170,59 +171,60 @@ TEST(ChannelRegistration, MovesAQuadraticExactly)
   }
 }
 
-// A point at (1, 0) from the middle comes to (cos, sin): right turns towards down. Interpolation is exact for quadratics.
-TEST(ChannelRegistration, TurnsAQuadraticAboutTheMiddle)
+namespace
+{
+// Interpolation is exact for quadratics. cameFrom(x, y): the place, from the middle, of what a pixel shows there.
+template <typename CameFrom>
+void expectQuadraticMoved(const msi::ImageDisplacement& displacement, const CameFrom& cameFrom)
 {
   const auto surface = [](double x, double y)
   { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y + 0.0001 * x * y; };
-  constexpr double Degrees = 2.5;
-  const double angle = Degrees * 3.141592653589793 / 180.0;
-  const msi::ChannelRegistration turn({ {}, { 0.6, -1.3, -0.01, Degrees } }, PictureExtent);
+  const msi::ChannelRegistration move({ {}, displacement }, PictureExtent);
   PixelBuffer picture = pictureOf(2, [&](int x, int y, int) { return surface(x, y); });
   const PixelBuffer before = picture;
   PixelBuffer scratch;
-  turn(picture, scratch);
+  move(picture, scratch);
   for (int y = 10; y < PictureExtent.height - 10; ++y)
   {
     for (int x = 10; x < PictureExtent.width - 10; ++x)
     {
       ASSERT_EQ(picture.pixel(x, y)[0], before.pixel(x, y)[0]);
-      const double offX = (x - CenterX - 0.6) / 0.99;
-      const double offY = (y - CenterY + 1.3) / 0.99;
-      ASSERT_NEAR(static_cast<double>(picture.pixel(x, y)[1]),
-        surface(CenterX + std::cos(angle) * offX + std::sin(angle) * offY,
-          CenterY - std::sin(angle) * offX + std::cos(angle) * offY),
-        2e-5);
+      const auto [u, v] = cameFrom(x - CenterX, y - CenterY);
+      ASSERT_NEAR(
+        static_cast<double>(picture.pixel(x, y)[1]), surface(CenterX + u, CenterY + v), 2e-5);
     }
   }
+}
+}
+
+// A point at (1, 0) from the middle comes to (cos, sin): right turns towards down.
+TEST(ChannelRegistration, TurnsAQuadraticAboutTheMiddle)
+{
+  constexpr double Degrees = 2.5;
+  const double angle = Degrees * 3.141592653589793 / 180.0;
+  expectQuadraticMoved({ 0.6, -1.3, -0.01, Degrees },
+    [angle](double x, double y)
+    {
+      const double offX = (x - 0.6) / 0.99;
+      const double offY = (y + 1.3) / 0.99;
+      return std::make_pair(std::cos(angle) * offX + std::sin(angle) * offY,
+        -std::sin(angle) * offX + std::cos(angle) * offY);
+    });
 }
 
 // As the library says: p comes from p - p (radial p^2 + keystone p) - aspect (x, -y) - shear (y, x).
 TEST(ChannelRegistration, DistortsAQuadratic)
 {
-  const auto surface = [](double x, double y)
-  { return 0.2 + 0.01 * x - 0.004 * y + 0.0003 * x * x - 0.0002 * y * y + 0.0001 * x * y; };
-  const msi::ChannelRegistration distort(
-    { {}, { 0.6, 0.0, 0.0, 0.0, 0.02, -0.01, 0.03, 0.015, -0.025 } }, PictureExtent);
-  PixelBuffer picture = pictureOf(2, [&](int x, int y, int) { return surface(x, y); });
-  const PixelBuffer before = picture;
-  PixelBuffer scratch;
-  distort(picture, scratch);
-  for (int y = 10; y < PictureExtent.height - 10; ++y)
-  {
-    for (int x = 10; x < PictureExtent.width - 10; ++x)
+  expectQuadraticMoved({ 0.6, 0.0, 0.0, 0.0, 0.02, -0.01, 0.03, 0.015, -0.025 },
+    [](double x, double y)
     {
-      ASSERT_EQ(picture.pixel(x, y)[0], before.pixel(x, y)[0]);
       const double half = std::max(CenterX, CenterY);
-      const double u = (x - CenterX - 0.6) / half;
-      const double v = (y - CenterY) / half;
+      const double u = (x - 0.6) / half;
+      const double v = y / half;
       const double growth = 0.02 * (u * u + v * v) - 0.01 * u + 0.03 * v;
-      ASSERT_NEAR(static_cast<double>(picture.pixel(x, y)[1]),
-        surface(CenterX + half * (u - growth * u - 0.015 * u + 0.025 * v),
-          CenterY + half * (v - growth * v + 0.015 * v + 0.025 * u)),
-        2e-5);
-    }
-  }
+      return std::make_pair(half * (u - growth * u - 0.015 * u + 0.025 * v),
+        half * (v - growth * v + 0.015 * v + 0.025 * u));
+    });
 }
 
 TEST(SceneMean, IsTheMeanWhateverTheSplit)

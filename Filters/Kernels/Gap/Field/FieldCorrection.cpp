@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace msi
 {
@@ -33,7 +35,7 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
         [&model](const PlacedStep& step)
         { return step.step->displace != nullptr && !model.isNeutral(step); }))
   {
-    Registration.emplace(displacements, pair.extent);
+    Registration.emplace(std::move(displacements), pair.extent);
   }
   if ((variance > 0.0).any())
   {

@@ -66,9 +66,10 @@ def _nonlinearity(form, p):
 
 
 def _drift(form, p):
+    when = ("at the start" if form.startswith("settling") else
+            f"from {_percent(p['place'][0])} of the session on" if "place" in p else "in the course of the session")
     if form.startswith("offset"):
-        return f"{_percent(p['change'][0])} of white {'brighter' if p['change'][0] >= 0 else 'darker'} in the course of the session"
-    when = "at the start" if form.startswith("settling") else "in the course of the session"
+        return f"{_percent(p['change'][0])} of white {'brighter' if p['change'][0] >= 0 else 'darker'} {when}"
     return _relative(p["change"], _brighter) + " " + when
 
 

@@ -12,8 +12,8 @@ namespace
 constexpr std::size_t PlacesKept = 3;
 constexpr double PlacesApart = 0.05;
 constexpr double Significant = 5.0;
-constexpr std::size_t ShortestSegment = 4;
-constexpr double Rounding = 1e-16; // squared relative gap that numbers of this length have anyway
+constexpr Eigen::Index ShortestSegment = 4;
+constexpr double Rounding = 1e-16; // squared: of numbers of this length
 
 SampleList inOrder(const EffectFitter& fitter)
 {
@@ -73,7 +73,7 @@ OrderBreaks::OrderBreaks(const EffectFitter& fitter, const Eigen::MatrixXd& pred
     const double before = data.scene.time()[order[i - 1]];
     const double after = data.scene.time()[j];
     // A step with next to nothing on one side is a gain.
-    const std::size_t least = std::max(ShortestSegment, order.size() / 10);
+    const std::size_t least = std::max<std::size_t>(ShortestSegment, order.size() / 10);
     const bool room = i >= least && i + least <= order.size();
     if (!room || after <= before || denominator.sum() <= 0.0 || offsetDenominator <= 0.0)
     {
@@ -111,78 +111,106 @@ std::vector<std::vector<double>> OrderBreaks::startsFor(const EffectForm& form) 
 
 namespace
 {
-// Relative gap of each sample along the order, and its weight.
+// Relative gap of each sample along the order, its weight, and when it was captured.
 struct Series
 {
-  std::vector<double> value, weight;
+  Eigen::ArrayXd value, weight, time;
 };
 
 Series relativeGaps(
   const EffectFitter& fitter, const Eigen::MatrixXd& predicted, const SampleList& order)
 {
   const GapData& data = fitter.data();
-  Series series;
-  for (const Eigen::Index j : order)
+  const auto count = static_cast<Eigen::Index>(order.size());
+  Series series{ Eigen::ArrayXd::Zero(count), Eigen::ArrayXd::Zero(count),
+    Eigen::ArrayXd::Zero(count) };
+  for (Eigen::Index i = 0; i < count; ++i)
   {
+    const Eigen::Index j = order[static_cast<std::size_t>(i)];
     const Eigen::ArrayXd w = fitter.weight().col(j).array();
     const Eigen::ArrayXd u = (w > 0.0).select(predicted.col(j).array(), 0.0);
     const Eigen::ArrayXd residual = (w > 0.0).select(data.observed.col(j).array() - u, 0.0);
-    const double weight = (w * u.square()).sum();
-    series.weight.push_back(weight);
-    series.value.push_back(weight > 0.0 ? (w * u * residual).sum() / weight : 0.0);
+    series.weight[i] = (w * u.square()).sum();
+    series.value[i] = series.weight[i] > 0.0 ? (w * u * residual).sum() / series.weight[i] : 0.0;
+    series.time[i] = data.scene.time()[j];
   }
   return series;
 }
 
-// Weighted sums over the samples first .. last - 1.
-struct Segment
+// Samples in a row, whose gap is a straight line over the time but for at most one break: a drift is no row of breaks.
+class Stretch
 {
-  Segment(const Series& series, std::size_t from, std::size_t to)
-    : first(from)
-    , last(to)
+public:
+  Stretch(const Series& series, Eigen::Index first, Eigen::Index end)
+    : Count(end - first)
+    , Weight(series.weight.segment(first, Count))
+    , Time(besideMean(series.time.segment(first, Count)))
+    , Value(besideLine(series.value.segment(first, Count)))
   {
-    for (std::size_t i = first; i < last; ++i)
-    {
-      add(series.value[i], series.weight[i]);
-    }
   }
-  void add(double value, double factor)
-  {
-    weight += factor;
-    sum += factor * value;
-    square += factor * value * value;
-  }
-  double mean() const { return weight > 0.0 ? sum / weight : 0.0; }
-  double scatter() const { return std::fmax(square - sum * mean(), 0.0); }
 
-  std::size_t first, last;
-  double weight = 0.0, sum = 0.0, square = 0.0;
+  struct Break
+  {
+    double change = 0.0, information = 0.0; // 1 / variance for a gap of unit variance and weight
+    double energy() const { return change * change * information; }
+  };
+
+  // In front of the sample with this number in the stretch.
+  Break at(Eigen::Index place) const
+  {
+    Eigen::ArrayXd behind = Eigen::ArrayXd::Zero(Count);
+    behind.tail(Count - place).setOnes();
+    behind = besideLine(behind);
+    const double information = (Weight * behind.square()).sum();
+    return information > Rounding * Weight.sum()
+      ? Break{ (Weight * behind * Value).sum() / information, information }
+      : Break{};
+  }
+
+  double deviations(const Break& found) const
+  {
+    const double left = (Weight * Value.square()).sum() - found.energy();
+    const double spread =
+      std::fmax(left / static_cast<double>(Count - 3), Rounding * Weight.mean());
+    return spread > 0.0 ? std::sqrt(found.energy() / spread) : 0.0;
+  }
+
+private:
+  Eigen::ArrayXd besideMean(const Eigen::ArrayXd& values) const
+  {
+    return values - (Weight * values).sum() / std::fmax(Weight.sum(), 1e-300);
+  }
+  Eigen::ArrayXd besideLine(const Eigen::ArrayXd& values) const
+  {
+    const double slope =
+      (Weight * Time * values).sum() / std::fmax((Weight * Time.square()).sum(), 1e-300);
+    return besideMean(values) - slope * Time;
+  }
+
+  Eigen::Index Count;
+  Eigen::ArrayXd Weight, Time, Value;
 };
 
-// The place behind which the segment breaks best; 0 where it does not break significantly.
-std::size_t breakOf(const Series& series, const Segment& segment)
+// The number of the sample in front of which first .. end - 1 breaks best; `first` where they do not break significantly.
+Eigen::Index breakOf(const Series& series, Eigen::Index first, Eigen::Index end)
 {
-  Segment left(series, segment.first, segment.first);
-  double best = 0.0;
-  std::size_t place = 0;
-  for (std::size_t i = segment.first; i + 1 < segment.last; ++i)
+  if (end - first < 2 * ShortestSegment)
   {
-    left.add(series.value[i], series.weight[i]);
-    const double right = segment.weight - left.weight;
-    const bool room =
-      i + 1 >= segment.first + ShortestSegment && i + 1 + ShortestSegment <= segment.last;
-    if (room && left.weight > 0.0 && right > 0.0)
+    return first;
+  }
+  const Stretch stretch(series, first, end);
+  Stretch::Break best;
+  Eigen::Index place = 0;
+  for (Eigen::Index i = ShortestSegment; i + ShortestSegment <= end - first; ++i)
+  {
+    const Stretch::Break found = stretch.at(i);
+    if (found.energy() > best.energy())
     {
-      const double change = (segment.sum - left.sum) / right - left.mean();
-      const double explained = change * change * left.weight * right / segment.weight;
-      place = explained > best ? i + 1 : place;
-      best = std::fmax(best, explained);
+      best = found;
+      place = i;
     }
   }
-  const auto count = static_cast<double>(segment.last - segment.first);
-  const double spread =
-    std::fmax((segment.scatter() - best) / (count - 2.0), Rounding * segment.weight / count);
-  return best >= Significant * Significant * spread ? place : 0;
+  return stretch.deviations(best) >= Significant ? first + place : first;
 }
 }
 
@@ -191,36 +219,35 @@ std::vector<GapChangePoint> OrderBreaks::significant(
 {
   const SampleList order = inOrder(fitter);
   const Series series = relativeGaps(fitter, predicted, order);
-  std::vector<std::size_t> places;
-  std::vector<Segment> open{ { series, 0, order.size() } };
-  while (!open.empty() && static_cast<int>(places.size()) < most)
+  const auto count = static_cast<Eigen::Index>(order.size());
+  std::vector<Eigen::Index> places{ 0, count };
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> open{ { 0, count } };
+  while (!open.empty() && static_cast<int>(places.size()) < most + 2)
   {
-    const Segment segment = open.back();
+    const auto [first, end] = open.back();
     open.pop_back();
-    const std::size_t place =
-      segment.last - segment.first < 2 * ShortestSegment ? 0 : breakOf(series, segment);
-    if (place > 0)
+    const Eigen::Index place = breakOf(series, first, end);
+    if (place > first)
     {
       places.push_back(place);
-      open.emplace_back(series, segment.first, place);
-      open.emplace_back(series, place, segment.last);
+      open.emplace_back(first, place);
+      open.emplace_back(place, end);
     }
   }
   std::sort(places.begin(), places.end());
-  // Sizes between neighbours, now that all places are known.
+  // Between their neighbours, now that all are known. What the largest ones left may have looked like one.
   std::vector<GapChangePoint> found;
   const Eigen::VectorXd& at = fitter.data().scene.samples().order;
-  for (std::size_t p = 0; p < places.size(); ++p)
+  for (std::size_t p = 1; p + 1 < places.size(); ++p)
   {
-    const Segment before(series, p > 0 ? places[p - 1] : 0, places[p]);
-    const Segment after(
-      series, places[p], p + 1 < places.size() ? places[p + 1] : series.value.size());
-    const double change = after.mean() - before.mean();
-    const double spread =
-      (before.scatter() + after.scatter()) / (static_cast<double>(after.last - before.first) - 2.0);
-    const double error = std::sqrt(spread * (1.0 / before.weight + 1.0 / after.weight));
-    found.push_back({ 0.5 * (at[order[places[p] - 1]] + at[order[places[p]]]), change,
-      error > 0.0 ? std::fabs(change) / error : 0.0 });
+    const Stretch stretch(series, places[p - 1], places[p + 1]);
+    const Stretch::Break one = stretch.at(places[p] - places[p - 1]);
+    const auto behind = static_cast<std::size_t>(places[p]);
+    if (const double deviations = stretch.deviations(one); deviations >= Significant)
+    {
+      found.push_back(
+        { 0.5 * (at[order[behind - 1]] + at[order[behind]]), one.change, deviations });
+    }
   }
   return found;
 }

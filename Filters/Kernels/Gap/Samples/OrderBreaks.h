@@ -22,8 +22,8 @@ public:
   // Starting points {change, place, width} for a form with a step, the best places first.
   std::vector<std::vector<double>> startsFor(const EffectForm& form) const;
 
-  // Breaks of the common gain that stand out by five standard errors or more, at most `most`, found one after
-  // the other by binary segmentation.
+  // Breaks of the common gain that stand out by five standard errors or more beside a straight line, at most `most`,
+  // found one after the other by binary segmentation: a drift has none.
   static std::vector<GapChangePoint> significant(
     const EffectFitter& fitter, const Eigen::MatrixXd& predicted, int most);
 

@@ -60,6 +60,30 @@ TEST(OrderBreaks, TwoJumpsAreFoundInTheirOrder)
   EXPECT_EQ(msi::OrderBreaks::significant(fitter, data.simulated, 1).size(), 1U);
 }
 
+TEST(OrderBreaks, DriftHasNoneAndAJumpInItKeepsItsSize)
+{
+  msi::GapCapture capture = withJump({});
+  for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
+  {
+    capture.readings.col(j) *= 1.0 + 0.001 * capture.sampleOf[static_cast<std::size_t>(j)];
+  }
+  const auto breaksOf = [](const msi::GapCapture& some)
+  {
+    const msi::GapData data = dataOf(some);
+    return msi::OrderBreaks::significant(
+      msi::EffectFitter(data, data.usable, 1), data.simulated, 6);
+  };
+  EXPECT_TRUE(breaksOf(capture).empty());
+  for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
+  {
+    capture.readings.col(j) *= capture.sampleOf[static_cast<std::size_t>(j)] < 40 ? 1.0 : 0.97;
+  }
+  const auto found = breaksOf(capture);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_DOUBLE_EQ(found.front().order, 39.5);
+  EXPECT_NEAR(found.front().change, -0.03 * 1.04, 0.003);
+}
+
 TEST(OrderBreaks, NoJumpNoOrderNoBreaks)
 {
   const msi::GapData data = dataOf(captureWith({}));

@@ -62,7 +62,8 @@ enum Bit : unsigned
   Adds = 1U << 2,       // adds to the response instead of multiplying it
   // Its given parameters are slope and constant of the line through the squared responses. It acts before the effect's other
   // forms and may stand beside one of them: it is a matter of how the camera was fitted.
-  BesideLine = 1U << 3
+  BesideLine = 1U << 3,
+  OfImages = 1U << 4 // for pairs of images, which know no spectra; tables have other forms
 };
 }
 

@@ -53,6 +53,13 @@ struct ImageNumber
   ImagePull pull = ImagePull::Neutral;
 };
 
+// From -1 for the first channel to 1 for the last; 0 where there is one.
+inline double channelPlace(std::ptrdiff_t channel, std::ptrdiff_t channels) noexcept
+{
+  const double parts = static_cast<double>(channels) - 1.0;
+  return parts > 0.0 ? 2.0 * static_cast<double>(channel) / parts - 1.0 : 0.0;
+}
+
 // Of a row or a column of the image, in one channel.
 struct ImageLine
 {
@@ -70,6 +77,7 @@ struct ImagePixel
   const double* surround = nullptr;    // the passes of the tail, TailPasses
   const double* tailWeights = nullptr; // ImageStep::tail
   double mean = 0.0;                   // of the scene
+  double channel = 0.0;                // channelPlace()
   double elsewhere = 0.0;              // light at ImageFactories::lightFrom
   double self = 0.0;                   // the light on the detector here
   const double* previous = nullptr;    // and in the channels before and behind; null: there is none

@@ -81,7 +81,8 @@ def _lamp(form, p):
         size = math.sqrt(sum(weight * weight for weight in weights) / len(weights))
         return f"another kind of lamp, {size:.2g} times as far from the model's as two standard lamps are from each other"
     ends = math.exp(2.0 * (p["tilt"][0] + p.get("twist", [0.0])[0]))  # the even polynomial is the same at both
-    return f"{ends:.3g} times as much light at the longest wavelength as at the shortest, relative to the model"
+    places = "in the last channel as in the first" if form == "over_channels" else "at the longest wavelength as at the shortest"
+    return f"{ends:.3g} times as much light {places}, relative to the model"
 
 
 def _crosstalk(_form, p):

@@ -75,7 +75,7 @@ const std::vector<std::string>& axesOfImage(const std::string& effect)
     { "detector_nonlinearity", { "level" } }, { "distortion", { "edges" } },
     { "exposure_gain", { "level" } },
     { "ghost_reflection", { "region", "position", "sample", "edges" } },
-    { "illumination_gradient", { "position" } },
+    { "illuminant_drift", { "channel" } }, { "illumination_gradient", { "position" } },
     { "lag", { "channel", "level", "sample", "region" } },
     { "local_stray_light", { "edges", "position" } }, { "misregistration", { "edges" } },
     { "saturation", { "level" } }, { "veiling_glare", { "channel", "level" } },

@@ -209,6 +209,29 @@ const std::map<std::string, Maker>& makers()
         return { "mirrored at the center",
           [](ImageFaults& f, double size) { f.ghost += 0.05 * size; } };
       } },
+    { "illuminant_drift",
+      [](Random& random, int channels, int, int) -> ImageFault
+      {
+        const double before = withheld::around(random, 4000.0, 1.5);
+        const double after = before * (1.0 + 0.2 * sign(random));
+        std::vector<double> change;
+        for (int k = 0; k < channels; ++k)
+        {
+          const double micrometers = 0.44 + 0.22 * k / (channels - 1);
+          const auto dark = [=](double temperature)
+          { return std::log(std::expm1(14388.0 / (micrometers * temperature))); };
+          change.push_back(dark(before) - dark(after));
+        }
+        const double middle = change[change.size() / 2];
+        return { "blackbodies",
+          [=](ImageFaults& f, double size)
+          {
+            for (std::size_t k = 0; k < change.size(); ++k)
+            {
+              f.gain[k] *= std::exp(size * (change[k] - middle));
+            }
+          } };
+      } },
     { "illumination_gradient",
       [](Random& random, int, int, int) -> ImageFault
       {

@@ -164,6 +164,10 @@ class Camera:
         half = 0.5 * (max(scene.width, scene.height) - 1)
         x, y = (right - 0.5 * (scene.width - 1)) / half, (down - 0.5 * (scene.height - 1)) / half
         for name, fault in self.faults:
+            if name == "illuminant_drift":  # another voltage: a power of the wavelength, seen in narrow bands; or a phosphor with more blue
+                place = fault["color"][:, None, None]
+                u = u * ((1.0 + 0.25 * place) ** (8.0 * size * fault["sign"]) if fault["kind"] else
+                         1.0 + 2.0 * size * fault["sign"] / (1.0 + numpy.exp(3.0 * place + 1.5)))
             cx, cy = fault["center"]
             r2 = (x - cx) ** 2 + (y - cy) ** 2
             along = x * numpy.cos(fault["angle"]) + y * numpy.sin(fault["angle"])
@@ -226,12 +230,12 @@ class Camera:
 
 
 EFFECTS = ["banding", "channel_crosstalk", "channel_gain", "dark_offset", "defocus", "detector_nonlinearity", "distortion", "exposure_gain",
-           "ghost_reflection", "illumination_gradient", "lag", "local_stray_light", "misregistration", "saturation", "veiling_glare", "vignetting"]
+           "ghost_reflection", "illuminant_drift", "illumination_gradient", "lag", "local_stray_light", "misregistration", "saturation", "veiling_glare", "vignetting"]
 STRANGERS = ["? sharpened", "? lamp mirrored", "? dust", "? two taps", "? dark gradient"]
 AXES = {"banding": "rows columns", "channel_crosstalk": "channel sample region", "channel_gain": "channel level", "dark_offset": "channel level",
         "defocus": "edges", "detector_nonlinearity": "level", "distortion": "edges region", "exposure_gain": "level channel",
         "ghost_reflection": "region position sample edges channel level",
-        "illumination_gradient": "position", "lag": "channel level sample region", "local_stray_light": "edges position level region channel",
+        "illuminant_drift": "channel level", "illumination_gradient": "position", "lag": "channel level sample region", "local_stray_light": "edges position level region channel",
         "misregistration": "edges region", "saturation": "level", "veiling_glare": "channel level", "vignetting": "position"}
 
 

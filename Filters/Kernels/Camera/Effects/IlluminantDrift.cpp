@@ -6,8 +6,10 @@
 
 #include <Eigen/SVD>
 
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,8 @@ namespace
 constexpr Eigen::Index LampShapes = 6;
 constexpr double DarkestPart = 0.01; // of a lamp's mean power; what is darker shapes no lamp
 constexpr double LampStep = 5.0;     // nm
+constexpr double GainSize =
+  0.03; // typical, as of channel_gain, from which few channels cannot tell a lamp
 
 const WavelengthGrid& lampGrid()
 {
@@ -99,18 +103,57 @@ public:
       Factor = anotherLamp(effect);
       return;
     }
-    const bool smooth = effect.form().name == "smooth";
-    Factor = legendre(x, effect.value("tilt"), smooth ? effect.value("curvature") : 0.0,
-      smooth ? effect.value("twist") : 0.0)
+    if (effect.form().name == "tilt")
+    {
+      Factor = (effect.value("tilt") * x).exp();
+      return;
+    }
+    OverChannels = effect.form().name == "over_channels";
+    const Eigen::Index channels = effect.camera().channelCount();
+    const Eigen::ArrayXd places = Eigen::ArrayXd::NullaryExpr(
+      channels, [channels](Eigen::Index k) { return channelPlace(k, channels); });
+    Factor = legendre(OverChannels ? places : x, effect.value("tilt"), effect.value("curvature"),
+      effect.value("twist"))
                .exp();
+    Factor *= OverChannels ? std::exp(effect.value("level")) : 1.0;
   }
   void apply(Eigen::MatrixXd& responsivity) const override
   {
+    if (OverChannels)
+    {
+      responsivity.array().colwise() *= Factor;
+      return;
+    }
     responsivity.array().rowwise() *= Factor.transpose();
   }
 
 private:
   Eigen::ArrayXd Factor;
+  bool OverChannels = false; // and not over the wavelengths
+};
+
+// Its step on image pairs.
+struct LampOfImage
+{
+  static double shine(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  {
+    const double x = pixel.channel;
+    const std::array<double, 4> legendre{ x, 1.0, 1.5 * x * x - 0.5, (2.5 * x * x - 1.5) * x };
+    const double factor =
+      std::exp(std::inner_product(legendre.begin(), legendre.end(), numbers, 0.0));
+    signal *= factor;
+    for (std::size_t n = 0; n < legendre.size() && by != nullptr; ++n)
+    {
+      by[n] = signal * legendre[n];
+    }
+    return factor;
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Detector, { {}, {}, {}, {} }, shine };
+    return made;
+  }
 };
 }
 
@@ -118,6 +161,10 @@ Effect illuminantDrift()
 {
   const EffectParameter tilt{ "tilt", "1", 0.0, -2.0, 2.0, 0.1,
     "natural logarithm of the change at the long end; minus that at the short end" };
+  const EffectParameter curvature{ "curvature", "1", 0.0, -2.0, 2.0, 0.1, "weight of P2" };
+  const EffectParameter twist{ "twist", "1", 0.0, -2.0, 2.0, 0.1, "weight of P3" };
+  const EffectParameter level{ "level", "1", 0.0, -1.5, 1.5, 0.1,
+    "natural logarithm of the change of all channels" };
   std::vector<EffectParameter> shapes;
   for (Eigen::Index shape = 0; shape < LampShapes; ++shape)
   {
@@ -130,8 +177,7 @@ Effect illuminantDrift()
     EffectStage::Responsivity, EffectNeed::Nothing,
     { { "tilt", "M exp(tilt x), x = -1..1 over the grid", { tilt } },
       { "smooth", "M exp(tilt P1(x) + curvature P2(x) + twist P3(x)), Legendre polynomials",
-        { tilt, { "curvature", "1", 0.0, -2.0, 2.0, 0.1, "weight of P2" },
-          { "twist", "1", 0.0, -2.0, 2.0, 0.1, "weight of P3" } } },
+        { tilt, curvature, twist } },
       { "band", "M (1 + change exp(-(wavelength - center)^2 / (2 width^2)))",
         { { "change", "1", 0.0, -0.9, 3.0, 0.1, "change of the lamp at the band's middle" },
           { "center", "nm", 560.0, 300.0, 1100.0, 60.0, "middle of the band", false, true },
@@ -143,9 +189,25 @@ Effect illuminantDrift()
         "M exp(sum of shape_i B_i(wavelength)), B_i the principal directions in which the "
         "logarithms of standard lamps differ (blackbodies, daylight, FL1..FL12 and the LED lamps "
         "of CIE 15:2018), as large as two of them differ on average",
-        shapes } },
+        shapes },
+      { "over_channels",
+        "M_k exp(tilt P1(x) + level + curvature P2(x) + twist P3(x)), x = -1..1 over the channels: "
+        "all that images tell of a lamp",
+        { tilt, level, curvature, twist }, {}, FormTrait::OfImages } },
     Captures::LampSpectrum, EffectTrait::SpectralGain };
+  const EffectForm& ofImages = effect.definition.forms.back();
+  for (const std::size_t count : { 1, 3, 4 })
+  {
+    ImageForm form{ ofImages.name, {} };
+    for (std::size_t number = 0; number < count; ++number)
+    {
+      form.terms.push_back(imageTerm(number, ofImages.parameters[number]));
+      form.terms.back().typical = GainSize;
+    }
+    effect.definition.imageForms.push_back(form);
+  }
   effect.makeResponsivity = makeResponsivityOperator<IlluminantDrift>;
+  effect.onImage.step = &LampOfImage::step();
   return effect;
 }
 

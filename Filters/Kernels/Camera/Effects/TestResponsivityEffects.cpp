@@ -348,6 +348,16 @@ TEST(IlluminantDrift, IsTheCameraUnderTheOtherLamp)
   expectOtherLamp({ "illuminant_drift", "smooth", "", { 0.2, -0.1, 0.05 } }, cubic.exp());
 }
 
+TEST(IlluminantDrift, IsAGainOfEachChannelWhereImagesTellNoMore)
+{
+  const Eigen::VectorXd gray = Eigen::VectorXd::Constant(fineGrid().size(), 0.5);
+  const Eigen::VectorXd response =
+    responseTo(gray, { "illuminant_drift", "over_channels", "", { 0.2, 0.1, -0.06, 0.05 } });
+  EXPECT_NEAR(response[0], 0.5 * std::exp(-0.2 + 0.1 - 0.06 - 0.05), 1e-12);
+  EXPECT_NEAR(response[1], 0.5 * std::exp(0.1 + 0.03), 1e-12);
+  EXPECT_NEAR(response[2], 0.5 * std::exp(0.2 + 0.1 - 0.06 + 0.05), 1e-12);
+}
+
 TEST(IlluminantDrift, IsABandMoreOfTheLamp)
 {
   const Eigen::ArrayXd z = (fineGrid().vector().array() - 530.0) / 25.0;

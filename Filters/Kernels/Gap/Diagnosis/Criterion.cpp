@@ -43,10 +43,10 @@ int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std
   return signs;
 }
 
-double independentNumbers(double numbers, std::size_t groups, Eigen::Index channels)
+double independentNumbers(double numbers, std::size_t groups, Eigen::Index channelNumbers)
 {
   return std::fmax(std::fmin(static_cast<double>(groups), numbers),
-    Decision::DiscrepancyPerChannel * static_cast<double>(channels));
+    Decision::DiscrepancyPerChannel * static_cast<double>(channelNumbers));
 }
 
 Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double numbers)
@@ -57,7 +57,8 @@ Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double
   , Floor(
       std::fmax(Decision::FormPart * std::fmin(std::fmax(data.inexactEnergy() - Noise, 0.0), Gap),
         std::numeric_limits<double>::epsilon() * std::fmax(data.noiseEnergy(), 1.0)))
-  , Discrepancy(independentNumbers(numbers, data.energies(nominal).before.size(), data.channels()))
+  , Discrepancy(
+      independentNumbers(numbers, data.energies(nominal).before.size(), data.channelNumbers()))
   , Reference(std::numeric_limits<double>::infinity())
 {
   refer(nominal.energy, nominal.coherence);

@@ -11,8 +11,9 @@ namespace msi
 int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std::size_t>& set);
 
 // How many independent numbers a residual beyond noise is taken to be: `numbers` (Decision::DiscrepancyNumbers or
-// BeliefNumbers), or one per group where there are fewer groups; but at least Decision::DiscrepancyPerChannel per channel.
-double independentNumbers(double numbers, std::size_t groups, Eigen::Index channels);
+// BeliefNumbers), or one per group where there are fewer groups; but at least Decision::DiscrepancyPerChannel for each number that
+// an effect needs for a channel.
+double independentNumbers(double numbers, std::size_t groups, Eigen::Index channelNumbers);
 
 // Logarithm of the posterior probability of a set, but for a constant.
 //

@@ -16,7 +16,8 @@ inline constexpr double DiscrepancyNumbers = 50.0;
 // And as this many where it is asked how sure the answer is.
 inline constexpr double BeliefNumbers = 25.0;
 
-// In both cases at least as this many per channel: otherwise few samples could not show the errors of many single channels.
+// In both cases at least as this many for each number that an effect needs for a channel: otherwise few samples could not show
+// the errors of many single channels.
 inline constexpr double DiscrepancyPerChannel = 1.5;
 
 // Standard deviation of a number of an effect in a fit before the data speak, in typical sizes.

@@ -67,9 +67,9 @@ public:
   virtual ~Observation() = default;
 
   virtual const std::vector<GapOption>& options() const = 0;
-  virtual Eigen::Index channels() const = 0;
-  virtual double elements() const = 0;    // residuals with weight
-  virtual double noiseEnergy() const = 0; // what noise alone leaves of the energy
+  virtual Eigen::Index channelNumbers() const = 0; // of all channels, the most that an effect needs
+  virtual double elements() const = 0;             // residuals with weight
+  virtual double noiseEnergy() const = 0;          // what noise alone leaves of the energy
   // Of the nominal fit, but for what effects with exact forms take away.
   virtual double inexactEnergy() const { return nominal()->energy; }
 

@@ -12,6 +12,7 @@ namespace msi
 namespace
 {
 constexpr int MostRounds = 4;
+constexpr double MuchLess = 0.5;        // energy
 constexpr std::ptrdiff_t MostForms = 3; // of a cause, fitted in full in the place of one effect
 
 class SetSearch
@@ -100,6 +101,15 @@ private:
       {
         chosen.push_back(preview);
       }
+    }
+    // One linear step may leave so much that its many numbers seem not worth it.
+    const auto lessLeft = [](const GapPreview& a, const GapPreview& b)
+    { return a.fit.energy < b.fit.energy; };
+    const auto least = std::min_element(all.begin(), all.end(), lessLeft);
+    const auto known = std::min_element(chosen.begin(), chosen.end(), lessLeft);
+    if (least != all.end() && least->fit.energy < MuchLess * known->fit.energy)
+    {
+      chosen.push_back(*least);
     }
     return chosen;
   }

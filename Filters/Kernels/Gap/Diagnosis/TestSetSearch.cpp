@@ -34,7 +34,7 @@ public:
   void makePerChannel(std::size_t option) { Options[option].perChannel = true; }
   void makeOfMedium(std::size_t option, const char* medium) { Options[option].medium = medium; }
   const std::vector<msi::GapOption>& options() const override { return Options; }
-  Eigen::Index channels() const override { return 1; }
+  Eigen::Index channelNumbers() const override { return 1; }
   double elements() const override { return static_cast<double>(Y.size()); }
   double noiseEnergy() const override { return static_cast<double>(Y.size()); }
   msi::FitPointer nominal() const override { return fitted({}); }

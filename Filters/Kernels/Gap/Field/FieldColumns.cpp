@@ -263,6 +263,7 @@ public:
     , Channel(static_cast<std::size_t>(channel))
     , Steps(model.steps(ImageStage::Scene, ImageStage::Light, channel, asked))
     , Glare(glare[channel])
+    , Place(channelPlace(channel, data.channels()))
     , Middle(middleOf(data.pair, block.window))
     , Where(ShownPlace(model.displacement(channel), data.pair.extent), Middle)
     , Near(data, block.window, channel, Where.moved, model.blurVariance(channel),
@@ -302,6 +303,7 @@ public:
       (static_cast<std::size_t>(number) * Data.pair.channels.size() + Channel) * TailPasses;
     pixel.tailWeights = TailWeights.data();
     pixel.mean = Glare;
+    pixel.channel = Place;
     return pixel;
   }
   const ChannelSteps& steps() const noexcept { return Steps; }
@@ -331,7 +333,7 @@ private:
   const FieldBlock& Block;
   std::size_t Channel;
   ChannelSteps Steps;
-  double Glare;
+  double Glare, Place; // of the channel
   Eigen::Vector2d Middle;
   Displacement Where;
   Neighbourhood Near;

@@ -119,6 +119,8 @@ void FieldCorrection::operator()(
       for (std::size_t k = 0; k < K; ++k)
       {
         pixel.self = light[k];
+        pixel.channel =
+          channelPlace(static_cast<std::ptrdiff_t>(k), static_cast<std::ptrdiff_t>(K));
         pixel.previous = k > 0 ? &light[k - 1] : nullptr;
         pixel.next = k + 1 < K ? &light[k + 1] : nullptr;
         pixel.row = rows[k][y - window.y];

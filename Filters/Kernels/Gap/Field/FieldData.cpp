@@ -106,7 +106,9 @@ constexpr int Surround = 2; // finite neighbours
 constexpr int LargestMargin = 8;
 constexpr std::size_t MostBlocks = 208; // with up to 8 channels; fewer with more, down to half
 
-constexpr int SmallestBlock = 4; // pixels on a side
+constexpr int LargestBlock = 16; // pixels on a side; half with ManyChannels
+constexpr int SmallestBlock = 4;
+constexpr std::size_t ManyChannels = 24;
 constexpr std::size_t EnoughBlocks = 64;
 constexpr std::size_t FewestBlocks = 15;
 constexpr double UsablePart = 0.25;
@@ -362,7 +364,8 @@ FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, cons
   data.filled = filledScene(data.pair);
   data.unit = fieldUnits(sums);
   const auto regions = regionsOf(pair.extent);
-  for (const int size : { 16, 8, SmallestBlock })
+  const int largest = pair.channels.size() < ManyChannels ? LargestBlock : LargestBlock / 2;
+  for (int size = largest; size >= SmallestBlock; size /= 2)
   {
     findBlocks(data, regions, size);
     if (data.blocks.size() >= EnoughBlocks)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -79,6 +80,23 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
   }
   Elements = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true));
   Nominal = described(std::move(hypothesis));
+}
+
+Eigen::Index FieldObservation::channelNumbers() const
+{
+  std::map<const EffectDefinition*, std::ptrdiff_t>
+    fewest; // of a channel: forms with more come later
+  std::ptrdiff_t most = 0;
+  for (const FieldChoice& choice : Choices)
+  {
+    const auto count = std::count_if(choice.terms.begin(), choice.terms.end(),
+      [](const ImageTerm& term) { return term.perChannel; });
+    if (count > 0)
+    {
+      most = std::max(most, fewest.emplace(choice.effect, count).first->second);
+    }
+  }
+  return most * Data.channels();
 }
 
 bool FieldObservation::hasStart(const FieldModel& model, const FieldChoice& choice)

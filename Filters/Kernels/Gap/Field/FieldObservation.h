@@ -35,7 +35,7 @@ public:
     const FieldLoop& loop);
 
   const std::vector<GapOption>& options() const override { return Options; }
-  Eigen::Index channels() const override { return Data.channels(); }
+  Eigen::Index channelNumbers() const override;
   double elements() const override { return Elements; }
   double noiseEnergy() const override { return NoiseEnergy; }
   double inexactEnergy() const override { return InexactEnergy; }

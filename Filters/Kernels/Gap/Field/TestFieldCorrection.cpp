@@ -88,21 +88,21 @@ TEST(FieldCorrection, WhatNoCauseExplainsCanBeAdded)
   EXPECT_LT(std::sqrt(left), 1.05 * found.report.gap.noiseFloor);
 }
 
-// A camera that sees each of three wavelengths in one channel turns the simulated image, taken as reflectance, into itself; with
-// the effects that were found the simulator must give the corrected image.
-TEST(FieldCorrection, TheSimulatorRunsWithWhatWasFound)
+namespace
 {
-  const TestScene scene(21, 3, 120, 100);
-  const TestPair test = everything(scene);
+// A camera that sees each wavelength in one channel turns the simulated image, taken as reflectance, into itself; with the
+// effects that were found the simulator must give the corrected image.
+void expectSimulatorGivesTheCorrectedImage(const TestPair& test, const FieldGap& found)
+{
   const msi::FieldPair pair = test.pair();
-  const FieldGap found = *msi::diagnoseField(pair);
-  ASSERT_EQ(found.report.correction.size(), 4U);
-  const msi::CameraModel camera(msi::WavelengthGrid::uniform(500.0, 520.0, 10.0),
-    Eigen::MatrixXd::Identity(3, 3), Eigen::VectorXd::Zero(3), pair.channels);
+  const auto K = static_cast<Eigen::Index>(pair.channels.size());
+  const msi::CameraModel camera(
+    msi::WavelengthGrid::uniform(500.0, 490.0 + 10.0 * static_cast<double>(K), 10.0),
+    Eigen::MatrixXd::Identity(K, K), Eigen::VectorXd::Zero(K), pair.channels);
   const msi::ImageSimulator simulator(camera, found.report.correction, pair.extent);
   const msi::ImageWindow all = msi::wholeImage(pair.extent);
   msi::ImageWorkspace workspace;
-  msi::SceneMean mean(3);
+  msi::SceneMean mean(K);
   simulator.addToMean(pair.simulated, nullptr, all, mean, workspace);
   std::vector<float> simulated(test.simulated.size());
   simulator.simulate(pair.simulated, nullptr, all, all, &mean, simulated.data(), workspace);
@@ -116,6 +116,24 @@ TEST(FieldCorrection, TheSimulatorRunsWithWhatWasFound)
     after += std::pow(pair.real[i] - corrected[i], 2);
   }
   EXPECT_LT(after, 0.05 * before);
+}
+}
+
+TEST(FieldCorrection, TheSimulatorRunsWithWhatWasFound)
+{
+  const TestPair test = everything(TestScene(21, 3, 120, 100));
+  const FieldGap found = *msi::diagnoseField(test.pair());
+  ASSERT_EQ(found.report.correction.size(), 4U);
+  expectSimulatorGivesTheCorrectedImage(test, found);
+}
+
+TEST(FieldCorrection, TheSimulatorHasTheLampThatWasFound)
+{
+  const TestPair test = changed(TestScene(63, 6, 96, 80), 73,
+    [](double u, int k, int, int, double) { return u * std::exp(0.04 * k); });
+  const FieldGap found = *msi::diagnoseField(test.pair());
+  ASSERT_EQ(found.report.correction.front().name, "illuminant_drift");
+  expectSimulatorGivesTheCorrectedImage(test, found);
 }
 
 // Turned channels under light off the middle, with sines of three harmonics in the place of a profile.

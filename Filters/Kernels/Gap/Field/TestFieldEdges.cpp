@@ -95,6 +95,28 @@ TEST(FieldGap, MisregistrationOfEachChannel)
   expectParameter(report, "misregistration", "down[C3]", 0.7, 0.02);
 }
 
+// As many numbers as 40: more than what a residual is taken to tell, but each of them shows.
+TEST(FieldGap, MisregistrationOfManyChannels)
+{
+  const TestScene scene(62, 20, 112, 96);
+  const msi::CounterRandom random(62, 1);
+  const auto displacement = [&](int k, std::uint64_t axis)
+  { return 0.5 * random.normal(2 * static_cast<std::uint64_t>(k) + axis); };
+  const TestPair pair = makePair(
+    scene,
+    [&](int k)
+    {
+      return scene.pixels(scene.fine(k,
+        [&](double x, double y)
+        { return std::make_pair(x - displacement(k, 0), y - displacement(k, 1)); }));
+    },
+    72);
+  const GapReport report = diagnose(pair);
+  expectFirst(report, "misregistration", "edges");
+  EXPECT_LT(report.probabilityOf("unknown"), 0.3);
+  expectParameter(report, "misregistration", "right[C7]", displacement(6, 0), 0.03);
+}
+
 TEST(FieldGap, DisplacementOfManyPixels)
 {
   const TestScene scene(9);

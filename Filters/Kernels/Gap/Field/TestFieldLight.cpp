@@ -22,6 +22,26 @@ TEST(FieldGap, VignettingIsRadial)
   expectParameter(report, "vignetting", "falloff", 0.08, 0.002);
 }
 
+// Planck's law at 430 to 670 nm, 2856 K and 4000 K. The curve over eight channels is no coincidence of eight gains.
+TEST(FieldGap, LampOfAnotherTemperature)
+{
+  const TestScene scene(61, 8, 120, 100);
+  const auto planck = [](int k, double kelvin)
+  { return 1.0 / std::expm1(14388.0 / ((0.43 + 0.24 / 7.0 * k) * kelvin)); };
+  const auto change = [&](int k)
+  { return planck(k, 4000.0) / planck(k, 2856.0) * planck(4, 2856.0) / planck(4, 4000.0); };
+  const GapReport report =
+    diagnose(changed(scene, 71, [&](double u, int k, int, int, double) { return u * change(k); }));
+  expectFirst(report, "illuminant_drift", "channel");
+  EXPECT_LT(report.probabilityOf("unknown"), 0.1);
+  // The even polynomials are the same at both ends.
+  const double twist = findParameter(report, "illuminant_drift", "twist") == nullptr
+    ? 0.0
+    : findParameter(report, "illuminant_drift", "twist")->value;
+  EXPECT_NEAR(findParameter(report, "illuminant_drift", "tilt")->value + twist,
+    0.5 * std::log(change(7) / change(0)), 0.02);
+}
+
 TEST(FieldGap, GradientIsAPlane)
 {
   const TestScene scene(2);

@@ -330,6 +330,10 @@ std::vector<EffectChoice> choicesFor(
       }
       for (const EffectForm& form : effect.forms)
       {
+        if (form.has(FormTrait::OfImages))
+        {
+          continue;
+        }
         // Where a common gain may not be blamed nothing else may carry one in disguise.
         if (!form.has(FormTrait::Brightens) || mayBrighten)
         {

@@ -25,7 +25,7 @@ public:
     const std::vector<EffectChoice>& choices, std::uint64_t seed);
 
   const std::vector<GapOption>& options() const override { return Options; }
-  Eigen::Index channels() const override { return Fitter.data().channels(); }
+  Eigen::Index channelNumbers() const override { return Fitter.data().channels(); }
   double elements() const override { return Fitter.trainingElements(); }
   double noiseEnergy() const override { return Fitter.noiseEnergy(); }
   double inexactEnergy() const override { return energyBesideGain(Fitter.data(), Fitter.weight()); }

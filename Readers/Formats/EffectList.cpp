@@ -69,6 +69,7 @@ public:
       fail(std::string("'parameters' holds ") + Parameters.type_name(),
         "an object with the parameters by name", "correct the entry");
     }
+    renameFormer();
     readChannel();
     const EffectForm& form = chooseForm();
     CameraEffect effect{ Name, form.name, readMedium(), {} };
@@ -139,6 +140,22 @@ private:
       fail("the camera has no channel '" + *name + "'", "one of " + known, "correct the name");
     }
     Channel = static_cast<std::size_t>(found - Channels.begin());
+  }
+
+  // Parameters as versions before 'along_x' called them, though y points up where an image is shown.
+  void renameFormer()
+  {
+    for (const auto& [former, now] :
+      { std::pair("right", "along_x"), std::pair("down", "along_y") })
+    {
+      if (const auto found = Parameters.find(former);
+          found != Parameters.end() && !Parameters.contains(now))
+      {
+        Json value = std::move(*found);
+        Parameters.erase(found);
+        Parameters.emplace(now, std::move(value));
+      }
+    }
   }
 
   std::string readMedium() const

@@ -141,6 +141,19 @@ TEST_F(CameraDescriptions, TheParametersChooseTheForm)
   EXPECT_EQ(list.parameters, (std::vector<double>{ 1.0, 2.0, 3.0 }));
 }
 
+TEST_F(CameraDescriptions, FormerNamesOfParametersAreRead)
+{
+  EXPECT_EQ(onlyEffect(
+              R"({"effect": "illumination_gradient", "parameters": {"right": 0.1, "down": -0.05}})")
+              .parameters,
+    (std::vector<double>{ 0.1, -0.05 }));
+  EXPECT_EQ(
+    effectError(
+      R"([{"effect": "illumination_gradient", "parameters": {"right": 0.1, "along_x": 0.1}}])"),
+    "list.json:1:3: effect 1 (illumination_gradient): the form plane has no parameter 'right'; "
+    "expected one of along_x, along_y; correct the name");
+}
+
 TEST_F(CameraDescriptions, AChannelIsSingledOut)
 {
   const auto one =

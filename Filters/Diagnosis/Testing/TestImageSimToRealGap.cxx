@@ -73,7 +73,7 @@ TEST(ImageSimToRealGap, FindsThePlaneOfLight)
   EXPECT_EQ(text(filter, vtkImageSimToRealGap::SUMMARY, 0, "verdict"), "explained");
   EXPECT_EQ(text(filter, vtkImageSimToRealGap::WHERE, 0, "axis"), "position");
   EXPECT_EQ(text(filter, vtkImageSimToRealGap::CAUSES, 0, "effect"), "illumination_gradient");
-  EXPECT_EQ(text(filter, vtkImageSimToRealGap::CAUSES, 0, "parameter"), "right");
+  EXPECT_EQ(text(filter, vtkImageSimToRealGap::CAUSES, 0, "parameter"), "along_x");
   EXPECT_NEAR(number(filter, vtkImageSimToRealGap::CAUSES, 0, "value"), 0.06, 0.002);
   EXPECT_NEAR(number(filter, vtkImageSimToRealGap::CAUSES, 1, "value"), -0.04, 0.002);
   auto* summary =

@@ -20,7 +20,7 @@ constexpr const char* PixelEffects =
       {"effect": "banding", "parameters": {"amplitude": 0.02}},
       {"effect": "channel_crosstalk", "parameters": {"coupling": 0.02}}])";
 constexpr const char* NeighbourEffects =
-  R"([{"effect": "misregistration", "parameters": {"right": 0.7, "down": -1.2, "magnification": 0.002}},
+  R"([{"effect": "misregistration", "parameters": {"along_x": 0.7, "along_y": -1.2, "magnification": 0.002}},
       {"effect": "defocus", "parameters": {"blur": 0.8}},
       {"effect": "local_stray_light", "parameters": {"fraction": 0.05, "radius": 2}}])";
 constexpr const char* SceneEffects =

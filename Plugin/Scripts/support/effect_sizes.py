@@ -49,7 +49,7 @@ def _falloff(form, p):
 
 def _gradient(_form, p):
     # The samples' y and an image's y may run in different directions.
-    right, down = (p.get(name, [0.0])[0] for name in ("right", "down"))
+    right, down = (p.get(name, [0.0])[0] for name in ("along_x", "along_y"))
     return f"{_more(right)} at the right edge than in the middle, {_more(down)} where y is largest"
 
 
@@ -115,7 +115,7 @@ def _noise(form, p):
 
 
 def _displacement(_form, p):
-    moved = max(abs(v) for name in ("right", "down") for v in p.get(name, [0.0]))
+    moved = max(abs(v) for name in ("along_x", "along_y") for v in p.get(name, [0.0]))
     growth, turned = (p.get(name, [0.0]) for name in ("magnification", "rotation"))
     alike = len(growth) == 1
     larger, angle = max(growth, key=abs), max(map(abs, turned))
@@ -128,7 +128,7 @@ def _displacement(_form, p):
 
 
 def _distortion(_form, p):
-    at_the_end = {name: p.get(name, [0.0])[0] for name in ("radial", "keystone_right", "keystone_down", "aspect", "shear")}
+    at_the_end = {name: p.get(name, [0.0])[0] for name in ("radial", "keystone_x", "keystone_y", "aspect", "shear")}
     radial, tilts = at_the_end.pop("radial"), list(at_the_end.values())
     parts = [f"{'pincushion' if radial > 0 else 'barrel'}, {_percent(radial)} at the end of the longer side"] if radial else []
     parts += [f"the view is tilted, up to {_percent(max(tilts, key=abs))} at the end of the longer side"] if any(tilts) else []

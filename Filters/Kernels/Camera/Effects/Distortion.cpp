@@ -64,8 +64,8 @@ Effect distortion()
   const std::vector<EffectParameter> parameters = {
     growth(
       "radial", 0.005, "growth at the end of the longer side, with the square of the distance"),
-    growth("keystone_right", 0.005, "growth at the right end of the longer side, linear"),
-    growth("keystone_down", 0.005, "the same in y"),
+    growth("keystone_x", 0.005, "growth at the right end of the longer side, linear"),
+    growth("keystone_y", 0.005, "the same in y"),
     growth("aspect", 0.002, "growth in x, and as much less in y"),
     growth("shear", 0.002, "displacement in x by y, and in y by x")
   };
@@ -82,7 +82,7 @@ Effect distortion()
     EffectStage::Image, EffectNeed::Nothing,
     { { "common",
       "what lies at p from the middle (as a fraction of half of the longer side) comes to "
-      "p (1 + radial p^2 + keystone_right x + keystone_down y), and by aspect (x, -y) + "
+      "p (1 + radial p^2 + keystone_x x + keystone_y y), and by aspect (x, -y) + "
       "shear (y, x) farther",
       parameters } },
     { "grid target" }, EffectTrait::ActsOnEdges,

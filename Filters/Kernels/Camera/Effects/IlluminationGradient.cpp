@@ -14,8 +14,8 @@ class IlluminationGradient : public FieldOperator<IlluminationGradient>
 {
 public:
   explicit IlluminationGradient(const BoundEffect& effect)
-    : Right(effect.value("right"))
-    , Down(effect.value("down"))
+    : Right(effect.value("along_x"))
+    , Down(effect.value("along_y"))
     , Bend(effect.form().name == "bent" ? effect.value("bend") : 0.0)
   {
   }
@@ -106,9 +106,9 @@ struct GradientOfImage
 
 Effect illuminationGradient()
 {
-  const EffectParameter right{ "right", "1", 0.0, -0.5, 0.5, 0.03,
+  const EffectParameter right{ "along_x", "1", 0.0, -0.5, 0.5, 0.03,
     "gain from the middle to the edge in x" };
-  const EffectParameter down{ "down", "1", 0.0, -0.5, 0.5, 0.03,
+  const EffectParameter down{ "along_y", "1", 0.0, -0.5, 0.5, 0.03,
     "gain from the middle to the edge in y" };
   const EffectParameter bend{ "bend", "1", 0.0, -10.0, 10.0, 1.0,
     "1 / 2 for an exponential, 3 / 4 for the inverse square of a distance", false, true };
@@ -122,8 +122,9 @@ Effect illuminationGradient()
   effect.definition = { "illumination_gradient", "Illumination gradient",
     "More light on one side of the field than on the other.", EffectStage::Irradiance,
     EffectNeed::Position,
-    { { "plane", "u (1 + right x + down y), x and y from -1 to 1 over the field", { right, down } },
-      { "bent", "u (1 + s + bend s^2), s = right x + down y: a lamp that is near",
+    { { "plane", "u (1 + along_x x + along_y y), x and y from -1 to 1 over the field",
+        { right, down } },
+      { "bent", "u (1 + s + bend s^2), s = along_x x + along_y y: a lamp that is near",
         { right, down, bend } } },
     Captures::FlatField, EffectTrait::None, { { "plane", plane }, { "bent", bent, true } } };
   effect.makeBlock = makeBlockOperator<IlluminationGradient>;

@@ -63,8 +63,8 @@ Effect misregistration()
 {
   const auto parameters = [](bool perChannel) -> std::vector<EffectParameter>
   {
-    return { { "right", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in x", perChannel },
-      { "down", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", perChannel },
+    return { { "along_x", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in x", perChannel },
+      { "along_y", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", perChannel },
       { "magnification", "1", 0.0, -0.1, 0.1, 0.001, "relative growth of the image", perChannel },
       { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
         "turn from the axis x towards the axis y of the image", perChannel } };

@@ -145,8 +145,8 @@ TEST(ImageSteps, WhatHasNoEffectYetStartsElsewhere)
   const msi::PlacedStep& slope = msi::stepOf(bend);
   const std::vector<double> flat(slope.step->numbers.size(), 0.0);
   std::vector<double> steep = flat;
-  steep[msi::imageParameter("illumination_gradient", "right") - slope.number] = 0.3;
-  steep[msi::imageParameter("illumination_gradient", "down") - slope.number] = 0.4;
+  steep[msi::imageParameter("illumination_gradient", "along_x") - slope.number] = 0.3;
+  steep[msi::imageParameter("illumination_gradient", "along_y") - slope.number] = 0.4;
   parts.assign(slope.step->width(), 0.0);
   slope.step->change(
     static_cast<int>(bend - slope.number), flat.data(), steep.data(), parts.data());

@@ -97,8 +97,8 @@ Effect unmodelledResponse()
   };
   const std::vector<EffectParameter> parameters = { number("constant", "white", "offset"),
     number("slope", "1", "relative gain"), number("square", "1", "weight of u^2"),
-    number("right", "1", "relative gain from the middle to the edge in x"),
-    number("down", "1", "relative gain from the middle to the edge in y"),
+    number("along_x", "1", "relative gain from the middle to the edge in x"),
+    number("along_y", "1", "relative gain from the middle to the edge in y"),
     number("from_previous", "1", "share of the difference from the channel before"),
     number("from_next", "1", "share of the difference from the channel behind"),
     number("drift", "1", "relative gain from the first to the last reading") };
@@ -114,7 +114,8 @@ Effect unmodelledResponse()
     "request, for an image pair without neighbouring channels and time.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "smooth",
-      "u_k + constant_k + u_k (slope_k + square_k u_k + right_k x + down_k y + drift_k (t - 1/2)) "
+      "u_k + constant_k + u_k (slope_k + square_k u_k + along_x_k x + along_y_k y + drift_k (t - "
+      "1/2)) "
       "+ from_previous_k (u_k-1 - u_k) + from_next_k (u_k+1 - u_k)",
       parameters } },
     { "chart with other samples" }, EffectTrait::Remainder, { ofImage } };

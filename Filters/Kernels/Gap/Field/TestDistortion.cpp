@@ -48,7 +48,7 @@ TestPair distortedPair(const TestScene& scene, const Numbers& by, double moved =
 
 void expectDistortion(const GapReport& report, const Numbers& planted, double tolerance)
 {
-  const char* names[] = { "radial", "keystone_right", "keystone_down", "aspect", "shear" };
+  const char* names[] = { "radial", "keystone_x", "keystone_y", "aspect", "shear" };
   for (std::size_t n = 0; n < planted.size(); ++n)
   {
     if (planted[n] != 0.0)
@@ -92,7 +92,7 @@ TEST(Distortion, IsFoundBesideAChannelThatIsMoved)
   SCOPED_TRACE(describe(report));
   ASSERT_EQ(report.causes.size(), 2U);
   expectDistortion(report, planted, 0.0005);
-  expectParameter(report, "misregistration", "right[C2]", 2.5, 0.02);
+  expectParameter(report, "misregistration", "along_x[C2]", 2.5, 0.02);
 }
 
 TEST(Distortion, EveryPieceGivesTheSameBytes)
@@ -136,8 +136,8 @@ TEST(Distortion, TheCorrectedImageHasItAsTheSimulatorDoes)
   CameraEffect moved = msi::neutralEffect("misregistration", pair.channels);
   moved.parameters[1] = 2.5;
   msi::FieldModel model(3);
-  model[msi::imageParameter("misregistration", "right")].matrix() << 0.0, 2.5, 0.0;
-  const char* names[] = { "radial", "keystone_right", "keystone_down", "aspect", "shear" };
+  model[msi::imageParameter("misregistration", "along_x")].matrix() << 0.0, 2.5, 0.0;
+  const char* names[] = { "radial", "keystone_x", "keystone_y", "aspect", "shear" };
   for (std::size_t n = 0; n < Distorted.parameters.size(); ++n)
   {
     model[msi::imageParameter("distortion", names[n])].setConstant(Distorted.parameters[n]);

@@ -144,7 +144,7 @@ TEST(FieldCorrection, TheSimulatorTurnsAsTheModelDoes)
     scene, [&](int k) { return scene.pixels(scene.fine(k)); }, 33);
   const msi::FieldPair pair = test.pair();
   msi::FieldModel model(3);
-  model[msi::imageParameter("misregistration", "right")].matrix() << 0.4, 0.0, -1.2;
+  model[msi::imageParameter("misregistration", "along_x")].matrix() << 0.4, 0.0, -1.2;
   model[msi::imageParameter("misregistration", "rotation")].matrix() << 0.7, 0.0, -1.1;
   model[msi::imageParameter("misregistration", "magnification")].matrix() << 0.0, 0.004, 0.0;
   model[msi::imageParameter("vignetting", "falloff")].setConstant(0.1);

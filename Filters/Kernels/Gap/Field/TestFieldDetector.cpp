@@ -236,7 +236,7 @@ TEST(FieldGap, CountsOfARawImage)
   ASSERT_NE(offset, nullptr);
   EXPECT_NEAR(offset->value * found.unit[0], 96.0, 3.0);
   expectParameter(report, "vignetting", "falloff", 0.06, 0.003);
-  expectParameter(report, "illumination_gradient", "right", -0.07, 0.002);
+  expectParameter(report, "illumination_gradient", "along_x", -0.07, 0.002);
   ASSERT_FALSE(report.notes.empty());
   EXPECT_NE(report.notes.front().find("not in units of white"), std::string::npos);
 }

@@ -89,10 +89,10 @@ TEST(FieldGap, MisregistrationOfEachChannel)
     18);
   const GapReport report = diagnose(pair);
   expectFirst(report, "misregistration", "edges");
-  expectParameter(report, "misregistration", "right[C1]", 0.4, 0.02);
-  expectParameter(report, "misregistration", "down[C1]", -0.25, 0.02);
-  expectParameter(report, "misregistration", "right[C3]", -1.3, 0.02);
-  expectParameter(report, "misregistration", "down[C3]", 0.7, 0.02);
+  expectParameter(report, "misregistration", "along_x[C1]", 0.4, 0.02);
+  expectParameter(report, "misregistration", "along_y[C1]", -0.25, 0.02);
+  expectParameter(report, "misregistration", "along_x[C3]", -1.3, 0.02);
+  expectParameter(report, "misregistration", "along_y[C3]", 0.7, 0.02);
 }
 
 // As many numbers as 40: more than what a residual is taken to tell, but each of them shows.
@@ -114,7 +114,7 @@ TEST(FieldGap, MisregistrationOfManyChannels)
   const GapReport report = diagnose(pair);
   expectFirst(report, "misregistration", "edges");
   EXPECT_LT(report.probabilityOf("unknown"), 0.3);
-  expectParameter(report, "misregistration", "right[C7]", displacement(6, 0), 0.03);
+  expectParameter(report, "misregistration", "along_x[C7]", displacement(6, 0), 0.03);
 }
 
 TEST(FieldGap, DisplacementOfManyPixels)
@@ -131,8 +131,8 @@ TEST(FieldGap, DisplacementOfManyPixels)
     19);
   const GapReport report = diagnose(pair);
   expectFirst(report, "misregistration", "edges");
-  expectParameter(report, "misregistration", "right[C2]", 6.3, 0.02);
-  expectParameter(report, "misregistration", "down[C2]", -4.6, 0.02);
+  expectParameter(report, "misregistration", "along_x[C2]", 6.3, 0.02);
+  expectParameter(report, "misregistration", "along_y[C2]", -4.6, 0.02);
   EXPECT_GT(report.where.front().share, 0.85); // however far
 }
 
@@ -204,7 +204,7 @@ TEST(FieldGap, ACameraThatWasMoved)
   EXPECT_EQ(report.causes.front().form, "common");
   EXPECT_EQ(report.verdict, GapVerdict::Explained);
   EXPECT_GT(report.probabilityOf("misregistration"), 0.9);
-  expectParameter(report, "misregistration", "right", 2.3, 0.02);
+  expectParameter(report, "misregistration", "along_x", 2.3, 0.02);
   expectParameter(report, "misregistration", "magnification", -0.004, 0.0003);
   expectParameter(report, "misregistration", "rotation", 0.2, 0.01);
 }
@@ -308,7 +308,7 @@ TEST(FieldGap, RotationOfEachChannel)
   expectParameter(report, "misregistration", "rotation[C1]", 0.4, Tolerance);
   expectParameter(report, "misregistration", "rotation[C2]", 0.0, Tolerance);
   expectParameter(report, "misregistration", "rotation[C3]", -0.25, Tolerance);
-  expectParameter(report, "misregistration", "right[C1]", 0.5, 0.02);
+  expectParameter(report, "misregistration", "along_x[C1]", 0.5, 0.02);
 }
 
 // 3 degrees move the border by five pixels: no start for a fit by gradients without a look around.

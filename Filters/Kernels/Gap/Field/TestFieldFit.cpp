@@ -53,10 +53,10 @@ TEST(FieldFit, ProductsOfNoiseInTheScene)
   {
     FieldModel model(1);
     model[imageParameter("defocus", "blur")].setConstant(variance);
-    model[imageParameter("misregistration", "right")].setConstant(variance > 0.0 ? 0.3 : 0.0);
+    model[imageParameter("misregistration", "along_x")].setConstant(variance > 0.0 ? 0.3 : 0.0);
     const Eigen::ArrayXd glare = data.cells.mean(model);
     const int blur = FieldColumn::blur();
-    const int right = static_cast<int>(stepOf(imageParameter("misregistration", "right")).column);
+    const int right = static_cast<int>(stepOf(imageParameter("misregistration", "along_x")).column);
     Eigen::Matrix3d seen = Eigen::Matrix3d::Zero(); // blur, right, residual
     Eigen::Matrix3d expected = seen;
     for (const FieldBlock& block : data.blocks)

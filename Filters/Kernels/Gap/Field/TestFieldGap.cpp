@@ -247,7 +247,7 @@ TEST(FieldGap, PatchesAmongGaps)
   ASSERT_FALSE(report.causes.empty());
   EXPECT_EQ(report.causes.front().effect, "illumination_gradient");
   EXPECT_EQ(report.causes.size(), 1U);
-  expectParameter(report, "illumination_gradient", "right", 0.08, 0.002);
+  expectParameter(report, "illumination_gradient", "along_x", 0.08, 0.002);
   const auto says = [&report](const char* words)
   {
     return std::any_of(report.notes.begin(), report.notes.end(),

@@ -50,8 +50,8 @@ TEST(FieldGap, GradientIsAPlane)
     { return u * (1.0 + 0.05 * scene.fieldX(x) - 0.03 * scene.fieldY(y)); });
   const GapReport report = diagnose(pair);
   expectFirst(report, "illumination_gradient", "position");
-  expectParameter(report, "illumination_gradient", "right", 0.05, 0.002);
-  expectParameter(report, "illumination_gradient", "down", -0.03, 0.002);
+  expectParameter(report, "illumination_gradient", "along_x", 0.05, 0.002);
+  expectParameter(report, "illumination_gradient", "along_y", -0.03, 0.002);
 }
 
 // A lamp that is near: the inverse square of the distance is 1 + s + 3/4 s^2 but for higher orders.
@@ -67,8 +67,8 @@ TEST(FieldGap, GradientThatBends)
   const GapReport report = diagnose(pair);
   expectFirst(report, "illumination_gradient", "position");
   EXPECT_EQ(report.causes.front().form, "bent");
-  expectParameter(report, "illumination_gradient", "right", 0.2, 0.002);
-  expectParameter(report, "illumination_gradient", "down", -0.1, 0.002);
+  expectParameter(report, "illumination_gradient", "along_x", 0.2, 0.002);
+  expectParameter(report, "illumination_gradient", "along_y", -0.1, 0.002);
   expectParameter(report, "illumination_gradient", "bend", 0.75, 0.05);
 }
 

@@ -4,7 +4,7 @@
  *
  * Input 0 is a spectral image; input 1 a table of the displacements of its channels, as Channel Displacement finds them
  * in this image or in another one of the same camera. The output is the image with its spectral array resampled by
- * cubic convolution: where channel k was displaced by (x, y), magnified and turned beside the reference channel, it
+ * convolution with six pixels an axis: where channel k was displaced by (x, y), magnified and turned beside the reference channel, it
  * is put back. Values that a channel does not show, because they lie outside of its image, are NaN. Each piece asks for the
  * pixels around it that it reads.
  */

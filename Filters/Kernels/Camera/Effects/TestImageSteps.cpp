@@ -33,6 +33,7 @@ Answer answerOf(const msi::ImageStep& step, const std::vector<double>& numbers, 
   pixel.tailWeights = weights.data();
   pixel.mean = 0.33;
   pixel.elsewhere = 0.8;
+  pixel.channel = 0.4;
   pixel.self = 0.55;
   pixel.previous = &previous;
   pixel.next = &next;

@@ -3,7 +3,6 @@
 #include "Kernels/Camera/Imaging/WeightedSum.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -15,18 +14,19 @@ namespace
 // A row's weights are repeated over so many pixels that a loop over them is worth its start.
 constexpr std::size_t RegisteredPixels = 32;
 
-// Cubic convolution around a place on an axis: weights of the pixels from `first` on.
-struct Cubic
+constexpr int Points = 6;
+
+// Around a place on an axis: weights of the pixels from `first` on.
+struct Near
 {
   int first;
-  std::array<float, 4> weight;
+  SixPoints<float> weight;
 };
 
-Cubic cubicAt(double place)
+Near nearTo(double place)
 {
   const double below = std::floor(place);
-  const Eigen::Array4f weight = cubicConvolution(place - below).cast<float>();
-  return { static_cast<int>(below) - 1, { weight[0], weight[1], weight[2], weight[3] } };
+  return { static_cast<int>(below) - 2, sixPointConvolution(place - below).cast<float>() };
 }
 
 // The pixels that all channels together read.
@@ -36,37 +36,37 @@ struct Span
   int last;
 };
 
-Span spanOf(const Cubic* cubics, std::size_t channels)
+Span spanOf(const Near* places, std::size_t channels)
 {
-  Span span{ cubics[0].first, cubics[0].first };
+  Span span{ places[0].first, places[0].first };
   for (std::size_t k = 1; k < channels; ++k)
   {
-    span.first = std::min(span.first, cubics[k].first);
-    span.last = std::max(span.last, cubics[k].first);
+    span.first = std::min(span.first, places[k].first);
+    span.last = std::max(span.last, places[k].first);
   }
-  span.last += 3;
+  span.last += Points - 1;
   return span;
 }
 
 // The channels' weights on the pixels of their span, `step` apart.
-void spread(const Cubic* cubics, std::size_t channels, std::size_t step, float* weights)
+void spread(const Near* places, std::size_t channels, std::size_t step, float* weights)
 {
-  const int first = spanOf(cubics, channels).first;
+  const int first = spanOf(places, channels).first;
   for (std::size_t k = 0; k < channels; ++k)
   {
-    const auto tap = static_cast<std::size_t>(cubics[k].first - first);
-    for (std::size_t i = 0; i < cubics[k].weight.size(); ++i)
+    const auto tap = static_cast<std::size_t>(places[k].first - first);
+    for (std::size_t i = 0; i < Points; ++i)
     {
-      weights[(tap + i) * step + k] = cubics[k].weight[i];
+      weights[(tap + i) * step + k] = places[k].weight[static_cast<Eigen::Index>(i)];
     }
   }
 }
 
 // Where the output position of an axis lies in the image before.
-Cubic sourceOf(int position, int extent, double displacement, double magnification)
+Near sourceOf(int position, int extent, double displacement, double magnification)
 {
   const double middle = 0.5 * (extent - 1);
-  return cubicAt(middle + (position - middle - displacement) / (1.0 + magnification));
+  return nearTo(middle + (position - middle - displacement) / (1.0 + magnification));
 }
 }
 
@@ -78,7 +78,7 @@ ChannelRegistration::ChannelRegistration(
   for (const ImageDisplacement& displacement : Displacements)
   {
     const double farthest = ShownPlace(displacement, extent).farthest();
-    Reach = std::max(Reach, static_cast<int>(std::ceil(farthest)) + 2);
+    Reach = std::max(Reach, static_cast<int>(std::ceil(farthest)) + Points / 2);
   }
 }
 
@@ -122,18 +122,18 @@ void RegistrationRows::begin(const ChannelRegistration& registration, const Imag
 void RegistrationRows::beginAlongAxes()
 {
   const ImageWindow& window = Window;
-  std::vector<Cubic> cubics(Count);
+  std::vector<Near> places(Count);
   Runs.clear();
   int most = 0;
   for (int x = 0; x < window.width; ++x)
   {
-    Cubic* cubic = cubics.data() + static_cast<std::size_t>(x) * Channels;
+    Near* place = places.data() + static_cast<std::size_t>(x) * Channels;
     for (std::size_t k = 0; k < Channels; ++k)
     {
-      cubic[k] = sourceOf(
+      place[k] = sourceOf(
         window.x + x, Extent.width, Displacements[k].right, Displacements[k].magnification);
     }
-    const Span span = spanOf(cubic, Channels);
+    const Span span = spanOf(place, Channels);
     most = std::max(most, span.last - span.first + 1);
     const int offset = span.first - window.x - x;
     if (Runs.empty() || Runs.back().offset != offset)
@@ -147,7 +147,7 @@ void RegistrationRows::beginAlongAxes()
   Weights.assign(Taps * Count, 0.0F);
   for (std::size_t x = 0; x < static_cast<std::size_t>(window.width); ++x)
   {
-    spread(cubics.data() + x * Channels, Channels, Count, Weights.data() + x * Channels);
+    spread(places.data() + x * Channels, Channels, Count, Weights.data() + x * Channels);
   }
 }
 
@@ -190,19 +190,19 @@ void RegistrationRows::turnRow(int y)
     for (int i = 0; i < Window.width; ++i)
     {
       const Eigen::Vector2d place = shown({ Window.x + i - middleX, y - middleY });
-      const Cubic across = cubicAt(middleX + place.x());
-      const Cubic down = cubicAt(middleY + place.y());
+      const Near across = nearTo(middleX + place.x());
+      const Near down = nearTo(middleY + place.y());
       float sum = 0.0F;
-      for (int v = 0; v < 4; ++v)
+      for (int v = 0; v < Points; ++v)
       {
         const float* row = Ring.row(std::clamp(down.first + v - Window.y, 0, Window.height - 1));
         float along = 0.0F;
-        for (int u = 0; u < 4; ++u)
+        for (int u = 0; u < Points; ++u)
         {
           const int at = std::clamp(across.first + u - Window.x, 0, Window.width - 1);
-          along += across.weight[static_cast<std::size_t>(u)] * row[at * channels + k];
+          along += across.weight[u] * row[at * channels + k];
         }
-        sum += down.weight[static_cast<std::size_t>(v)] * along;
+        sum += down.weight[v] * along;
       }
       Out[static_cast<std::size_t>(i * channels + k)] = sum;
     }
@@ -217,20 +217,20 @@ const float* RegistrationRows::next()
     ++Given;
     return Out.data();
   }
-  std::vector<Cubic> cubics(Channels);
+  std::vector<Near> places(Channels);
   for (std::size_t k = 0; k < Channels; ++k)
   {
-    cubics[k] = sourceOf(
+    places[k] = sourceOf(
       Window.y + Given, Extent.height, Displacements[k].down, Displacements[k].magnification);
   }
-  const Span span = spanOf(cubics.data(), Channels);
+  const Span span = spanOf(places.data(), Channels);
   const int pixels = span.last - span.first + 1;
   const auto taps = static_cast<std::size_t>(pixels);
   const std::size_t period = RegisteredPixels * Channels;
   RowWeights.assign(taps * period, 0.0F);
   for (std::size_t i = 0; i < RegisteredPixels; ++i)
   {
-    spread(cubics.data(), Channels, period, RowWeights.data() + i * Channels);
+    spread(places.data(), Channels, period, RowWeights.data() + i * Channels);
   }
   Sources.resize(taps);
   for (std::size_t tap = 0; tap < taps; ++tap)

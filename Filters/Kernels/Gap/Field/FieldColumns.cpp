@@ -133,17 +133,17 @@ Eigen::ArrayXd gaussianSlope(double variance, Eigen::Index reach)
     (2.0 * VarianceStep * variance);
 }
 
-Eigen::ArrayXd convolved(const Eigen::ArrayXd& blur, const Eigen::Array4d& shift)
+Eigen::ArrayXd convolved(const Eigen::ArrayXd& blur, const SixPoints<double>& shift)
 {
-  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(blur.size() + 3);
-  for (Eigen::Index i = 0; i < 4; ++i)
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(blur.size() + shift.size() - 1);
+  for (Eigen::Index i = 0; i < shift.size(); ++i)
   {
     weight.segment(i, blur.size()) += shift[i] * blur;
   }
   return weight;
 }
 
-// Cubic convolution for a displacement with a Gaussian of a variance, along one axis: the weights of the
+// Interpolation for a displacement with a Gaussian of a variance, along one axis: the weights of the
 // pixels from `first` on, and their derivatives by displacement and variance.
 struct AxisKernel
 {
@@ -154,15 +154,15 @@ struct AxisKernel
   {
     const double below = std::floor(-displacement);
     const double t = -displacement - below;
-    const Eigen::Array4d cubic = cubicConvolution(t);
-    const Eigen::Array4d cubicSlope = -cubicConvolutionSlope(t);
+    const SixPoints<double> shifted = sixPointConvolution(t);
+    const SixPoints<double> slope = -sixPointConvolutionSlope(t);
     const int reach = std::max(
       1, static_cast<int>(std::ceil(GaussianCut * std::sqrt(variance * (1.0 + VarianceStep)))));
     const Eigen::ArrayXd spread = gaussian(variance, reach);
-    first = static_cast<int>(below) - 1 - reach;
-    value = convolved(spread, cubic);
-    shift = convolved(spread, cubicSlope);
-    blur = convolved(gaussianSlope(variance, reach), cubic);
+    first = static_cast<int>(below) - 2 - reach;
+    value = convolved(spread, shifted);
+    shift = convolved(spread, slope);
+    blur = convolved(gaussianSlope(variance, reach), shifted);
   }
 };
 

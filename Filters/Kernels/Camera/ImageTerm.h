@@ -156,7 +156,8 @@ struct ImageForm
 {
   std::string form;
   std::vector<ImageTerm> terms;
-  bool twice = false; // starts again from where the first step led
+  bool twice = false;     // starts again from where the first step led
+  bool brightens = false; // contains a gain common to all channels
 };
 
 } // namespace msi

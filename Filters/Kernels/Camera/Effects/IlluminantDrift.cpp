@@ -199,6 +199,7 @@ Effect illuminantDrift()
   for (const std::size_t count : { 1, 3, 4 })
   {
     ImageForm form{ ofImages.name, {} };
+    form.brightens = count > 1; // the level is the second
     for (std::size_t number = 0; number < count; ++number)
     {
       form.terms.push_back(imageTerm(number, ofImages.parameters[number]));

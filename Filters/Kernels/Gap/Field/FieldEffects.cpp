@@ -103,17 +103,23 @@ bool isFree(const FieldChoice& choice)
 std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
 {
   requireKnown(without);
+  const auto barred = [&without](const std::string& name)
+  { return std::find(without.begin(), without.end(), name) != without.end(); };
+  const bool mayBrighten = !barred(effectWith(EffectTrait::CommonGain).name);
   std::vector<FieldChoice> choices;
   for (const EffectDefinition& effect : effectLibrary())
   {
-    if (effect.has(EffectTrait::Remainder) ||
-      std::find(without.begin(), without.end(), effect.name) != without.end())
+    if (effect.has(EffectTrait::Remainder) || barred(effect.name))
     {
       continue;
     }
     for (const ImageForm& form : effect.imageForms)
     {
-      choices.push_back({ form, &effect });
+      // Where a common gain may not be blamed nothing else may carry one in disguise.
+      if (!form.brightens || mayBrighten)
+      {
+        choices.push_back({ form, &effect });
+      }
     }
   }
   // Of effects that do as well the exact ones come first.

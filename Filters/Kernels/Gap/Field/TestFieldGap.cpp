@@ -215,6 +215,20 @@ TEST(FieldGap, LeavesOutWhatIsAskedFor)
   EXPECT_NE(report.verdict, GapVerdict::NoGap);
 }
 
+// An exposure that may not be blamed is no lamp that is brighter either.
+TEST(FieldGap, LeavesOutGainsInDisguise)
+{
+  const TestScene scene(64, 5);
+  const TestPair pair =
+    changed(scene, 74, [](double u, int, int, int, double) { return 0.93 * u; });
+  msi::GapOptions options;
+  options.without = { "exposure_gain" };
+  const GapReport report = msi::diagnoseField(pair.pair(), options)->report;
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.probabilityOf("exposure_gain"), 0.0);
+  EXPECT_LT(report.probabilityOf("illuminant_drift"), 0.1);
+}
+
 // A chart on a black cloth that was not simulated: patches of constant color, holes in the real image.
 TEST(FieldGap, PatchesAmongGaps)
 {

@@ -118,6 +118,19 @@ double median(const Eigen::VectorXd& values)
 }
 }
 
+namespace
+{
+// By the medians of the first and the last third, as J. W. Tukey (Exploratory Data Analysis, 1977): outliers do not pull it.
+Eigen::VectorXd resistantLine(const Eigen::VectorXd& x, const Eigen::VectorXd& y)
+{
+  const Eigen::Index third = x.size() / 3;
+  const double run = third > 0 ? median(x.tail(third)) - median(x.head(third)) : 0.0;
+  const double rise = run > 0.0 ? median(y.tail(third)) - median(y.head(third)) : 0.0;
+  const Eigen::VectorXd along = run > 0.0 ? Eigen::VectorXd(rise / run * x) : 0.0 * x;
+  return along.array() + median(y - along);
+}
+}
+
 std::vector<SampleGroup> groupSamples(const SceneSamples& samples)
 {
   std::vector<SampleGroup> groups;
@@ -184,8 +197,8 @@ GapTrend trendOf(
     {
       ++end;
     }
-    const Eigen::VectorXd stretch = trend.before.segment(begin, end - begin);
-    trend.level.segment(begin, end - begin).setConstant(median(stretch));
+    trend.level.segment(begin, end - begin) = resistantLine(
+      trend.order.segment(begin, end - begin), trend.before.segment(begin, end - begin));
     begin = end;
   }
   return trend;

@@ -43,7 +43,7 @@ struct GapTrend
   Eigen::VectorXd order;
   Eigen::VectorXd before; // relativeGap
   Eigen::VectorXd after;
-  Eigen::VectorXd level; // median of `before` between one change point and the next
+  Eigen::VectorXd level; // line through `before` between one change point and the next
 };
 // Samples with a finite gap; empty without an order.
 GapTrend trendOf(

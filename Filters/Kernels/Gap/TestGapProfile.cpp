@@ -87,6 +87,19 @@ TEST(GapProfile, TrendIsSortedAndItsLevelStepsAtChangePoints)
   EXPECT_EQ(trend.level.tail(6), Eigen::VectorXd::Constant(6, 0.3));
 }
 
+TEST(GapProfile, TheLevelOfADriftIsALineThatOutliersDoNotPull)
+{
+  auto samples = tenSamples();
+  samples.order = Eigen::VectorXd::LinSpaced(10, 1.0, 10.0);
+  msi::GapReport report;
+  report.gapBefore = 0.01 * samples.order.transpose();
+  report.gapBefore(0, 1) = -3.0;
+  report.gapBefore(0, 7) = 5.0;
+  report.gapAfter = Eigen::MatrixXd::Zero(1, 10);
+  const auto trend = msi::trendOf(samples, report, Eigen::MatrixXd::Ones(1, 10));
+  EXPECT_LT((trend.level - 0.01 * trend.order).cwiseAbs().maxCoeff(), 0.02);
+}
+
 TEST(GapProfile, NoOrderNoTrend)
 {
   auto samples = tenSamples();

@@ -207,8 +207,8 @@ def _trend(rows):
     plot.axhline(0, color="#808080", linewidth=0.8)
     plot.plot(order, [row["gap_before"] for row in rows], ".", color=_BEFORE, label="before")
     plot.plot(order, [row["gap_after"] for row in rows], ".", color=_AFTER, label="after")
-    plot.step(order, [row["level"] for row in rows], where="mid", color="black",
-              label="median before, between change points")
+    plot.plot(order, [row["level"] for row in rows], color="black",
+              label="line through before, between change points")
     plot.yaxis.set_major_formatter(matplotlib.ticker.PercentFormatter(1.0))
     plot.set_xlabel("Capture order")
     plot.set_ylabel("Gap relative to the simulated response")

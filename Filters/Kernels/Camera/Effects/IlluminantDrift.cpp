@@ -84,6 +84,30 @@ Eigen::ArrayXd anotherLamp(const BoundEffect& effect)
   return (onGrid * logarithm).array().exp();
 }
 
+// Its step on image pairs.
+struct LampOfImage
+{
+  static double shine(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  {
+    const double x = pixel.channel;
+    const std::array<double, 4> legendre{ x, 1.0, 1.5 * x * x - 0.5, (2.5 * x * x - 1.5) * x };
+    const double factor =
+      std::exp(std::inner_product(legendre.begin(), legendre.end(), numbers, 0.0));
+    signal *= factor;
+    for (std::size_t n = 0; n < legendre.size() && by != nullptr; ++n)
+    {
+      by[n] = signal * legendre[n];
+    }
+    return factor;
+  }
+
+  static const ImageStep& step()
+  {
+    static const ImageStep made{ ImageStage::Detector, { {}, {}, {}, {} }, shine };
+    return made;
+  }
+};
+
 class IlluminantDrift : public ResponsivityOperator
 {
 public:
@@ -108,14 +132,23 @@ public:
       Factor = (effect.value("tilt") * x).exp();
       return;
     }
+    const double tilt = effect.value("tilt");
+    const double curvature = effect.value("curvature");
+    const double twist = effect.value("twist");
     OverChannels = effect.form().name == "over_channels";
-    const Eigen::Index channels = effect.camera().channelCount();
-    const Eigen::ArrayXd places = Eigen::ArrayXd::NullaryExpr(
-      channels, [channels](Eigen::Index k) { return channelPlace(k, channels); });
-    Factor = legendre(OverChannels ? places : x, effect.value("tilt"), effect.value("curvature"),
-      effect.value("twist"))
-               .exp();
-    Factor *= OverChannels ? std::exp(effect.value("level")) : 1.0;
+    if (!OverChannels)
+    {
+      Factor = legendre(x, tilt, curvature, twist).exp();
+      return;
+    }
+    const double numbers[] = { tilt, effect.value("level"), curvature, twist };
+    Factor.setOnes(effect.camera().channelCount());
+    for (Eigen::Index k = 0; k < Factor.size(); ++k)
+    {
+      ImagePixel pixel;
+      pixel.channel = channelPlace(k, Factor.size());
+      LampOfImage::shine(numbers, pixel, Factor[k], nullptr);
+    }
   }
   void apply(Eigen::MatrixXd& responsivity) const override
   {
@@ -130,30 +163,6 @@ public:
 private:
   Eigen::ArrayXd Factor;
   bool OverChannels = false; // and not over the wavelengths
-};
-
-// Its step on image pairs.
-struct LampOfImage
-{
-  static double shine(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
-  {
-    const double x = pixel.channel;
-    const std::array<double, 4> legendre{ x, 1.0, 1.5 * x * x - 0.5, (2.5 * x * x - 1.5) * x };
-    const double factor =
-      std::exp(std::inner_product(legendre.begin(), legendre.end(), numbers, 0.0));
-    signal *= factor;
-    for (std::size_t n = 0; n < legendre.size() && by != nullptr; ++n)
-    {
-      by[n] = signal * legendre[n];
-    }
-    return factor;
-  }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Detector, { {}, {}, {}, {} }, shine };
-    return made;
-  }
 };
 }
 

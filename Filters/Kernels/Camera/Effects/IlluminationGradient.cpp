@@ -14,20 +14,20 @@ class IlluminationGradient : public FieldOperator<IlluminationGradient>
 {
 public:
   explicit IlluminationGradient(const BoundEffect& effect)
-    : Right(effect.value("along_x"))
-    , Down(effect.value("along_y"))
+    : AlongX(effect.value("along_x"))
+    , AlongY(effect.value("along_y"))
     , Bend(effect.form().name == "bent" ? effect.value("bend") : 0.0)
   {
   }
   double factor(double x, double y) const noexcept
   {
-    const double plane = Right * x + Down * y;
+    const double plane = AlongX * x + AlongY * y;
     return 1.0 + plane + Bend * plane * plane;
   }
 
 private:
-  double Right;
-  double Down;
+  double AlongX;
+  double AlongY;
   double Bend;
 };
 }
@@ -106,14 +106,14 @@ struct GradientOfImage
 
 Effect illuminationGradient()
 {
-  const EffectParameter right{ "along_x", "1", 0.0, -0.5, 0.5, 0.03,
+  const EffectParameter alongX{ "along_x", "1", 0.0, -0.5, 0.5, 0.03,
     "gain from the middle to the edge in x" };
-  const EffectParameter down{ "along_y", "1", 0.0, -0.5, 0.5, 0.03,
+  const EffectParameter alongY{ "along_y", "1", 0.0, -0.5, 0.5, 0.03,
     "gain from the middle to the edge in y" };
   const EffectParameter bend{ "bend", "1", 0.0, -10.0, 10.0, 1.0,
     "1 / 2 for an exponential, 3 / 4 for the inverse square of a distance", false, true };
-  const std::vector<ImageTerm> plane = { imageTerm(GradientOfImage::Along, right),
-    imageTerm(GradientOfImage::Across, down) };
+  const std::vector<ImageTerm> plane = { imageTerm(GradientOfImage::Along, alongX),
+    imageTerm(GradientOfImage::Across, alongY) };
   std::vector<ImageTerm> bent = plane;
   // Of the square of the place along the slope, whatever the slope is.
   bent.push_back({ GradientOfImage::Bent, false, -0.3, 0.3, 0.03, bend.name, bend.unit, false,
@@ -123,9 +123,9 @@ Effect illuminationGradient()
     "More light on one side of the field than on the other.", EffectStage::Irradiance,
     EffectNeed::Position,
     { { "plane", "u (1 + along_x x + along_y y), x and y from -1 to 1 over the field",
-        { right, down } },
+        { alongX, alongY } },
       { "bent", "u (1 + s + bend s^2), s = along_x x + along_y y: a lamp that is near",
-        { right, down, bend } } },
+        { alongX, alongY, bend } } },
     Captures::FlatField, EffectTrait::None, { { "plane", plane }, { "bent", bent, true } } };
   effect.makeBlock = makeBlockOperator<IlluminationGradient>;
   effect.onImage.step = &GradientOfImage::step();

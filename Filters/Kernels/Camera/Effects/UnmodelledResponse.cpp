@@ -114,8 +114,8 @@ Effect unmodelledResponse()
     "request, for an image pair without neighbouring channels and time.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "smooth",
-      "u_k + constant_k + u_k (slope_k + square_k u_k + along_x_k x + along_y_k y + drift_k (t - "
-      "1/2)) "
+      "u_k + constant_k + u_k (slope_k + square_k u_k + along_x_k x + along_y_k y + "
+      "drift_k (t - 1/2)) "
       "+ from_previous_k (u_k-1 - u_k) + from_next_k (u_k+1 - u_k)",
       parameters } },
     { "chart with other samples" }, EffectTrait::Remainder, { ofImage } };

@@ -76,8 +76,8 @@ struct FieldData
 };
 
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and
-// that lies a little inside the image. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at random; small images give blocks of 8 or 4 pixels, and from 24
-// channels on there are none larger than 8.
+// that lies a little inside the image. At most 208 blocks (from 9 channels on fewer, down to 104) of 16 x 16 pixels, drawn at
+// random; small images give blocks of 8 or 4 pixels, and from 24 channels on there are none larger than 8.
 // Two thirds are for training, in FieldFolds folds, whole groups (dealBlocks) in one of them.
 // The tail needs the surround: images of more than 2 million pixels are looked at in nine windows of at most
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.

@@ -235,7 +235,7 @@ std::vector<GapChangePoint> OrderBreaks::significant(
     }
   }
   std::sort(places.begin(), places.end());
-  // Between their neighbours, now that all are known. What the largest ones left may have looked like one.
+  // Between their neighbours, now that all are known: some looked like one only beside larger ones that were not known yet.
   std::vector<GapChangePoint> found;
   const Eigen::VectorXd& at = fitter.data().scene.samples().order;
   for (std::size_t p = 1; p + 1 < places.size(); ++p)

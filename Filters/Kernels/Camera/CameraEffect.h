@@ -4,6 +4,7 @@
 #include "Kernels/Camera/CaptureKind.h"
 #include "Kernels/Camera/ImageTerm.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -49,6 +50,14 @@ struct EffectParameter
   // Of numbers of single channels: it is the light that makes them differ, so they are one cause and may follow a curve over the
   // channels.
   bool followsLight = false;
+
+  // The same with a number for each channel, which the light makes differ.
+  EffectParameter ofLight() const
+  {
+    EffectParameter parameter = *this;
+    parameter.perChannel = parameter.followsLight = true;
+    return parameter;
+  }
 };
 
 // What the diagnosis asks of a form. Bits of EffectForm::traits.
@@ -63,7 +72,8 @@ enum Bit : unsigned
   // Its given parameters are slope and constant of the line through the squared responses. It acts before the effect's other
   // forms and may stand beside one of them: it is a matter of how the camera was fitted.
   BesideLine = 1U << 3,
-  OfImages = 1U << 4 // for pairs of images, which know no spectra; tables have other forms
+  OfImages = 1U << 4, // for pairs of images, which know no spectra; tables have other forms
+  OfField = 1U << 5   // needs positions, whatever the effect needs
 };
 }
 
@@ -110,6 +120,13 @@ struct EffectDefinition
   std::vector<ImageForm> imageForms = {}; // what a pair of images shows of it; empty: nothing
 
   bool has(EffectTrait::Bit trait) const noexcept { return (traits & trait) != 0; }
+  // With one number for all channels.
+  bool hasCommonForm() const noexcept
+  {
+    const std::vector<EffectParameter>& plain = forms.front().parameters;
+    return std::none_of(
+      plain.begin(), plain.end(), [](const EffectParameter& one) { return one.perChannel; });
+  }
 };
 
 // Every effect the simulator knows, in the order in which they act.

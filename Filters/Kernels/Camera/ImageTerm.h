@@ -82,6 +82,7 @@ struct ImagePixel
   double self = 0.0;                   // the light on the detector here
   const double* previous = nullptr;    // and in the channels before and behind; null: there is none
   const double* next = nullptr;
+  double ofAll = 0.0; // mean of the light over the channels
   ImageLine row, column;
 };
 
@@ -146,8 +147,8 @@ struct ImageTerm
   double lower, upper, typical;
   std::string name = {}; // of the form's parameter; empty: the library has no such number
   std::string unit = {};
-  bool squared = false;                             // it is the square of the library's number
-  double (*scale)(const double* numbers) = nullptr; // the library's is it times this; null: 1
+  bool squared = false;            // it is the square of the library's number
+  bool followsLight = false;       // EffectParameter::followsLight
   std::vector<double> starts = {}; // values to start from while the step is neutral; empty: its own
 };
 
@@ -156,7 +157,6 @@ struct ImageForm
 {
   std::string form;
   std::vector<ImageTerm> terms;
-  bool twice = false;     // starts again from where the first step led
   bool brightens = false; // contains a gain common to all channels
 };
 

@@ -116,7 +116,7 @@ TEST(EffectLibrary, SaysWhatItKnows)
   EXPECT_EQ(message.rfind("there is no camera effect 'filter_shfit'; known are ", 0), 0U);
   EXPECT_NE(message.find("filter_shift"), std::string::npos);
   EXPECT_EQ(messageOf([] { msi::neutralEffect("dark_offset", sevenChannels().channels(), "all"); }),
-    "there is no form of dark_offset 'all'; known are common, per_channel");
+    "there is no form of dark_offset 'all'; known are common, per_channel, plane");
 }
 
 TEST(EffectLibrary, SpreadsPerChannelParametersAndNamesThem)

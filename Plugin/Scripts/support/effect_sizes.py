@@ -42,15 +42,20 @@ def _of(values, words):
 
 
 def _falloff(form, p):
-    edge = p["tangent"][0] if form == "cos4" else sum(p[name][0] for name in ("falloff", "fourth", "sixth") if name in p)
-    loss = 1.0 - (1.0 + edge ** 2) ** -2 if form == "cos4" else edge
-    return _more(-loss, " at the edge of the longer side than on the axis")
+    if form == "cos4":
+        losses = [1.0 - (1.0 + p["tangent"][0] ** 2) ** -2]
+    elif form == "polynomial":
+        losses = [sum(p[name][0] for name in ("falloff", "fourth", "sixth"))]
+    else:
+        losses = p["falloff"]
+    return _relative([-loss for loss in losses], _more) + " at the edge of the longer side than on the axis"
 
 
-def _gradient(_form, p):
+def _gradient(form, p):
     # The samples' y and an image's y may run in different directions.
-    right, down = (p.get(name, [0.0])[0] for name in ("along_x", "along_y"))
-    return f"{_more(right)} at the right edge than in the middle, {_more(down)} where y is largest"
+    right, down = (p.get(name, [0.0]) for name in ("along_x", "along_y"))
+    both = f"; {_more(p['square'][0])} at both ends of a line at {_plain(p['turn'][0])} degrees" if form == "bent" else ""
+    return f"{_relative(right, _more)} at the right edge than in the middle, {_relative(down, _more)} where y is largest{both}"
 
 
 def _nonlinearity(form, p):
@@ -58,8 +63,8 @@ def _nonlinearity(form, p):
         return f"exponent {p['exponent'][0]:.3g}"
     if form == "compressive":
         return f"{_brighter(1.0 / (1.0 + p['compression'][0]) - 1.0)} at white"
-    if form == "anchored":
-        return f"{_brighter((_MIDDLE - 1.0) * p['square'][0])} at half of white"
+    if form in ("anchored", "per_channel"):
+        return _relative([(_MIDDLE - 1.0) * square for square in p["square"]], _brighter) + " at half of white"
     if form == "fitted":
         return f"the response bends by {_percent(p['square'][0])} of white up to white, which the linear fit of the simulated camera leaves out"
     return f"{_brighter(sum(p[name][0] for name in ('square', 'cube') if name in p))} at white"
@@ -85,7 +90,19 @@ def _lamp(form, p):
     return f"{ends:.3g} times as much light {places}, relative to the model"
 
 
-def _crosstalk(_form, p):
+def _dark(form, p):
+    if len(p["offset"]) == 1:
+        return f"{_percent(p['offset'][0])} of white too {'bright' if p['offset'][0] >= 0 else 'dark'}"
+    offsets = _channels([100 * value for value in p["offset"]], "% of white")
+    if form != "plane":
+        return offsets
+    most = max(p["along_x"] + p["along_y"], key=abs)
+    return f"{offsets} in the middle, up to {_percent(most)} of white more on one side and less on the other"
+
+
+def _crosstalk(form, p):
+    if form == "shared":
+        return f"{_percent(p['coupling'][0])} of the signal of each channel is what all channels have in common"
     if "coupling" in p:
         return f"{_percent(p['coupling'][0])} of the signal exchanged with each neighbouring channel"
     return (f"{_percent(p['from_previous'][0])} of the signal from the channel before, {_percent(p['from_next'][0])} from the one "
@@ -164,9 +181,8 @@ WORDS = {
     "channel_crosstalk": _crosstalk,
     "session_drift": _drift,
     "detector_nonlinearity": _nonlinearity,
-    "dark_offset": lambda f, p: (f"{_percent(p['offset'][0])} of white too {'bright' if p['offset'][0] >= 0 else 'dark'}"
-                                 if len(p["offset"]) == 1 else _channels([100 * v for v in p["offset"]], "% of white")),
-    "saturation": lambda f, p: f"responses end at {_percent(p['level'][0])} of white",
+    "dark_offset": _dark,
+    "saturation": lambda f, p: _of(p["level"], "responses end at {} of white"),
     "excess_noise": _noise,
     "distortion": _distortion,
     "misregistration": _displacement,

@@ -491,7 +491,7 @@ const std::vector<std::string>& plantableNames()
 const std::vector<std::string>& strangerNames()
 {
   static const std::vector<std::string> names{ "flicker", "tilted swatches", "two detector halves",
-    "a curve in each channel", "polarisation", "ghost image", "unmixed stray pattern" };
+    "teeth in the curve", "polarisation", "ghost image", "unmixed stray pattern" };
   return names;
 }
 
@@ -566,12 +566,12 @@ PlantedEffect plantStranger(
     change = [right](double u, std::size_t i, std::size_t)
     { return (*right)[i] ? 0.3 * u * (u - 0.3) : 0.0; };
   }
-  else if (kind == "a curve in each channel")
+  else if (kind == "teeth in the curve")
   {
-    effect.axes = { "channel", "level" };
-    Random own(seed);
-    const std::vector<double> bend = drawn(own, channels, 0.2);
-    change = [bend](double u, std::size_t, std::size_t k) { return bend[k] * u * (1.0 - 1.6 * u); };
+    effect.axes = { "level" };
+    const double teeth = uniform(random, 5.0, 9.0);
+    change = [teeth](double u, std::size_t, std::size_t)
+    { return 0.02 * std::sin(6.2831853 * teeth * u); };
   }
   else if (kind == "polarisation")
   {

@@ -17,15 +17,19 @@ double sign(Random& random)
 
 using Maker = ImageFault (*)(Random&, int channels, int width, int height);
 
-ImageFault field(
-  const std::string& kind, const std::function<double(double x, double y, double size)>& factor)
+// sizes: of each channel.
+ImageFault field(const std::string& kind, const std::vector<double>& sizes,
+  const std::function<double(double x, double y, double size)>& factor)
 {
   return { kind,
-    [factor](ImageFaults& f, double size)
+    [=](ImageFaults& f, double size)
     {
       const auto before = f.field;
-      f.field = [before, factor, size](double x, double y)
-      { return (before ? before(x, y) : 1.0) * factor(x, y, size); };
+      f.field = [=](int k, double x, double y)
+      {
+        return (before ? before(k, x, y) : 1.0) *
+          factor(x, y, size * sizes[static_cast<std::size_t>(k)]);
+      };
     } };
 }
 
@@ -57,6 +61,17 @@ std::vector<double> around(Random& random, int count, double spread)
   for (int k = 0; k < count; ++k)
   {
     values.push_back(normal(random, spread));
+  }
+  return values;
+}
+
+// 1 for every channel, or in half of the cases different from channel to channel.
+std::vector<double> ofChannels(Random& random, int channels, double spread)
+{
+  std::vector<double> values = around(random, channels, chance(random, 0.5) ? spread : 0.0);
+  for (double& value : values)
+  {
+    value = std::exp(value);
   }
   return values;
 }
@@ -109,43 +124,55 @@ const std::map<std::string, Maker>& makers()
       [](Random& random, int channels, int, int) -> ImageFault
       {
         const double s = sign(random);
-        const std::vector<double> spread =
-          around(random, channels, chance(random, 0.5) ? 0.5 : 0.0);
-        return { "pedestal",
-          [s, spread](ImageFaults& f, double size)
-          {
-            for (std::size_t k = 0; k < spread.size(); ++k)
+        const std::vector<double> part = ofChannels(random, channels, 0.5);
+        if (chance(random, 1.0 / 3.0))
+        {
+          const double angle = uniform(random, 0.0, 6.2832);
+          return { "window",
+            [=](ImageFaults& f, double size)
             {
-              f.offset[k] += 0.012 * s * size * std::exp(spread[k]);
+              f.window = [=](int k, double x, double y)
+              {
+                return 0.012 * size * part[static_cast<std::size_t>(k)] *
+                  std::exp(0.8 * (x * std::cos(angle) + y * std::sin(angle)));
+              };
+            } };
+        }
+        return { "pedestal",
+          [s, part](ImageFaults& f, double size)
+          {
+            for (std::size_t k = 0; k < part.size(); ++k)
+            {
+              f.offset[k] += 0.012 * s * size * part[k];
             }
           } };
       } },
     { "defocus",
       [](Random& random, int channels, int, int) -> ImageFault
       {
-        const std::vector<double> spread =
-          around(random, channels, chance(random, 0.5) ? 0.3 : 0.0);
+        const std::vector<double> part = ofChannels(random, channels, 0.3);
         return { "Gaussian",
-          [spread](ImageFaults& f, double size)
+          [part](ImageFaults& f, double size)
           {
-            for (std::size_t k = 0; k < spread.size(); ++k)
+            for (std::size_t k = 0; k < part.size(); ++k)
             {
-              f.blur[k] += std::sqrt(size) * std::exp(spread[k]);
+              f.blur[k] += std::sqrt(size) * part[k];
             }
           } };
       } },
     { "detector_nonlinearity",
-      [](Random& random, int, int, int) -> ImageFault
+      [](Random& random, int channels, int, int) -> ImageFault
       {
         const double s = sign(random);
         const int kind = integer(random, 0, 2);
         const char* kinds[] = { "logarithm", "parabola", "S" };
+        const std::vector<double> exposure = ofChannels(random, channels, 0.5);
         return { kinds[kind],
-          [s, kind](ImageFaults& f, double size)
+          [=](ImageFaults& f, double size)
           {
-            const double a = 0.12 * s * size;
-            f.curve = [a, kind](double u)
+            f.curve = [=](int k, double u)
             {
+              const double a = 0.12 * s * size * exposure[static_cast<std::size_t>(k)];
               return kind == 0
                 ? std::log1p(a * u) / (std::fabs(a) < 1e-9 ? 1.0 : a) * (1.0 + 0.5 * a)
                 : kind == 1 ? u + a * u * (1.0 - u)
@@ -233,10 +260,10 @@ const std::map<std::string, Maker>& makers()
           } };
       } },
     { "illumination_gradient",
-      [](Random& random, int, int, int) -> ImageFault
+      [](Random& random, int channels, int, int) -> ImageFault
       {
         const double angle = uniform(random, 0.0, 6.2832);
-        return field("lamp to one side",
+        return field("lamp to one side", ofChannels(random, channels, 0.5),
           [angle](double x, double y, double size)
           {
             const double along = x * std::cos(angle) + y * std::sin(angle);
@@ -294,22 +321,29 @@ const std::map<std::string, Maker>& makers()
           } };
       } },
     { "saturation",
-      [](Random&, int, int, int) -> ImageFault
+      [](Random& random, int channels, int, int) -> ImageFault
       {
+        const std::vector<double> part = ofChannels(random, channels, 0.1);
         return { "full well",
-          [](ImageFaults& f, double size) { f.well = 0.93 * std::exp(-0.15 * size); } };
+          [part](ImageFaults& f, double size)
+          {
+            for (std::size_t k = 0; k < part.size(); ++k)
+            {
+              f.well[k] = 0.93 * part[k] * std::exp(-0.15 * size);
+            }
+          } };
       } },
     { "veiling_glare",
       [](Random&, int, int, int) -> ImageFault {
         return { "haze", [](ImageFaults& f, double size) { f.glare += 0.04 * size; } };
       } },
     { "vignetting",
-      [](Random& random, int, int, int) -> ImageFault
+      [](Random& random, int channels, int, int) -> ImageFault
       {
         const double cx = normal(random, 0.1);
         const double cy = normal(random, 0.1);
         const bool clipped = chance(random, 0.5);
-        return field(clipped ? "pupil" : "cosine",
+        return field(clipped ? "pupil" : "cosine", ofChannels(random, channels, 0.3),
           [=](double x, double y, double size)
           {
             const double r2 = std::pow(x - cx, 2) + std::pow(y - cy, 2);
@@ -351,6 +385,7 @@ ImageFaults noFaults(int channels)
   faults.blur.assign(K, 0.0);
   faults.gain.assign(K, 1.0);
   faults.offset.assign(K, 0.0);
+  faults.well.assign(K, 1e9);
   return faults;
 }
 
@@ -453,7 +488,7 @@ Planes expose(const ImageScene& scene, const ImageFaults& faults)
       {
         const double x = (i + 0.5) / Fine::Parts - 0.5 - 0.5 * (scene.width() - 1);
         const double y = (j + 0.5) / Fine::Parts - 0.5 - 0.5 * (scene.height() - 1);
-        fine.at(i, j) *= faults.field(x / half, y / half);
+        fine.at(i, j) *= faults.field(k, x / half, y / half);
       }
     }
     std::vector<double> u = pixels(blurred(fine, faults.blur[at]));
@@ -505,8 +540,14 @@ Planes expose(const ImageScene& scene, const ImageFaults& faults)
           static_cast<int>(k), static_cast<int>(i % width), static_cast<int>(i / width));
       }
       u *= faults.gain[k];
-      u = faults.curve ? faults.curve(u) : u;
-      planes[k][i] = std::min(u + faults.offset[k], faults.well);
+      u = faults.curve ? faults.curve(static_cast<int>(k), u) : u;
+      if (faults.window)
+      {
+        const double x = static_cast<double>(i % width) - 0.5 * (scene.width() - 1);
+        const double y = static_cast<double>(i / width) - 0.5 * (scene.height() - 1);
+        u += faults.window(static_cast<int>(k), x / half, y / half);
+      }
+      planes[k][i] = std::min(u + faults.offset[k], faults.well[k]);
     }
   }
   if (faults.other)

@@ -13,19 +13,20 @@ using Planes = std::vector<std::vector<double>>; // [channel][pixel]
 // What happens to the light on its way into the image's pixels.
 struct ImageFaults
 {
-  std::vector<Place> moved;                        // one a channel, may be empty
-  std::vector<double> blur;                        // pixels, one a channel
-  double tail = 0.0;                               // part of the light in a broad tail
-  double tailRadius = 12.0;                        // pixels
-  std::function<double(double x, double y)> field; // -1..1
-  double glare = 0.0;                              // of the mean
-  double ghost = 0.0;                              // of the light at the opposite place
-  double before = 0.0;                             // of the channel before stays in the detector
-  double mixed = 0.0; // with both neighbours, taken from the channel itself
+  std::vector<Place> moved;                               // one a channel, may be empty
+  std::vector<double> blur;                               // pixels, one a channel
+  double tail = 0.0;                                      // part of the light in a broad tail
+  double tailRadius = 12.0;                               // pixels
+  std::function<double(int k, double x, double y)> field; // factor; -1..1
+  double glare = 0.0;                                     // of the mean
+  double ghost = 0.0;                                     // of the light at the opposite place
+  double before = 0.0; // of the channel before stays in the detector
+  double mixed = 0.0;  // with both neighbours, taken from the channel itself
   std::function<double(int k, int x, int y)> stripes; // factor
   std::vector<double> gain, offset;
-  std::function<double(double)> curve;
-  double well = 1e9;
+  std::function<double(int k, double x, double y)> window; // added; -1..1
+  std::function<double(int k, double u)> curve;
+  std::vector<double> well;
   std::function<void(Planes&, const ImageScene&)> other;
 };
 

@@ -375,7 +375,7 @@ const std::vector<std::string>& realFaultNames()
 const std::vector<std::string>& realStrangerNames()
 {
   static const std::vector<std::string> names{ "filters that shift off the axis", "flicker",
-    "a curve in each channel", "gains that come and go", "tilted samples" };
+    "couplings of each channel", "gains that come and go", "tilted samples" };
   return names;
 }
 
@@ -423,12 +423,20 @@ RealFault drawRealStranger(const std::string& name, Random& random, const RealSi
       [&site, cycles](double size) -> Eigen::ArrayXd
       { return 1.0 + 0.05 * size * (6.2832 * cycles * site.time()).sin(); });
   }
-  if (name == "a curve in each channel")
+  if (name == "couplings of each channel")
   {
-    const Eigen::ArrayXd bend = drawn(random, K, 0.3);
-    return { 3, name, [bend](const Answers& u, double size) -> Answers {
-              return u.array() + (u.array() * (0.7 - u.array())).colwise() * (size * bend);
-            } };
+    // Each has a part of the next one in it, of either sign.
+    const Eigen::ArrayXd part = drawn(random, K, 0.05);
+    return { 3, name,
+      [part](const Answers& u, double size) -> Answers
+      {
+        Answers changed = u;
+        for (Eigen::Index k = 0; k < u.rows(); ++k)
+        {
+          changed.row(k) += size * part[k] * (u.row((k + 1) % u.rows()) - u.row(k));
+        }
+        return changed;
+      } };
   }
   if (name == "tilted samples")
   {

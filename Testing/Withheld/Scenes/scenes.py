@@ -224,14 +224,14 @@ class Camera:
                 u = u + size * sign * fault["offsets"][:, None, None]
             elif name == "? two taps":
                 u = numpy.where(x > 0.3 * fault["at"][0], u * (1.0 + size), u)
-            elif name == "? dark gradient":
-                u = u + size * (y + 0.5 * x)
+            elif name == "? glow":
+                u = u + size * numpy.exp(((x - 1.0) ** 2 + (y - 1.0) ** 2) / -0.15)
         return u + self.small["dark"][:, None, None]
 
 
 EFFECTS = ["banding", "channel_crosstalk", "channel_gain", "dark_offset", "defocus", "detector_nonlinearity", "distortion", "exposure_gain",
            "ghost_reflection", "illuminant_drift", "illumination_gradient", "lag", "local_stray_light", "misregistration", "saturation", "veiling_glare", "vignetting"]
-STRANGERS = ["? sharpened", "? lamp mirrored", "? dust", "? two taps", "? dark gradient"]
+STRANGERS = ["? sharpened", "? lamp mirrored", "? dust", "? two taps", "? glow"]
 AXES = {"banding": "rows columns", "channel_crosstalk": "channel sample region", "channel_gain": "channel level", "dark_offset": "channel level",
         "defocus": "edges", "detector_nonlinearity": "level", "distortion": "edges region", "exposure_gain": "level channel",
         "ghost_reflection": "region position sample edges channel level",

@@ -6,13 +6,14 @@ namespace msi
 
 namespace
 {
-// u_k + before_k (u_k-1 - u_k) + after_k (u_k+1 - u_k); at the ends the neighbour that is missing gives nothing.
+// u_k + before_k (u_k-1 - u_k) + after_k (u_k+1 - u_k) + all (mean - u_k); at the ends the neighbour that is missing gives nothing.
 class ChannelCrosstalk : public BlockOperatorOf<ChannelCrosstalk>
 {
 public:
   explicit ChannelCrosstalk(const BoundEffect& effect)
     : Before(share(effect, "from_previous"))
     , After(share(effect, "from_next"))
+    , OfAll(effect.form().name == "shared" ? effect.value("coupling") : 0.0)
   {
   }
   template <typename Scalar>
@@ -23,11 +24,13 @@ public:
     const Eigen::Index last = signal.rows() - 1;
     for (Eigen::Index j = 0; j < signal.cols(); ++j)
     {
+      const auto all = static_cast<Scalar>(OfAll);
+      const Scalar mean = OfAll != 0.0 ? signal.col(j).mean() : Scalar(0);
       Scalar previous = signal(0, j);
       for (Eigen::Index k = 0; k <= last; ++k)
       {
         const Scalar self = signal(k, j);
-        Scalar change = before[k] * (previous - self);
+        Scalar change = before[k] * (previous - self) + all * (mean - self);
         if (k < last)
         {
           change += after[k] * (signal(k + 1, j) - self);
@@ -43,6 +46,10 @@ private:
   {
     const Eigen::Index channels = effect.camera().channelCount();
     const Eigen::ArrayXd all = Eigen::ArrayXd::Ones(channels);
+    if (effect.form().name == "shared")
+    {
+      return ChannelValues(0.0 * all);
+    }
     if (effect.form().name == "one_sided")
     {
       return ChannelValues(effect.value(side) * all);
@@ -52,6 +59,7 @@ private:
   }
   ChannelValues Before;
   ChannelValues After;
+  double OfAll;
 };
 }
 
@@ -64,18 +72,20 @@ struct CrosstalkOfImage
   {
     const double before = pixel.previous != nullptr ? *pixel.previous - pixel.self : 0.0;
     const double behind = pixel.next != nullptr ? *pixel.next - pixel.self : 0.0;
+    const double all = pixel.ofAll - pixel.self;
     if (by != nullptr)
     {
       by[0] = before;
       by[1] = behind;
+      by[2] = all;
     }
-    signal += numbers[0] * before + numbers[1] * behind;
+    signal += numbers[0] * before + numbers[1] * behind + numbers[2] * all;
     return 1.0; // what changes the light here changes that of the neighbours much alike
   }
 
   static const ImageStep& step()
   {
-    static const ImageStep made{ ImageStage::Exposure, { {}, {} }, exchange };
+    static const ImageStep made{ ImageStage::Exposure, { {}, {}, {} }, exchange };
     return made;
   }
 };
@@ -91,6 +101,8 @@ Effect channelCrosstalk()
   EffectParameter next = coupling;
   next.name = "from_next";
   next.meaning = "share taken over from the channel behind";
+  EffectParameter all = coupling;
+  all.meaning = "share of what all channels have in common";
   Effect effect;
   effect.definition = { "channel_crosstalk", "Channel crosstalk",
     "A part of the neighbouring channels' signal: charge, lag between exposures, a mosaic's "
@@ -103,9 +115,14 @@ Effect channelCrosstalk()
           { "growth", "1", 0.0, -1.0, 1.0, 0.3, "relative growth of the coupling over the channels",
             false, true } } },
       { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
-        { previous, next } } },
+        { previous, next } },
+      { "shared",
+        "u_k + coupling (mean of all channels - u_k): what filters let pass beside their bands, "
+        "as far as images tell it",
+        { all }, {}, FormTrait::OfImages } },
     Captures::NarrowBands, EffectTrait::CouplesChannels,
-    { { "one_sided", { imageTerm(0, previous), imageTerm(1, next) } } } };
+    { { "one_sided", { imageTerm(0, previous), imageTerm(1, next) } },
+      { "shared", { imageTerm(2, all) } } } };
   effect.makeBlock = makeBlockOperator<ChannelCrosstalk>;
   effect.onImage.step = &CrosstalkOfImage::step();
   return effect;

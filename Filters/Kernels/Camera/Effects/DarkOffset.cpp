@@ -1,6 +1,8 @@
 // An offset that the dark frame did not take away.
 #include "Kernels/Camera/Effects/Effect.h"
 
+#include <optional>
+
 namespace msi
 {
 
@@ -12,15 +14,26 @@ public:
   explicit DarkOffset(const BoundEffect& effect)
     : Offset(effect.perChannel("offset"))
   {
+    if (effect.form().has(FormTrait::OfField))
+    {
+      AlongX.emplace(effect.perChannel("along_x"));
+      AlongY.emplace(effect.perChannel("along_y"));
+    }
   }
   template <typename Scalar>
-  void run(Block<Scalar> response, const ColumnContext&) const noexcept
+  void run(Block<Scalar> response, const ColumnContext& columns) const noexcept
   {
     response.array().colwise() += Offset.as<Scalar>();
+    for (Eigen::Index j = 0; AlongX && j < response.cols(); ++j)
+    {
+      response.col(j).array() += static_cast<Scalar>(columns.fieldX[j]) * AlongX->as<Scalar>() +
+        static_cast<Scalar>(columns.fieldY[j]) * AlongY->as<Scalar>();
+    }
   }
 
 private:
   ChannelValues Offset;
+  std::optional<ChannelValues> AlongX, AlongY;
 };
 
 EffectParameter offset(bool perChannel)
@@ -32,19 +45,23 @@ EffectParameter offset(bool perChannel)
 // Its step on image pairs.
 struct DarkOfImage
 {
-  static double add(const double* numbers, const ImagePixel&, double& signal, double* by)
+  static double add(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
   {
     if (by != nullptr)
     {
       by[0] = 1.0;
+      by[1] = pixel.x;
+      by[2] = pixel.y;
     }
-    signal += numbers[0];
+    signal += numbers[0] + numbers[1] * pixel.x + numbers[2] * pixel.y;
     return 1.0;
   }
 
   static const ImageStep& step()
   {
-    static const ImageStep made{ ImageStage::Detector, { { 0.0, ImageAxis::Channel } }, add };
+    static const ImageStep made{ ImageStage::Detector,
+      { { 0.0, ImageAxis::Channel }, { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position } },
+      add };
     return made;
   }
 };
@@ -52,15 +69,26 @@ struct DarkOfImage
 
 Effect darkOffset()
 {
+  const auto along = [](const char* name, const char* meaning) {
+    return EffectParameter{ name, "white", 0.0, -0.2, 0.2, 0.005, meaning }.ofLight();
+  };
+  const EffectParameter everywhere = offset(false).ofLight();
+  const EffectParameter alongX = along("along_x", "more of it from the middle to the edge in x");
+  const EffectParameter alongY = along("along_y", "more of it from the middle to the edge in y");
   Effect effect;
   effect.definition = { "dark_offset", "Dark offset",
     "Dark current, bias or ambient light that the dark frame did not take away.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "common", "u + offset", { offset(false) } },
-      { "per_channel", "u_k + offset_k", { offset(true) }, {} } },
+      { "per_channel", "u_k + offset_k", { offset(true) }, {} },
+      { "plane",
+        "u_k + offset_k + along_x_k x + along_y_k y: light that does not come from the scene, more "
+        "of it on one side",
+        { everywhere, alongX, alongY }, {}, FormTrait::OfField } },
     Captures::LensCap, EffectTrait::Exact,
     { { "common", { imageTerm(0, offset(false)) } },
-      { "per_channel", { imageTerm(0, offset(true)) } } } };
+      { "per_channel", { imageTerm(0, offset(true)) } },
+      { "plane", { imageTerm(0, everywhere), imageTerm(1, alongX), imageTerm(2, alongY) } } } };
   effect.makeBlock = makeBlockOperator<DarkOffset>;
   effect.onImage.step = &DarkOfImage::step();
   effect.afterDark = true;

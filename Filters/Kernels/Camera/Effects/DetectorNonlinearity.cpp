@@ -1,4 +1,4 @@
-// One curve for all channels between light and response.
+// A curve between light and response.
 #include "Kernels/Camera/Effects/DetectorKernel.h"
 #include "Kernels/Camera/Effects/DetectorRuns.h"
 #include "Kernels/Camera/Effects/Effect.h"
@@ -36,6 +36,11 @@ public:
       LinearOf = ChannelValues(1.0 - square * effect.perChannel("slope"));
       ConstantOf = ChannelValues(-square * effect.perChannel("constant"));
     }
+    else if (form == "per_channel")
+    {
+      Kind = OfChannels;
+      SquareOf = ChannelValues(effect.perChannel("square"));
+    }
     else
     {
       // linear u + square u^2 + cube u^3
@@ -56,6 +61,9 @@ public:
         break;
       case Compressive:
         u /= Scalar(1) + linear * u;
+        break;
+      case OfChannels:
+        u += (u.square() - u).colwise() * SquareOf.as<Scalar>();
         break;
       case Fitted:
         u = (u.colwise() * LinearOf.as<Scalar>() + static_cast<Scalar>(Square) * u.square())
@@ -84,12 +92,13 @@ private:
     Polynomial,
     Gamma,
     Compressive,
+    OfChannels,
     Fitted
   } Kind = Polynomial;
   double Linear = 1.0;
   double Square = 0.0;
   double Cube = 0.0;
-  ChannelValues LinearOf, ConstantOf;
+  ChannelValues SquareOf, LinearOf, ConstantOf;
 };
 }
 
@@ -161,13 +170,17 @@ Effect detectorNonlinearity()
   };
   Effect effect;
   effect.definition = { "detector_nonlinearity", "Detector nonlinearity",
-    "One curve for all channels between light and response.", EffectStage::Detector,
+    "A curve between light and response.", EffectStage::Detector,
     EffectNeed::Nothing,
     { { "quadratic", "u + square u^2", { square } },
       { "anchored", "(1 - square) u + square u^2: white keeps its response", { square } },
       { "gamma", "u^exponent: white keeps its response", { exponent } },
       { "compressive", "u / (1 + compression u)", { compression } },
       { "cubic", "u + square u^2 + cube u^3", { square, cube } },
+      { "per_channel",
+        "(1 - square_k) u_k + square_k u_k^2: channels that are exposed differently reach "
+        "different parts of the curve",
+        { square.ofLight() } },
       { "fitted",
         "u + square (u^2 - slope_k u - constant_k): what a linear camera that was fitted to the "
         "curve leaves of it",
@@ -179,8 +192,8 @@ Effect detectorNonlinearity()
       { "anchored", { imageTerm(CurveOfImage::Anchored, square) } },
       { "gamma", { imageTerm(CurveOfImage::Exponent, exponent) } },
       { "compressive", { imageTerm(CurveOfImage::Compression, compression) } },
-      { "cubic",
-        { imageTerm(CurveOfImage::Square, square), imageTerm(CurveOfImage::Cube, cube) } } } };
+      { "cubic", { imageTerm(CurveOfImage::Square, square), imageTerm(CurveOfImage::Cube, cube) } },
+      { "per_channel", { imageTerm(CurveOfImage::Anchored, square.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<DetectorNonlinearity>;
   effect.onImage.step = &CurveOfImage::step();
   return effect;

@@ -53,8 +53,8 @@ void EffectChain::build(const EffectChain* related)
   std::stable_sort(Steps.begin(), Steps.end(),
     [](const Step& a, const Step& b)
     {
-      return std::make_pair(a.definition, !a.besideLine) <
-        std::make_pair(b.definition, !b.besideLine);
+      return std::make_pair(a.definition, !a.form->has(FormTrait::BesideLine)) <
+        std::make_pair(b.definition, !b.form->has(FormTrait::BesideLine));
     });
   requireOnce();
   for (const Step& step : Steps)
@@ -103,8 +103,8 @@ EffectChain::Step EffectChain::bind(std::size_t effect)
   const bool newMedium = !name.empty() && mediumNumber(name) < 0;
   const int medium = newMedium ? static_cast<int>(Media.size()) : mediumNumber(name);
   const BoundEffect bound(Effects[effect], *Camera, medium);
-  Step step{ effect, &bound.definition(), bound.form().has(FormTrait::BesideLine),
-    bound.isNeutral(), medium, nullptr, nullptr, nullptr };
+  Step step{ effect, &bound.definition(), &bound.form(), bound.isNeutral(), medium, nullptr,
+    nullptr, nullptr };
   if (step.neutral)
   {
     return step;
@@ -149,7 +149,8 @@ void EffectChain::requireOnce() const
     const bool twice = std::any_of(Steps.begin(), step,
       [&](const Step& other)
       {
-        return other.definition == step->definition && other.besideLine == step->besideLine &&
+        return other.definition == step->definition &&
+          other.form->has(FormTrait::BesideLine) == step->form->has(FormTrait::BesideLine) &&
           Effects[other.effect].medium == mine.medium;
       });
     if (twice)
@@ -162,7 +163,8 @@ void EffectChain::requireOnce() const
 void EffectChain::place(const Step& step)
 {
   const EffectDefinition& definition = *step.definition;
-  NeedsPosition = NeedsPosition || definition.need == EffectNeed::Position;
+  NeedsPosition =
+    NeedsPosition || definition.need == EffectNeed::Position || step.form->has(FormTrait::OfField);
   NeedsOrder = NeedsOrder || definition.need == EffectNeed::Order;
   if (step.onResponsivity)
   {

@@ -101,7 +101,7 @@ private:
   {
     std::size_t effect; // in Effects
     const EffectDefinition* definition;
-    bool besideLine; // FormTrait::BesideLine
+    const EffectForm* form;
     bool neutral;
     int medium; // -1: all
     Shared<ResponsivityOperator> onResponsivity;

@@ -1,6 +1,7 @@
 // More light on one side of the field than on the other.
 #include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Camera/Effects/FieldOperator.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <cmath>
 #include <vector>
@@ -14,21 +15,27 @@ class IlluminationGradient : public FieldOperator<IlluminationGradient>
 {
 public:
   explicit IlluminationGradient(const BoundEffect& effect)
-    : AlongX(effect.value("along_x"))
-    , AlongY(effect.value("along_y"))
-    , Bend(effect.form().name == "bent" ? effect.value("bend") : 0.0)
+    : FieldOperator(effect)
+    , AlongX(effect.perChannel("along_x"))
+    , AlongY(effect.perChannel("along_y"))
   {
+    if (effect.form().name == "bent")
+    {
+      Square = effect.value("square");
+      Turn = Degree * effect.value("turn");
+    }
   }
-  double factor(double x, double y) const noexcept
+  double factor(Eigen::Index k, double x, double y) const noexcept
   {
-    const double plane = AlongX * x + AlongY * y;
-    return 1.0 + plane + Bend * plane * plane;
+    const double along = x * std::cos(Turn) + y * std::sin(Turn);
+    return 1.0 + AlongX[k] * x + AlongY[k] * y + Square * along * along;
   }
 
 private:
-  double AlongX;
-  double AlongY;
-  double Bend;
+  Eigen::ArrayXd AlongX;
+  Eigen::ArrayXd AlongY;
+  double Square = 0.0;
+  double Turn = 0.0;
 };
 }
 
@@ -39,66 +46,58 @@ struct GradientOfImage
 {
   enum Number : std::size_t
   {
-    Along,
-    Across,
-    Bent,    // times the square of the place along the slope
+    AlongX,
+    AlongY,
+    Square,
+    Turn,
     SquareX, // further derivatives
     SquareY,
     Product
   };
 
-  static double square(const double* numbers)
-  {
-    return numbers[Along] * numbers[Along] + numbers[Across] * numbers[Across];
-  }
-
   static double shade(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
   {
-    const double plane = numbers[Along] * pixel.x + numbers[Across] * pixel.y;
-    const double size2 = square(numbers);
-    const double bend = size2 > 0.0 ? numbers[Bent] / size2 : 0.0;
+    const double cosine = std::cos(Degree * numbers[Turn]);
+    const double sine = std::sin(Degree * numbers[Turn]);
+    const double along = pixel.x * cosine + pixel.y * sine;
     if (by != nullptr)
     {
-      // The place along the slope, and how it turns.
-      const double place2 = size2 > 0.0 ? plane * plane / size2 : 0.0;
-      by[Along] = (pixel.x + 2.0 * bend * (plane * pixel.x - place2 * numbers[Along])) * signal;
-      by[Across] = (pixel.y + 2.0 * bend * (plane * pixel.y - place2 * numbers[Across])) * signal;
-      by[Bent] = place2 * signal;
+      by[AlongX] = pixel.x * signal;
+      by[AlongY] = pixel.y * signal;
+      by[Square] = along * along * signal;
+      by[Turn] =
+        Degree * 2.0 * numbers[Square] * along * (pixel.y * cosine - pixel.x * sine) * signal;
       by[SquareX] = pixel.x * pixel.x * signal;
       by[SquareY] = pixel.y * pixel.y * signal;
       by[Product] = pixel.x * pixel.y * signal;
     }
-    const double factor = 1.0 + plane + bend * plane * plane;
+    const double factor =
+      1.0 + numbers[AlongX] * pixel.x + numbers[AlongY] * pixel.y + numbers[Square] * along * along;
     signal *= factor;
     return factor;
   }
 
-  // Without a slope the bend goes along that which is to be.
-  static void alongSlope(int n, const double* numbers, const double* about, double* derivatives)
+  // The square goes along the direction that is to be.
+  static void turned(int n, const double*, const double* about, double* derivatives)
   {
-    const double size2 = square(about);
-    if (n == Bent && !(square(numbers) > 0.0) && size2 > 0.0)
+    if (n != Square)
     {
-      derivatives[SquareX] = about[Along] * about[Along] / size2;
-      derivatives[SquareY] = about[Across] * about[Across] / size2;
-      derivatives[Product] = 2.0 * about[Along] * about[Across] / size2;
+      derivatives[n] = 1.0;
       return;
     }
-    derivatives[n] = 1.0;
-  }
-
-  static constexpr double LeastSquare = 1e-8;
-
-  static double bySlope(const double* numbers)
-  {
-    return 1.0 / std::fmax(square(numbers), LeastSquare);
+    const double cosine = std::cos(Degree * about[Turn]);
+    const double sine = std::sin(Degree * about[Turn]);
+    derivatives[SquareX] = cosine * cosine;
+    derivatives[SquareY] = sine * sine;
+    derivatives[Product] = 2.0 * cosine * sine;
   }
 
   static const ImageStep& step()
   {
     static const ImageStep made{ ImageStage::Lens,
-      { { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position }, { 0.0 } }, shade,
-      { ImageAxis::Position, ImageAxis::Position, ImageAxis::Position }, alongSlope };
+      { { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position }, {},
+        { 0.0, ImageAxis::None, ImagePull::Kept } },
+      shade, { ImageAxis::Position, ImageAxis::Position, ImageAxis::Position }, turned };
     return made;
   }
 };
@@ -110,23 +109,41 @@ Effect illuminationGradient()
     "gain from the middle to the edge in x" };
   const EffectParameter alongY{ "along_y", "1", 0.0, -0.5, 0.5, 0.03,
     "gain from the middle to the edge in y" };
-  const EffectParameter bend{ "bend", "1", 0.0, -10.0, 10.0, 1.0,
-    "1 / 2 for an exponential, 3 / 4 for the inverse square of a distance", false, true };
-  const std::vector<ImageTerm> plane = { imageTerm(GradientOfImage::Along, alongX),
-    imageTerm(GradientOfImage::Across, alongY) };
+  const EffectParameter square{ "square", "1", 0.0, -0.5, 0.5, 0.03,
+    "gain at the edge, on both sides" };
+  const EffectParameter turn{ "turn", "degrees", 0.0, -180.0, 180.0, 90.0,
+    "of the line along which it grows, from the axis x towards the axis y" };
+  const std::vector<ImageTerm> plane = { imageTerm(GradientOfImage::AlongX, alongX),
+    imageTerm(GradientOfImage::AlongY, alongY) };
+  const std::vector<double> turns = { 0.0, 45.0, 90.0, -45.0 };
   std::vector<ImageTerm> bent = plane;
-  // Of the square of the place along the slope, whatever the slope is.
-  bent.push_back({ GradientOfImage::Bent, false, -0.3, 0.3, 0.03, bend.name, bend.unit, false,
-    GradientOfImage::bySlope });
+  bent.push_back(imageTerm(GradientOfImage::Square, square));
+  bent.push_back(imageTerm(GradientOfImage::Turn, turn));
+  bent.back().starts = turns;
+  std::vector<std::vector<double>> bentStarts;
+  bentStarts.reserve(turns.size());
+  for (const double degrees : turns)
+  {
+    bentStarts.push_back({ 0.0, 0.0, 0.0, degrees });
+  }
   Effect effect;
   effect.definition = { "illumination_gradient", "Illumination gradient",
     "More light on one side of the field than on the other.", EffectStage::Irradiance,
     EffectNeed::Position,
     { { "plane", "u (1 + along_x x + along_y y), x and y from -1 to 1 over the field",
         { alongX, alongY } },
-      { "bent", "u (1 + s + bend s^2), s = along_x x + along_y y: a lamp that is near",
-        { alongX, alongY, bend } } },
-    Captures::FlatField, EffectTrait::None, { { "plane", plane }, { "bent", bent, true } } };
+      { "bent",
+        "u (1 + along_x x + along_y y + square d^2), d = x cos turn + y sin turn: a lamp that is "
+        "near, or two on opposite sides",
+        { alongX, alongY, square, turn }, bentStarts },
+      { "per_channel",
+        "u_k (1 + along_x_k x + along_y_k y): lamps of different colours on the two sides",
+        { alongX.ofLight(), alongY.ofLight() } } },
+    Captures::FlatField, EffectTrait::None,
+    { { "plane", plane }, { "bent", bent },
+      { "per_channel",
+        { imageTerm(GradientOfImage::AlongX, alongX.ofLight()),
+          imageTerm(GradientOfImage::AlongY, alongY.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<IlluminationGradient>;
   effect.onImage.step = &GradientOfImage::step();
   return effect;

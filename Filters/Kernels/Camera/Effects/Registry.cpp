@@ -252,7 +252,9 @@ ImageStep stepOfLight()
 
 ImageTerm imageTerm(std::size_t number, const EffectParameter& of)
 {
-  return { number, of.perChannel, of.lower, of.upper, of.typical, of.name, of.unit };
+  ImageTerm term{ number, of.perChannel, of.lower, of.upper, of.typical, of.name, of.unit };
+  term.followsLight = of.followsLight;
+  return term;
 }
 
 std::vector<EffectParameter> effectParameters(

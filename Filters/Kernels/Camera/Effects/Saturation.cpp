@@ -18,6 +18,7 @@ class Saturation : public BlockOperatorOf<Saturation>
 public:
   explicit Saturation(const BoundEffect& effect)
     : Level(effect.value("level"))
+    , LevelOf(effect.form().name == "per_channel" ? effect.perChannel("level") : Eigen::ArrayXd())
     , Gradual(effect.form().name == "gradual")
     , Softness(Gradual ? 0.0 : effect.value("softness"))
     , Sharpness(Gradual ? effect.value("sharpness") : 0.0)
@@ -26,6 +27,18 @@ public:
   template <typename Scalar>
   void run(Block<Scalar> response, const ColumnContext&) const noexcept
   {
+    if (LevelOf.size() > 0)
+    {
+      for (Eigen::Index j = 0; j < response.cols(); ++j)
+      {
+        for (Eigen::Index k = 0; k < response.rows(); ++k)
+        {
+          response(k, j) =
+            static_cast<Scalar>(rounded(static_cast<double>(response(k, j)), LevelOf[k]));
+        }
+      }
+      return;
+    }
     if (Gradual)
     {
       if constexpr (std::is_same_v<Scalar, double>)
@@ -54,17 +67,19 @@ public:
     else
     {
       // One value at a time: Eigen's packets of sqrt() and their remainders round differently.
-      response = response.unaryExpr(
-        [level = Level, width2 = Softness * Softness](double u)
-        {
-          const double beyond = u - level;
-          return 0.5 * (u + level - std::sqrt(beyond * beyond + width2));
-        });
+      response = response.unaryExpr([this](double u) { return rounded(u, Level); });
     }
   }
 
 private:
+  double rounded(double u, double level) const noexcept
+  {
+    const double beyond = u - level;
+    return 0.5 * (u + level - std::sqrt(beyond * beyond + Softness * Softness));
+  }
+
   double Level;
+  Eigen::ArrayXd LevelOf; // of each channel; empty: one for all
   bool Gradual;
   double Softness;
   double Sharpness;
@@ -113,23 +128,25 @@ Effect saturation()
 {
   const EffectParameter level{ "level", "white", ClippingOfImage::NeutralLevel, 0.1, 8.0, 0.1,
     "largest response" };
+  const EffectParameter softness{ "softness", "white", ClippingOfImage::ClipSoftness, 0.001, 0.2,
+    0.02, "width of the rounded corner", false, true };
   Effect effect;
   effect.definition = { "saturation", "Saturation", "Full wells or the end of the converter.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "soft", "(u + level - sqrt((u - level)^2 + softness^2)) / 2, a rounded min(u, level)",
-        { level,
-          { "softness", "white", ClippingOfImage::ClipSoftness, 0.001, 0.2, 0.02,
-            "width of the rounded corner", false, true } },
-        { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } },
+        { level, softness }, { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } },
       { "gradual", "u / (1 + (u / level)^sharpness)^(1 / sharpness)",
         { level,
           { "sharpness", "1", 10.0, 2.0, 60.0, 4.0, "the larger, the sharper is the bend", false,
             true } },
-        { { 1.2, 10.0 }, { 0.9, 10.0 }, { 0.7, 10.0 } } } },
+        { { 1.2, 10.0 }, { 0.9, 10.0 }, { 0.7, 10.0 } } },
+      { "per_channel",
+        "as soft, with a level_k of each channel: channels that are exposed differently",
+        { level.ofLight(), softness }, { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 } } } },
     { "shorter exposure", 2.0 }, EffectTrait::LimitsResponse,
-    { { "soft",
+    { { "per_channel",
       { { ClippingOfImage::Clip, false, 0.0, 1.0, 0.3 },
-        imageTerm(ClippingOfImage::ClipLevel, level) } } } };
+        imageTerm(ClippingOfImage::ClipLevel, level.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<Saturation>;
   effect.onImage.step = &ClippingOfImage::step();
   effect.afterDark = true;

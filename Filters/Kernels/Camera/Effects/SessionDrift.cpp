@@ -101,7 +101,8 @@ private:
 
 EffectParameter change(const char* unit, bool perChannel)
 {
-  return { "change", unit, 0.0, -0.6, 0.6, 0.03, "change over the course", perChannel };
+  const EffectParameter common{ "change", unit, 0.0, -0.6, 0.6, 0.03, "change over the course" };
+  return perChannel ? common.ofLight() : common;
 }
 
 // Where a step may lie: the starts of a fit that must find its place.

@@ -60,6 +60,15 @@ TEST(ChannelCrosstalk, ExchangesLightBetweenNeighbours)
     respondTo(ramp, { "channel_crosstalk", "", "", { 0.1, 0.0 } }).sum(), ramp.sum(), 1e-14);
 }
 
+// The mean of the impulse is 1 / 5.
+TEST(ChannelCrosstalk, SharedItGivesEachAPartOfTheMean)
+{
+  Eigen::MatrixXd impulse = Eigen::MatrixXd::Zero(5, 1);
+  impulse(2, 0) = 1.0;
+  const Eigen::MatrixXd u = respondTo(impulse, { "channel_crosstalk", "shared", "", { 0.1 } });
+  EXPECT_LT((u - (Eigen::MatrixXd(5, 1) << 0.02, 0.02, 0.92, 0.02, 0.02).finished()).norm(), 1e-15);
+}
+
 // Channels 0 to 4 stand at -1, -1/2, 0, 1/2, 1.
 TEST(ChannelCrosstalk, GrowsOverTheChannels)
 {
@@ -85,6 +94,18 @@ TEST(DetectorNonlinearity, FollowsItsFormula)
     0.5 + 0.05 - 0.0125, 1e-15);
 }
 
+TEST(DetectorNonlinearity, OfEachChannelKeepsWhite)
+{
+  const CameraEffect curves{ "detector_nonlinearity", "per_channel", "",
+    { -0.2, -0.1, 0.0, 0.1, 0.2 } };
+  EXPECT_LT((respondTo(Eigen::MatrixXd::Ones(5, 1), curves).array() - 1.0).abs().maxCoeff(), 1e-15);
+  const Eigen::MatrixXd half = respondTo(Eigen::MatrixXd::Constant(5, 1, 0.5), curves);
+  for (int k = 0; k < 5; ++k)
+  {
+    EXPECT_NEAR(half(k, 0), 0.5 - 0.25 * 0.1 * (k - 2), 1e-15);
+  }
+}
+
 TEST(DarkOffset, IsAddedAfterTheCurve)
 {
   EXPECT_NEAR(respondToFlat(0.5, { "dark_offset", "", "", { 0.01 } }), 0.51, 1e-15);
@@ -100,6 +121,17 @@ TEST(Saturation, RoundsTheCornerOfTheMinimum)
   // A hyperbola: softness^2 / 4 over the distance from the corner.
   EXPECT_NEAR(respondToFlat(0.4, effect), 0.4 - 0.0001 / 4.0 / 0.4, 1e-7);
   EXPECT_NEAR(respondToFlat(1.6, effect), 0.8 - 0.0001 / 4.0 / 0.8, 1e-7);
+}
+
+TEST(Saturation, OfEachChannelIsAtALevelOfItsOwn)
+{
+  const Eigen::MatrixXd u = respondTo(Eigen::MatrixXd::Constant(5, 1, 0.8),
+    { "saturation", "per_channel", "", { 0.4, 0.6, 0.8, 1.0, 1.2, 0.001 } });
+  const double expected[] = { 0.4, 0.6, 0.8 - 0.0005, 0.8, 0.8 };
+  for (int k = 0; k < 5; ++k)
+  {
+    EXPECT_NEAR(u(k, 0), expected[k], 2e-6);
+  }
 }
 
 // With two it is a hypotenuse; at the level itself any sharpness p leaves 2^(-1/p).

@@ -1,4 +1,5 @@
 #include "Kernels/Camera/ImageTerm.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <gtest/gtest.h>
 
@@ -142,15 +143,15 @@ TEST(ImageSteps, WhatHasNoEffectYetStartsElsewhere)
   }
   EXPECT_NEAR(sum, -0.55 * (0.4 * 0.4 + 0.3 * 0.3), 1e-12);
 
-  const std::size_t bend = msi::imageParameter("illumination_gradient", "bend");
-  const msi::PlacedStep& slope = msi::stepOf(bend);
+  const std::size_t square = msi::imageParameter("illumination_gradient", "square");
+  const msi::PlacedStep& slope = msi::stepOf(square);
   const std::vector<double> flat(slope.step->numbers.size(), 0.0);
-  std::vector<double> steep = flat;
-  steep[msi::imageParameter("illumination_gradient", "along_x") - slope.number] = 0.3;
-  steep[msi::imageParameter("illumination_gradient", "along_y") - slope.number] = 0.4;
+  std::vector<double> turned = flat;
+  turned[msi::imageParameter("illumination_gradient", "turn") - slope.number] =
+    std::atan2(0.8, 0.6) / msi::Degree;
   parts.assign(slope.step->width(), 0.0);
   slope.step->change(
-    static_cast<int>(bend - slope.number), flat.data(), steep.data(), parts.data());
+    static_cast<int>(square - slope.number), flat.data(), turned.data(), parts.data());
   const Answer shaded = answerOf(*slope.step, flat, 0.55);
   sum = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i)

@@ -37,13 +37,53 @@ TEST(IlluminationGradient, IsAPlaneOverTheField)
 TEST(IlluminationGradient, BentItIsTheInverseSquareOfADistance)
 {
   const double right = 0.08;
-  const Eigen::MatrixXd u =
-    respondToFlat(White, { "illumination_gradient", "bent", "", { right, 0.0, 0.75 } });
+  const Eigen::MatrixXd u = respondToFlat(
+    White, { "illumination_gradient", "bent", "", { right, 0.0, 0.75 * right * right, 0.0 } });
   for (const double side : { -1.0, 1.0 })
   {
     const double s = side * right;
     EXPECT_NEAR(
       u(3, side < 0.0 ? 0 : 7), 1.0 / std::pow(1.0 - 0.5 * s, 2), 0.6 * right * right * right);
+  }
+}
+
+// Seven channels.
+TEST(IlluminationGradient, MayDifferBetweenTheChannels)
+{
+  const Eigen::MatrixXd u = respondToFlat(White,
+    { "illumination_gradient", "per_channel", "",
+      { 0.0, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -0.04 } });
+  EXPECT_NEAR(u(0, 7), 1.0, 1e-14);
+  EXPECT_NEAR(u(3, 0), 1.0 - 0.03, 1e-14);
+  EXPECT_NEAR(u(6, 7), 1.0 + 0.06 + 0.04 * 25.0 / 35.0, 1e-14);
+}
+
+TEST(DarkOffset, MayBeAPlaneOverTheField)
+{
+  const std::vector<double> offset(7, 0.02);
+  const std::vector<double> alongX{ 0.0, 0.001, 0.002, 0.003, 0.004, 0.005, 0.006 };
+  const std::vector<double> alongY(7, -0.007);
+  CameraEffect plane{ "dark_offset", "plane", "", offset };
+  plane.parameters.insert(plane.parameters.end(), alongX.begin(), alongX.end());
+  plane.parameters.insert(plane.parameters.end(), alongY.begin(), alongY.end());
+  const Eigen::MatrixXd u = respondToFlat(White, plane);
+  EXPECT_NEAR(u(0, 0), 1.0 + 0.02 + 0.007 * 25.0 / 35.0, 1e-14);
+  EXPECT_NEAR(u(6, 7), 1.0 + 0.02 + 0.006 + 0.007 * 25.0 / 35.0, 1e-14);
+  // As every effect of the field it needs positions.
+  msi::SceneSamples nowhere;
+  nowhere.reflectance = Eigen::MatrixXd::Ones(31, 2);
+  EXPECT_THROW(CameraSimulator(sevenChannels(), { plane }).respond({ visibleGrid(), nowhere }),
+    std::invalid_argument);
+}
+
+TEST(Vignetting, MayDifferBetweenTheChannels)
+{
+  const Eigen::MatrixXd u = respondToFlat(White,
+    { "vignetting", "per_channel", "", { 0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.12, -1.0, 0.0 } });
+  const double square = 4.0 + 625.0 / 1225.0;
+  for (int k = 0; k < 7; ++k)
+  {
+    EXPECT_NEAR(u(k, 7), 1.0 - 0.02 * k * square, 1e-14);
   }
 }
 

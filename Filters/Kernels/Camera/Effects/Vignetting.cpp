@@ -14,35 +14,36 @@ class Vignetting : public FieldOperator<Vignetting>
 {
 public:
   explicit Vignetting(const BoundEffect& effect)
-    : CosineFourth(effect.form().name == "cos4")
+    : FieldOperator(effect)
+    , CosineFourth(effect.form().name == "cos4")
     , Polynomial(effect.form().name == "polynomial")
-    , Strength(CosineFourth ? std::pow(effect.value("tangent"), 2) : effect.value("falloff"))
+    , Strength(CosineFourth ? effect.perChannel("tangent").square() : effect.perChannel("falloff"))
     , Fourth(Polynomial ? effect.value("fourth") : 0.0)
     , Sixth(Polynomial ? effect.value("sixth") : 0.0)
     , CenterX(effect.value("center_x"))
     , CenterY(effect.value("center_y"))
   {
   }
-  double factor(double x, double y) const noexcept
+  double factor(Eigen::Index k, double x, double y) const noexcept
   {
     const double radius2 = (x - CenterX) * (x - CenterX) + (y - CenterY) * (y - CenterY);
     if (CosineFourth)
     {
-      const double secant2 = 1.0 + Strength * radius2;
+      const double secant2 = 1.0 + Strength[k] * radius2;
       return 1.0 / (secant2 * secant2);
     }
     if (Polynomial)
     {
-      const double factor = 1.0 - radius2 * (Strength + radius2 * (Fourth + radius2 * Sixth));
+      const double factor = 1.0 - radius2 * (Strength[k] + radius2 * (Fourth + radius2 * Sixth));
       return std::fmax(factor, 0.0);
     }
-    return 1.0 - Strength * radius2;
+    return 1.0 - Strength[k] * radius2;
   }
 
 private:
   bool CosineFourth;
   bool Polynomial;
-  double Strength;
+  Eigen::ArrayXd Strength;
   double Fourth;
   double Sixth;
   double CenterX;
@@ -153,11 +154,13 @@ Effect vignetting()
           center[0], center[1] },
         { { 0.2, 0.0, 0.0 } } },
       { "polynomial", "u (1 - falloff rho^2 - fourth rho^4 - sixth rho^6), not below zero",
-        { orders[0], orders[1], orders[2], center[0], center[1] } } },
+        { orders[0], orders[1], orders[2], center[0], center[1] } },
+      { "per_channel", "u_k (1 - falloff_k rho^2)", { falloff.ofLight(), center[0], center[1] } } },
     Captures::TurnedChart, EffectTrait::None,
     { { "quadratic", { quadratic } }, { "quadratic", { quadratic, anyX, anyY } },
       { "polynomial", { steep, fourth, sixth } },
-      { "polynomial", { steep, fourth, sixth, centerX, centerY } } } };
+      { "polynomial", { steep, fourth, sixth, centerX, centerY } },
+      { "per_channel", { imageTerm(VignettingOfImage::Falloff, falloff.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<Vignetting>;
   effect.onImage.step = &VignettingOfImage::step();
   return effect;

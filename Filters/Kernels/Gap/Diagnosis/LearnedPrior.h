@@ -40,6 +40,7 @@ struct FreeNumber
   // Of numbers of channels: they tell the effect also where they follow a curve over the channels. A pattern in the image does, or
   // the light makes them what they are.
   bool mayFollowCurve = false;
+  bool mayEnd = false; // it serves the fit alone: the end of its range tells nothing
 };
 
 // Of a number that a fit leaves neutral only where the data do not determine it: Decision::FreeSpread typical sizes, squared.

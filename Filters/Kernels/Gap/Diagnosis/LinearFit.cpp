@@ -193,7 +193,7 @@ void LinearFit::describe(ObservedFit& fit, const Eigen::VectorXd& step) const
     FreeNumber& number = moved[n];
     number.deviation += step[static_cast<Eigen::Index>(n)];
     const double room = std::min(number.upper - number.deviation, number.deviation - number.lower);
-    fit.atBound = fit.atBound || room < Rounding * number.typical;
+    fit.atBound = fit.atBound || (!number.mayEnd && room < Rounding * number.typical);
   }
   const LearnedPrior prior(moved);
   fit.prior = prior.distribution;

@@ -355,6 +355,14 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
   {
     lights.emplace_back(data, model, glare, block, channel, asked);
   }
+  std::vector<double> ofAll(window.pixels(), 0.0); // mean of the lights
+  for (std::size_t i = 0; i < ofAll.size(); ++i)
+  {
+    for (const BlockLight& light : lights)
+    {
+      ofAll[i] += light.signal(static_cast<int>(i)) / static_cast<double>(K);
+    }
+  }
   ChannelColumns found;
   StepDerivatives by;
   for (Eigen::Index channel = 0; channel < data.channels(); ++channel)
@@ -400,6 +408,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
       pixel.blur += more[3];
       pixel.previous = here > 0 ? &lights[here - 1].signal(i) : nullptr;
       pixel.next = here + 1 < K ? &lights[here + 1].signal(i) : nullptr;
+      pixel.ofAll = ofAll[static_cast<std::size_t>(i)];
       pixel.row = rows[i / window.width];
       pixel.column = columns[i % window.width];
       pixel.self = light.signal(i, pixel, by, more[0]);

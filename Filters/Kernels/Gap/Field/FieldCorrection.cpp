@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -116,6 +117,7 @@ void FieldCorrection::operator()(
         addElsewhere(Pair, scene, field, { x, y }, k, workspace.others);
         light[k] = run(lights[k], pixel, workspace.others.data(), static_cast<double>(self[k]));
       }
+      pixel.ofAll = std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(K);
       for (std::size_t k = 0; k < K; ++k)
       {
         pixel.self = light[k];

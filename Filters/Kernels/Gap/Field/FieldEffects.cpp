@@ -58,12 +58,6 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const Fie
   return parameters;
 }
 
-// What a parameter's value and its error are multiplied by for the library.
-double libraryScale(const ImageTerm& term, const FieldModel& model)
-{
-  return term.scale != nullptr ? term.scale(model.numbers(stepOf(term.parameter), 0)) : 1.0;
-}
-
 // The fraction and radius of the effect's own form that come nearest to free weights of the passes.
 struct TailForm
 {
@@ -181,7 +175,7 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
   std::vector<FieldNumber> numbers;
   for (const FieldChoice* choice : set)
   {
-    const bool hasCommonForm = !isPerChannel(choice->effect->imageForms.front().terms);
+    const bool hasCommonForm = choice->effect->hasCommonForm();
     for (const ImageTerm& term : choice->terms)
     {
       const ImageNumber& kind = numberOf(term.parameter);
@@ -192,7 +186,7 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
           { { term.parameter, term.perChannel, hasCommonForm, deviation, term.typical, 0.0,
               term.lower - kind.neutral, term.upper - kind.neutral,
               kind.pull == ImagePull::Neutral ? 0.0 : deviation, kind.pull == ImagePull::Itself,
-              choice->effect->stage == EffectStage::Image },
+              choice->effect->stage == EffectStage::Image || term.followsLight, term.name.empty() },
             &term, term.perChannel ? k : -1 });
       }
     }
@@ -229,9 +223,8 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
   {
     const ImageTerm& term = *number.term;
     const Eigen::Index k = std::max<Eigen::Index>(number.channel, 0);
-    const double scale = libraryScale(term, model);
-    double value = scale * model.at(term.parameter, k);
-    double deviation = scale * error[next++];
+    double value = model.at(term.parameter, k);
+    double deviation = error[next++];
     if (term.squared)
     {
       value = std::sqrt(std::fmax(value, 0.0));

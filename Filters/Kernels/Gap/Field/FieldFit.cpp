@@ -201,15 +201,6 @@ FieldFit FieldFitter::fitFromBestStart(const FieldSet& set) const
     {
       continue;
     }
-    if (choice->twice)
-    {
-      FieldShape there = start;
-      for (const ImageTerm& term : choice->terms)
-      {
-        there[term.parameter] = best.next.at(term.parameter, 0);
-      }
-      tryOut(there);
-    }
     // Every combination of the starts.
     std::vector<FieldShape> shapes{ start };
     for (const ImageTerm& term : choice->terms)

@@ -28,7 +28,9 @@ std::vector<GapOption> fieldOptions(const std::vector<FieldChoice>& choices)
     const auto before =
       std::count_if(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(c),
         [&](const FieldChoice& other) { return other.effect == choices[c].effect; });
-    options.push_back({ choices[c].effect, choices[c].form, "", isPerChannel(choices[c].terms),
+    const bool ofChannels = std::any_of(choices[c].terms.begin(), choices[c].terms.end(),
+      [](const ImageTerm& term) { return term.perChannel && !term.followsLight; });
+    options.push_back({ choices[c].effect, choices[c].form, "", ofChannels,
       Decision::EffectImprobability + Decision::FormImprobability * static_cast<double>(before) });
   }
   return options;
@@ -129,7 +131,7 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   findProfiles(model, residuals, hypothesis.set, false);
   if (!hasChoice(hypothesis.set, clips))
   {
-    model[clippingTerms()[1].parameter].setConstant(findClipLevel(residuals));
+    model[clippingTerms()[1].parameter] = findClipLevels(residuals, Data.channels());
   }
   hypothesis.statistics =
     std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Weights, Loop));

@@ -80,18 +80,19 @@ const std::vector<ImageTerm>& clippingTerms()
   return effectWith(EffectTrait::LimitsResponse).imageForms.front().terms;
 }
 
-double findClipLevel(const std::vector<FieldResidual>& residuals)
+namespace
 {
-  using Pixel = std::pair<double, double>; // model, real
-  std::vector<Pixel> pixels;
-  for (const FieldResidual& part : residuals)
-  {
-    for (Eigen::Index n = 0; n < part.level.size(); ++n)
-    {
-      pixels.emplace_back(part.level[n], part.level[n] + part.residual[n]);
-    }
-  }
-  std::sort(pixels.begin(), pixels.end(), [](const Pixel& a, const Pixel& b) { return a > b; });
+struct ClipPixel
+{
+  double level; // of the model
+  double real;
+};
+
+double findClipLevel(std::vector<ClipPixel> pixels)
+{
+  std::sort(pixels.begin(), pixels.end(),
+    [](const ClipPixel& a, const ClipPixel& b)
+    { return a.level != b.level ? a.level > b.level : a.real > b.real; });
   // From the brightest down: the mean of the real values beyond a level is the level.
   double n = 0.0;
   double sum = 0.0;
@@ -117,6 +118,29 @@ double findClipLevel(const std::vector<FieldResidual>& residuals)
     }
   }
   return best;
+}
+}
+
+Eigen::ArrayXd findClipLevels(const std::vector<FieldResidual>& residuals, Eigen::Index channels)
+{
+  std::vector<std::vector<ClipPixel>> own(static_cast<std::size_t>(channels));
+  std::vector<ClipPixel> all;
+  for (std::size_t part = 0; part < residuals.size(); ++part)
+  {
+    const FieldResidual& here = residuals[part];
+    for (Eigen::Index n = 0; n < here.level.size(); ++n)
+    {
+      all.push_back({ here.level[n], here.level[n] + here.residual[n] });
+      own[part % own.size()].push_back(all.back());
+    }
+  }
+  const double neutral = numberOf(clippingTerms()[1].parameter).neutral;
+  const double common = findClipLevel(std::move(all));
+  Eigen::ArrayXd levels(channels);
+  std::transform(own.begin(), own.end(), levels.begin(), findClipLevel);
+  const double found = (levels == neutral).select(0.0, levels).maxCoeff();
+  const double other = common != neutral || found == 0.0 ? common : found;
+  return (levels == neutral).select(other, levels);
 }
 
 } // namespace msi

@@ -21,8 +21,8 @@ const std::vector<ImageTerm>& clippingTerms();
 
 // The level beyond which the real image stays at one value while the model goes on: that of the least squares of
 // real - min(model, level), among quantiles of the model; the neutral level where the image shows none. The residuals are those
-// of a model that does not clip.
-double findClipLevel(const std::vector<FieldResidual>& residuals);
+// of a model that does not clip, of each block the channels one after the other. A channel that shows none has the level of all together.
+Eigen::ArrayXd findClipLevels(const std::vector<FieldResidual>& residuals, Eigen::Index channels);
 
 // Gain and offset of each line as the residuals of a model show them, without their mean and, but for keepTrend, without
 // the quadratic that may as well be light. The strongest fiftieth of the lines are cut to the next: a line that is defect

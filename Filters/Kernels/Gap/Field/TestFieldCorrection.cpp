@@ -73,6 +73,7 @@ TEST(FieldCorrection, WhatNoCauseExplainsCanBeAdded)
   const msi::FieldPair pair = test.pair();
   msi::GapOptions options;
   options.addRest = true;
+  options.without = { "detector_nonlinearity" };
   const FieldGap found = *msi::diagnoseField(pair, options);
   SCOPED_TRACE(describe(found.report));
   ASSERT_TRUE(found.report.unexplained.rmsWithRest);

@@ -50,6 +50,45 @@ TEST(FieldGap, CurveThatKeepsWhite)
   expectFirst(report, "detector_nonlinearity", "level");
 }
 
+// One curve in counts, seen by channels that are exposed to a third and more of its range.
+TEST(FieldGap, CurveOfChannelsThatAreExposedDifferently)
+{
+  const TestScene scene(66, 8, 120, 100);
+  const auto square = [](int k)
+  {
+    const double exposure = 0.3 + 0.1 * k;
+    return 0.12 * exposure / (1.0 + 0.12 * exposure); // relative to white
+  };
+  const GapReport report = diagnose(changed(
+    scene, 76, [&](double u, int k, int, int, double) { return u + square(k) * (u * u - u); }));
+  expectFirst(report, "detector_nonlinearity", "channel");
+  EXPECT_LT(report.probabilityOf("unknown"), 0.1);
+  expectParameter(report, "detector_nonlinearity", "square[C1]", square(0), 0.005);
+  expectParameter(report, "detector_nonlinearity", "square[C8]", square(7), 0.005);
+}
+
+TEST(FieldGap, WhatAllChannelsHaveInCommonIsCrosstalk)
+{
+  const TestScene scene(67, 4, 120, 100);
+  TestPair pair = changed(scene, 77, [](double u, int, int, int, double) { return u; });
+  for (std::size_t i = 0; i < pair.real.size(); i += 4)
+  {
+    const float mean = 0.25F *
+      (pair.simulated[i] + pair.simulated[i + 1] + pair.simulated[i + 2] + pair.simulated[i + 3]);
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      pair.real[i + k] += 0.05F * (mean - pair.simulated[i + k]);
+    }
+  }
+  const GapReport report = diagnose(pair);
+  SCOPED_TRACE(describe(report));
+  EXPECT_EQ(report.verdict, GapVerdict::Explained);
+  ASSERT_EQ(report.causes.size(), 1U);
+  EXPECT_EQ(report.causes.front().effect, "channel_crosstalk");
+  EXPECT_EQ(report.causes.front().form, "shared");
+  expectParameter(report, "channel_crosstalk", "coupling", 0.05, 0.003);
+}
+
 // A curve with a toe and a shoulder: no plain one comes near.
 TEST(FieldGap, CurveWithATurn)
 {
@@ -154,7 +193,19 @@ TEST(FieldGap, SaturationOfTheBrightest)
   const GapReport report = diagnose(pair);
   expectFirst(report, "saturation", "level");
   EXPECT_GT(report.where.front().share, 0.9);
-  expectParameter(report, "saturation", "level", 0.45, 0.005);
+  expectParameter(report, "saturation", "level[C2]", 0.45, 0.005);
+}
+
+TEST(FieldGap, SaturationAtALevelOfEachChannel)
+{
+  const TestScene scene(68);
+  const double level[] = { 0.5, 2.0, 0.42 };
+  const GapReport report = diagnose(
+    changed(scene, 78, [&](double u, int k, int, int, double) { return std::fmin(u, level[k]); }));
+  expectFirst(report, "saturation", "level");
+  EXPECT_LT(report.probabilityOf("unknown"), 0.1);
+  expectParameter(report, "saturation", "level[C1]", 0.5, 0.005);
+  expectParameter(report, "saturation", "level[C3]", 0.42, 0.005);
 }
 
 TEST(FieldGap, NonlinearityIsAPowerOrACompression)

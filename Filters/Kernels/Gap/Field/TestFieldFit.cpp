@@ -92,7 +92,7 @@ TEST(FieldFit, TheEnergyToldIsThatOfTheModelReached)
 {
   const std::vector<FieldChoice> choices = fieldChoices({});
   const FieldSet set{ &choiceOf(choices, "vignetting", 3),
-    &choiceOf(choices, "illumination_gradient", 3) };
+    &choiceOf(choices, "illumination_gradient", 4) };
   for (std::uint64_t seed = 61; seed < 65; ++seed)
   {
     const TestScene scene(seed);

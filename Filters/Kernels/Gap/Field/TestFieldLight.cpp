@@ -1,4 +1,5 @@
 #include "Kernels/Gap/Field/TestFieldReport.h"
+#include "Kernels/Numerics/Angle.h"
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,60 @@ TEST(FieldGap, GradientIsAPlane)
   expectParameter(report, "illumination_gradient", "along_y", -0.03, 0.002);
 }
 
+// One of the two lamps is bluer than the other: the numbers follow a line over the channels, which makes them no less likely.
+TEST(FieldGap, LampsOfDifferentColoursOnTheTwoSides)
+{
+  const TestScene scene(62, 8, 120, 100);
+  const GapReport report = diagnose(changed(scene, 72,
+    [&](double u, int k, int x, int, double) { return u * (1.0 + 0.01 * k * scene.fieldX(x)); }));
+  expectFirst(report, "illumination_gradient", "position");
+  EXPECT_LT(report.probabilityOf("unknown"), 0.1);
+  expectParameter(report, "illumination_gradient", "along_x[C8]", 0.07, 0.004);
+  expectParameter(report, "illumination_gradient", "along_y[C8]", 0.0, 0.004);
+}
+
+// They leave the square of the place along the line between them, and no slope.
+TEST(FieldGap, TwoLampsThatAreAlike)
+{
+  const TestScene scene(63, 8, 120, 100);
+  const GapReport report = diagnose(changed(scene, 73,
+    [&](double u, int, int x, int y, double)
+    {
+      const double along = (scene.fieldX(x) + scene.fieldY(y)) / std::sqrt(2.0);
+      return u * (1.0 + 0.08 * along * along);
+    }));
+  expectFirst(report, "illumination_gradient", "position");
+  EXPECT_EQ(report.causes.front().form, "bent");
+  expectParameter(report, "illumination_gradient", "square", 0.08, 0.004);
+  expectParameter(report, "illumination_gradient", "turn", 45.0, 4.0);
+}
+
+// Coatings and filters pass less of some colours off the axis.
+TEST(FieldGap, VignettingOfEachChannel)
+{
+  const TestScene scene(64);
+  const double falloff[] = { 0.05, 0.16, 0.09 };
+  const GapReport report = diagnose(changed(scene, 74,
+    [&](double u, int k, int x, int y, double)
+    {
+      return u * (1.0 - falloff[k] * (std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2)));
+    }));
+  expectFirst(report, "vignetting", "position");
+  expectParameter(report, "vignetting", "falloff[C2]", 0.16, 0.004);
+}
+
+// A window beside the camera: more of its light on one side, whatever the scene sends.
+TEST(FieldGap, LightFromOneSideIsAnOffset)
+{
+  const TestScene scene(65);
+  const GapReport report = diagnose(changed(scene, 75,
+    [&](double u, int k, int x, int, double)
+    { return u + (0.01 + 0.004 * k) * (1.0 + scene.fieldX(x)); }));
+  expectFirst(report, "dark_offset", "position");
+  EXPECT_EQ(report.causes.front().form, "plane");
+  expectParameter(report, "dark_offset", "along_x[C3]", 0.018, 0.001);
+}
+
 // A lamp that is near: the inverse square of the distance is 1 + s + 3/4 s^2 but for higher orders.
 TEST(FieldGap, GradientThatBends)
 {
@@ -69,7 +124,9 @@ TEST(FieldGap, GradientThatBends)
   EXPECT_EQ(report.causes.front().form, "bent");
   expectParameter(report, "illumination_gradient", "along_x", 0.2, 0.002);
   expectParameter(report, "illumination_gradient", "along_y", -0.1, 0.002);
-  expectParameter(report, "illumination_gradient", "bend", 0.75, 0.05);
+  expectParameter(report, "illumination_gradient", "square", 0.75 * (0.04 + 0.01), 0.004);
+  expectParameter(
+    report, "illumination_gradient", "turn", std::atan2(-0.1, 0.2) / msi::Degree, 4.0);
 }
 
 // Seen against a white in the same light, the middle is too bright and the border too dark.

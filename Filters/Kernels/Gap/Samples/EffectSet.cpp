@@ -147,9 +147,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
   };
   for (std::size_t e = 0; e < effects.size(); ++e)
   {
-    const std::vector<EffectParameter>& plain = choices[e].effect->forms.front().parameters;
-    const bool hasCommonForm = std::none_of(
-      plain.begin(), plain.end(), [](const EffectParameter& one) { return one.perChannel; });
+    const bool hasCommonForm = choices[e].effect->hasCommonForm();
     std::size_t index = 0;
     for (const EffectParameter& parameter : choices[e].form->parameters)
     {
@@ -330,7 +328,8 @@ std::vector<EffectChoice> choicesFor(
       }
       for (const EffectForm& form : effect.forms)
       {
-        if (form.has(FormTrait::OfImages))
+        if (form.has(FormTrait::OfImages) ||
+          (form.has(FormTrait::OfField) && !scene.hasPositions()))
         {
           continue;
         }

@@ -101,7 +101,16 @@ std::vector<std::vector<double>> startsOf(
   std::vector<std::vector<double>> starts = choice.form->starts;
   if (choice.effect->has(EffectTrait::LimitsResponse))
   {
-    starts.push_back({ 0.98 * data.observed.maxCoeff(), starts.front()[1] });
+    const bool perChannel = parameters.front().perChannel;
+    const Eigen::VectorXd largest = perChannel
+      ? Eigen::VectorXd(data.observed.rowwise().maxCoeff())
+      : Eigen::VectorXd::Constant(1, data.observed.maxCoeff());
+    std::vector<double>& start = starts.emplace_back();
+    for (const double level : largest)
+    {
+      start.push_back(0.98 * level);
+    }
+    start.push_back(choice.form->starts.front()[1]);
   }
   return starts;
 }

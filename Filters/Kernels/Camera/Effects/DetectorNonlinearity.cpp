@@ -170,8 +170,7 @@ Effect detectorNonlinearity()
   };
   Effect effect;
   effect.definition = { "detector_nonlinearity", "Detector nonlinearity",
-    "A curve between light and response.", EffectStage::Detector,
-    EffectNeed::Nothing,
+    "A curve between light and response.", EffectStage::Detector, EffectNeed::Nothing,
     { { "quadratic", "u + square u^2", { square } },
       { "anchored", "(1 - square) u + square u^2: white keeps its response", { square } },
       { "gamma", "u^exponent: white keeps its response", { exponent } },

@@ -113,10 +113,12 @@ Effect filterBandwidth()
         "passband: a light with lines moves the centroid away from the middle, and a wider "
         "passband becomes brighter or darker in it",
         { factor(false),
-          followingLight({ "middle", "nm", 0.0, -30.0, 30.0, 10.0,
-            "from the centroid to the middle of the passband", true }),
-          followingLight({ "level", "1 per nm^2", 0.0, -MostLevel, MostLevel, 0.0005,
-            "change of the channel's response to white, natural logarithm", true }),
+          EffectParameter{ "middle", "nm", 0.0, -30.0, 30.0, 10.0,
+            "from the centroid to the middle of the passband" }
+            .ofLight(),
+          EffectParameter{ "level", "1 per nm^2", 0.0, -MostLevel, MostLevel, 0.0005,
+            "change of the channel's response to white, natural logarithm" }
+            .ofLight(),
           { "added_variance", "nm^2", 0.0, -200.0, 800.0, 30.0,
             "the same for all passbands, beyond what the factor does", false, true } },
         { { 1.15, 0.0, 0.0, 0.0 }, { 0.85, 0.0, 0.0, 0.0 } }, FormTrait::Brightens } },

@@ -123,8 +123,9 @@ Effect filterShift()
         "as linear, times exp(shift level): in a light with lines each channel becomes brighter or "
         "darker as its passband moves",
         { shift(false),
-          followingLight({ "level", "1 per nm", 0.0, -0.05, 0.05, 0.01,
-            "change of the channel's response to white, natural logarithm", true }),
+          EffectParameter{ "level", "1 per nm", 0.0, -0.05, 0.05, 0.01,
+            "change of the channel's response to white, natural logarithm" }
+            .ofLight(),
           slope(true) },
         { { 1.0, 0.0, 0.0 }, { -1.0, 0.0, 0.0 } } },
       { "per_channel", "a shift of its own for each channel", { shift(true) }, {},

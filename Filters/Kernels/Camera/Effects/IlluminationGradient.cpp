@@ -22,12 +22,14 @@ public:
     if (effect.form().name == "bent")
     {
       Square = effect.value("square");
-      Turn = Degree * effect.value("turn");
+      const double turn = Degree * effect.value("turn");
+      Cosine = std::cos(turn);
+      Sine = std::sin(turn);
     }
   }
   double factor(Eigen::Index k, double x, double y) const noexcept
   {
-    const double along = x * std::cos(Turn) + y * std::sin(Turn);
+    const double along = x * Cosine + y * Sine;
     return 1.0 + AlongX[k] * x + AlongY[k] * y + Square * along * along;
   }
 
@@ -35,7 +37,7 @@ private:
   Eigen::ArrayXd AlongX;
   Eigen::ArrayXd AlongY;
   double Square = 0.0;
-  double Turn = 0.0;
+  double Cosine = 1.0, Sine = 0.0; // of its direction
 };
 }
 
@@ -57,14 +59,15 @@ struct GradientOfImage
 
   static double shade(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
   {
-    const double cosine = std::cos(Degree * numbers[Turn]);
-    const double sine = std::sin(Degree * numbers[Turn]);
+    const bool bends = numbers[Square] != 0.0;
+    const double cosine = bends ? std::cos(Degree * numbers[Turn]) : 1.0;
+    const double sine = bends ? std::sin(Degree * numbers[Turn]) : 0.0;
     const double along = pixel.x * cosine + pixel.y * sine;
     if (by != nullptr)
     {
       by[AlongX] = pixel.x * signal;
       by[AlongY] = pixel.y * signal;
-      by[Square] = along * along * signal;
+      by[Square] = 0.0; // turned() has it
       by[Turn] =
         Degree * 2.0 * numbers[Square] * along * (pixel.y * cosine - pixel.x * sine) * signal;
       by[SquareX] = pixel.x * pixel.x * signal;

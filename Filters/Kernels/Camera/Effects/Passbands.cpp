@@ -104,12 +104,6 @@ Eigen::ArrayXd legendre(const Eigen::ArrayXd& x, double first, double second, do
   return first * x + (second * (1.5 * x.square() - 0.5) + third * (2.5 * x.cube() - 1.5 * x));
 }
 
-EffectParameter followingLight(EffectParameter parameter)
-{
-  parameter.followsLight = true;
-  return parameter;
-}
-
 Eigen::ArrayXd passbandCentroids(const CameraModel& camera)
 {
   const double middle = 0.5 * (camera.wavelengths().front() + camera.wavelengths().back());

@@ -18,9 +18,6 @@ Eigen::ArrayXd gridPosition(const WavelengthGrid& grid);
 // Sum of the Legendre polynomials P1 to P3.
 Eigen::ArrayXd legendre(const Eigen::ArrayXd& x, double first, double second, double third);
 
-// With EffectParameter::followsLight.
-EffectParameter followingLight(EffectParameter parameter);
-
 // Channel centroids; the middle of the grid where a row has no weight.
 Eigen::ArrayXd passbandCentroids(const CameraModel& camera);
 

@@ -99,10 +99,9 @@ private:
   bool Offset;
 };
 
-EffectParameter change(const char* unit, bool perChannel)
+EffectParameter change(const char* unit)
 {
-  const EffectParameter common{ "change", unit, 0.0, -0.6, 0.6, 0.03, "change over the course" };
-  return perChannel ? common.ofLight() : common;
+  return { "change", unit, 0.0, -0.6, 0.6, 0.03, "change over the course" };
 }
 
 // Where a step may lie: the starts of a fit that must find its place.
@@ -133,23 +132,22 @@ Effect sessionDrift()
     "runs "
     "from 0 to 1 over the capture order.",
     EffectStage::Detector, EffectNeed::Order,
-    { { "slope", "u (1 + change (t - anchor))", { change("1", false), anchor } },
-      { "step", "u (1 + change) from `place` on", { change("1", false), place, width }, places() },
-      { "warm_up", "u (1 + change (1 - exp(-t / constant)))", { change("1", false), constant },
+    { { "slope", "u (1 + change (t - anchor))", { change("1"), anchor } },
+      { "step", "u (1 + change) from `place` on", { change("1"), place, width }, places() },
+      { "warm_up", "u (1 + change (1 - exp(-t / constant)))", { change("1"), constant },
         constants },
-      { "settling", "u (1 + change exp(-t / constant))", { change("1", false), constant },
-        constants },
-      { "slope_per_channel", "u_k (1 + change_k (t - anchor))", { change("1", true), anchor } },
+      { "settling", "u (1 + change exp(-t / constant))", { change("1"), constant }, constants },
+      { "slope_per_channel", "u_k (1 + change_k (t - anchor))", { change("1").ofLight(), anchor } },
       { "step_per_channel", "u_k (1 + change_k) from `place` on",
-        { change("1", true), place, width }, places() },
+        { change("1").ofLight(), place, width }, places() },
       { "warm_up_per_channel", "u_k (1 + change_k (1 - exp(-t / constant)))",
-        { change("1", true), constant }, constants },
+        { change("1").ofLight(), constant }, constants },
       { "settling_per_channel", "u_k (1 + change_k exp(-t / constant))",
-        { change("1", true), constant }, constants },
-      { "offset_slope", "u + change (t - anchor)", { change("white", false), anchor }, {},
+        { change("1").ofLight(), constant }, constants },
+      { "offset_slope", "u + change (t - anchor)", { change("white"), anchor }, {},
         FormTrait::Adds },
-      { "offset_step", "u + change from `place` on", { change("white", false), place, width },
-        places(), FormTrait::Adds } },
+      { "offset_step", "u + change from `place` on", { change("white"), place, width }, places(),
+        FormTrait::Adds } },
     Captures::InterleavedWhite };
   effect.makeBlock = makeBlockOperator<SessionDrift>;
   return effect;

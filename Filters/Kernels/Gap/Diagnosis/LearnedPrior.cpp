@@ -3,6 +3,7 @@
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 
 #include <Eigen/QR>
+#include <unsupported/Eigen/SpecialFunctions>
 
 #include <algorithm>
 #include <cmath>
@@ -12,42 +13,53 @@ namespace msi
 
 namespace
 {
-constexpr int Directions = 4;           // of a cubic
 constexpr double LeastDeviation = 1e-6; // of the typical size
 constexpr double Jitter =
   1e-12; // so much more precise a number that does what others do keeps a pivot
 }
 
-double chanceOfFraction(double fraction, int channels)
+namespace
 {
-  if (channels <= Directions || !(fraction > 0.0))
+Eigen::Index directionsOf(Eigen::Index channels)
+{
+  return std::clamp<Eigen::Index>(channels / 2, 1, 4);
+}
+}
+
+double chanceOfFraction(double fraction, Eigen::Index channels)
+{
+  if (channels < 2)
   {
     return 1.0;
   }
-  const double x = std::min(fraction, 1.0);
-  const double b = 0.5 * (channels - Directions);
-  return std::pow(1.0 - x, b) * (1.0 + b * x);
+  const auto directions = static_cast<double>(directionsOf(channels));
+  return Eigen::numext::betainc(0.5 * (static_cast<double>(channels) - directions),
+    0.5 * directions, std::clamp(1.0 - fraction, 0.0, 1.0));
 }
 
 double commonFraction(const Eigen::VectorXd& deviations)
 {
   const Eigen::Index channels = deviations.size();
   const double energy = deviations.squaredNorm();
-  if (channels <= Directions || !(energy > 0.0))
+  if (channels < 2 || !(energy > 0.0))
   {
     return 0.0;
   }
-  Eigen::MatrixXd basis(channels, Directions);
+  const Eigen::Index directions = directionsOf(channels);
+  Eigen::MatrixXd basis(channels, directions);
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(channels, -1.0, 1.0);
-  basis << Eigen::VectorXd::Ones(channels), x.matrix(), x.square().matrix(), x.cube().matrix();
+  for (Eigen::Index power = 0; power < directions; ++power)
+  {
+    basis.col(power) = x.pow(static_cast<double>(power)).matrix();
+  }
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(channels, Directions);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(channels, directions);
   return std::min((q.transpose() * deviations).squaredNorm() / energy, 1.0);
 }
 
-double chanceOfCubic(const Eigen::VectorXd& deviations)
+double chanceOfCurve(const Eigen::VectorXd& deviations)
 {
-  return chanceOfFraction(commonFraction(deviations), static_cast<int>(deviations.size()));
+  return chanceOfFraction(commonFraction(deviations), deviations.size());
 }
 
 namespace
@@ -240,7 +252,7 @@ LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
       surprise += 0.5 * group.deviation.square().sum() / group.learned + cauchy(group.mean);
       if (!group.kind.mayFollowCurve)
       {
-        chanceOfCurve = std::fmin(chanceOfCurve, chanceOfCubic(group.deviation.matrix()));
+        chanceOfCurve = std::fmin(chanceOfCurve, msi::chanceOfCurve(group.deviation.matrix()));
       }
     }
     else

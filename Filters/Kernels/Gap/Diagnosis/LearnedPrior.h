@@ -11,16 +11,16 @@
 namespace msi
 {
 
-// Probability that four fixed directions hold the part `fraction` or more of the energy of independent normal deviations of
-// `channels` channels: the upper tail of the Beta distribution (2, channels / 2 - 2), (1 - x)^b (1 + b x).
-// 1 where there are not more channels than directions.
-double chanceOfFraction(double fraction, int channels);
+// Probability that fixed directions, half as many as there are channels and at most four, hold the part `fraction` or more of the
+// energy of independent normal deviations of the channels: the upper tail of a Beta distribution. 1 for one channel.
+double chanceOfFraction(double fraction, Eigen::Index channels);
 
-// The part of the deviations' energy in a cubic over the channels: what a smooth change of the light does to them.
+// The part of the deviations' energy in a polynomial over the channels with so many coefficients: a cubic, or a line or one number for
+// all where channels are few. What a smooth change of the light does to them.
 double commonFraction(const Eigen::VectorXd& deviations);
 
 // Probability that independent normal deviations have that part there, or more.
-double chanceOfCubic(const Eigen::VectorXd& deviations);
+double chanceOfCurve(const Eigen::VectorXd& deviations);
 
 struct FreeNumber
 {

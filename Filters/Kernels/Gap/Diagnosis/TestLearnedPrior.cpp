@@ -140,13 +140,23 @@ TEST(Verdict, FollowsTheShrink)
   EXPECT_EQ(msi::verdictOf(0.1), msi::GapVerdict::Unexplained);
 }
 
-// Densities: of Beta(2, 1) 2 x, of Beta(2, 2) 6 x (1 - x).
+// Densities: of Beta(2, 2) 6 x (1 - x), of Beta(2, 6) 42 x (1 - x)^5, of Beta(1, 1) 1, of Beta(1/2, 1) 1 / (2 sqrt(x)).
 TEST(ChannelStructure, ChanceIsTheTailOfItsDensity)
 {
-  EXPECT_NEAR(msi::chanceOfFraction(0.9, 6), 1.0 - 0.81, 1e-12);
   EXPECT_NEAR(msi::chanceOfFraction(0.7, 8), 1.0 - 3.0 * 0.49 + 2.0 * 0.343, 1e-12);
+  EXPECT_NEAR(msi::chanceOfFraction(0.9, 16), 7.0 * 1e-6 - 6.0 * 1e-7, 1e-15);
+  EXPECT_NEAR(msi::chanceOfFraction(0.9, 4), 0.1, 1e-12);
+  EXPECT_NEAR(msi::chanceOfFraction(0.81, 3), 1.0 - 0.9, 1e-12);
   EXPECT_EQ(msi::chanceOfFraction(0.0, 8), 1.0);
-  EXPECT_EQ(msi::chanceOfFraction(0.9, 4), 1.0);
+  EXPECT_EQ(msi::chanceOfFraction(0.9, 1), 1.0);
+}
+
+// Three and four independent gains are hardly ever the same, or on a line.
+TEST(ChannelStructure, FewChannelsMayHaveOneNumberOrALine)
+{
+  EXPECT_NEAR(msi::commonFraction(Eigen::Vector3d(0.05, 0.05, 0.05)), 1.0, 1e-12);
+  EXPECT_NEAR(msi::commonFraction(Eigen::Vector3d(1.0, 0.0, 0.0)), 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(msi::commonFraction(Eigen::Vector4d(0.01, 0.03, 0.05, 0.07)), 1.0, 1e-12);
 }
 
 TEST(ChannelStructure, CurvesOverTheChannelsAreCommonAlternationIsNot)
@@ -158,7 +168,7 @@ TEST(ChannelStructure, CurvesOverTheChannelsAreCommonAlternationIsNot)
   alternating << 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1;
   EXPECT_LT(msi::commonFraction(alternating), 0.1);
   EXPECT_EQ(msi::commonFraction(Eigen::VectorXd::Zero(12)), 0.0);
-  EXPECT_EQ(msi::commonFraction(Eigen::VectorXd::Ones(4)), 0.0);
+  EXPECT_EQ(msi::commonFraction(Eigen::VectorXd::Ones(1)), 0.0);
 }
 
 } // namespace

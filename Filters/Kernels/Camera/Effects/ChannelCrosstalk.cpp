@@ -21,10 +21,10 @@ public:
   {
     const auto& before = Before.as<Scalar>();
     const auto& after = After.as<Scalar>();
+    const auto all = static_cast<Scalar>(OfAll);
     const Eigen::Index last = signal.rows() - 1;
     for (Eigen::Index j = 0; j < signal.cols(); ++j)
     {
-      const auto all = static_cast<Scalar>(OfAll);
       const Scalar mean = OfAll != 0.0 ? signal.col(j).mean() : Scalar(0);
       Scalar previous = signal(0, j);
       for (Eigen::Index k = 0; k <= last; ++k)
@@ -48,7 +48,7 @@ private:
     const Eigen::ArrayXd all = Eigen::ArrayXd::Ones(channels);
     if (effect.form().name == "shared")
     {
-      return ChannelValues(0.0 * all);
+      return ChannelValues(Eigen::ArrayXd::Zero(channels));
     }
     if (effect.form().name == "one_sided")
     {

@@ -194,12 +194,6 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
   return numbers;
 }
 
-bool isPerChannel(const std::vector<ImageTerm>& terms)
-{
-  return std::any_of(
-    terms.begin(), terms.end(), [](const ImageTerm& term) { return term.perChannel; });
-}
-
 std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const FieldModel& model,
   const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next)
 {

@@ -54,7 +54,6 @@ struct FieldNumber : FreeNumber
 };
 // Where a model has them; those of shapes, which no prior pulls, want to stay there.
 std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model);
-bool isPerChannel(const std::vector<ImageTerm>& terms);
 
 // Neither the same effect nor parameters in common.
 bool compatible(const FieldSet& set, const FieldChoice& choice);

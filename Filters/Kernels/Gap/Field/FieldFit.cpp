@@ -186,15 +186,6 @@ FieldFit FieldFitter::fitFromBestStart(const FieldSet& set) const
 {
   FieldShape start;
   FieldFit best = fit(set);
-  const auto tryOut = [&](const FieldShape& shape)
-  {
-    FieldFit other = fit(set, shape);
-    if (other.energy < best.energy)
-    {
-      best = std::move(other);
-      start = shape;
-    }
-  };
   for (const FieldChoice* choice : set)
   {
     if (!Statistics.model.isNeutral(choice->step()))
@@ -218,7 +209,12 @@ FieldFit FieldFitter::fitFromBestStart(const FieldSet& set) const
     }
     for (std::size_t i = 0; shapes.size() > 1 && i < shapes.size(); ++i)
     {
-      tryOut(shapes[i]);
+      FieldFit other = fit(set, shapes[i]);
+      if (other.energy < best.energy)
+      {
+        best = std::move(other);
+        start = shapes[i];
+      }
     }
   }
   return best;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -137,7 +138,8 @@ Eigen::ArrayXd findClipLevels(const std::vector<FieldResidual>& residuals, Eigen
   const double neutral = numberOf(clippingTerms()[1].parameter).neutral;
   const double common = findClipLevel(std::move(all));
   Eigen::ArrayXd levels(channels);
-  std::transform(own.begin(), own.end(), levels.begin(), findClipLevel);
+  std::transform(std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()),
+    levels.begin(), findClipLevel);
   const double found = (levels == neutral).select(0.0, levels).maxCoeff();
   const double other = common != neutral || found == 0.0 ? common : found;
   return (levels == neutral).select(other, levels);

@@ -19,9 +19,9 @@ std::vector<ImageDisplacement> registrationStart(const FieldPair& pair, const Fi
 // Weight and level of the effect that limits the response.
 const std::vector<ImageTerm>& clippingTerms();
 
-// The level beyond which the real image stays at one value while the model goes on: that of the least squares of
-// real - min(model, level), among quantiles of the model; the neutral level where the image shows none. The residuals are those
-// of a model that does not clip, of each block the channels one after the other. A channel that shows none has the level of all together.
+// For each channel the level beyond which the real image stays at one value while the model goes on: that of the least squares of
+// real - min(model, level). A channel that shows none has that of all together, or the highest found; the neutral level where no channel
+// shows any. The residuals are those of a model that does not clip, of each block the channels one after the other.
 Eigen::ArrayXd findClipLevels(const std::vector<FieldResidual>& residuals, Eigen::Index channels);
 
 // Gain and offset of each line as the residuals of a model show them, without their mean and, but for keepTrend, without

@@ -195,12 +195,14 @@ private:
       TakenForNoise = measuredOnly(Data, Data.variance - Integration).sum();
     }
     Rest = shareOverAxes(Data, After);
-    const double unpredicted = std::fmin(After.squaredNorm(), Rest.heldOutResidual.squaredNorm());
+    const bool predicts = Rest.heldOutResidual.squaredNorm() < After.squaredNorm();
+    const Eigen::MatrixXd& left = predicts ? Rest.heldOutResidual : After;
+    const double unpredicted = left.squaredNorm();
     Doubted = limitIntegration(Data, Integration, unpredicted);
     if (Capture.noise && Noise.degrees == 0.0)
     {
       const Eigen::MatrixXd modelled = readingVariance(Data, Noise.reading);
-      Noise.excess = excessScatter(Data, After, modelled, Data.variance - modelled);
+      Noise.excess = excessScatter(Data, left, modelled, Data.variance - modelled);
       Noise.unrepeated = Noise.excess > 1.0;
       Noise.reading.read *= Noise.excess;
       Noise.reading.shot *= Noise.excess;

@@ -438,6 +438,16 @@ TEST(SimToRealGap, ACameraFarFromWhiteIsSaid)
   EXPECT_TRUE(says(diagnosisOf(quarter).notes, "answers 0.25 to a perfect white"));
 }
 
+TEST(SimToRealGap, CurvesInOtherUnitsThanTheReadingsAreSaid)
+{
+  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } }, 96);
+  const Eigen::MatrixXd curves = capture.camera.responsivity();
+  const Eigen::ArrayXd peak = curves.rowwise().maxCoeff();
+  capture.camera = capture.camera.with(peak.inverse().matrix().asDiagonal() * curves,
+    (capture.camera.dark().array() / peak).matrix());
+  EXPECT_TRUE(says(diagnosisOf(capture).notes, "Units? The curves of the simulated camera give"));
+}
+
 TEST(SimToRealGap, ALidWithoutAPlaceLeavesTheChartItsPlaces)
 {
   const msi::SceneSamples chart = rasterSamples(96);

@@ -19,6 +19,7 @@ namespace
 {
 constexpr double ClippedReadings = 0.01; // of all at the largest value
 constexpr double FarFromWhite = 2.0;     // factor
+constexpr double OtherUnits = 0.25;      // of the gap's energy left in the readings' units
 constexpr double FarBelowModel = 0.5;    // scatter of the repeats
 
 // By more than chance, of a root mean square of all elements.
@@ -196,10 +197,23 @@ void noteSamples(std::vector<std::string>& notes, const GapData& data, const Gap
 }
 
 // Typical sizes, and effects that depend on the level, are those of responses relative to white.
-void noteWhite(std::vector<std::string>& notes, const CameraModel& camera)
+void noteWhite(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
 {
-  const double mean = camera.whiteResponse().mean();
-  if (mean < 1.0 / FarFromWhite || mean > FarFromWhite)
+  const Eigen::ArrayXd white = data.camera.whiteResponse();
+  const auto left = [&](const Eigen::ArrayXd& divisor)
+  {
+    const Eigen::MatrixXd relative = data.simulated.array().colwise() / divisor;
+    return measuredOnly(data, data.observed - relative).squaredNorm();
+  };
+  if (report.verdict != GapVerdict::NoGap && white.minCoeff() > 0.0 &&
+    left(white) < OtherUnits * left(Eigen::ArrayXd::Ones(white.size())))
+  {
+    notes.push_back(textOf(3, "Units? The curves of the simulated camera give a perfect white ",
+      white.minCoeff(), " to ", white.maxCoeff(),
+      ", but the readings look relative to white, which is 1: divide each curve by what it gives a "
+      "perfect white, the sum of its values."));
+  }
+  else if (const double mean = white.mean(); mean < 1.0 / FarFromWhite || mean > FarFromWhite)
   {
     notes.push_back(textOf(3, "The simulated camera answers ", mean,
       " to a perfect white; expected about 1: effects that depend on the level, as a curve of the "
@@ -402,7 +416,7 @@ std::vector<std::string> notesOn(const GapData& data, const GapCapture& capture,
   noteNoise(notes, data, capture, noise, reflectanceNoise, report);
   noteScene(notes, data, capture.samples);
   noteSamples(notes, data, report);
-  noteWhite(notes, data.camera);
+  noteWhite(notes, data, report);
   noteFit(notes, data.camera);
   noteSaturation(notes, data);
   noteDoubts(notes, report);

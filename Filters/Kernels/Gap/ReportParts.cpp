@@ -216,14 +216,14 @@ void sortCauses(std::vector<GapCause>& causes)
     });
 }
 
-void creditCauses(GapReport& report, std::vector<GapCause> causes)
+void creditCauses(GapReport& report, std::vector<GapCause> causes, double inexact)
 {
   const auto sumOf = [](const std::vector<GapCause>& some)
   {
     return std::accumulate(some.begin(), some.end(), 0.0,
       [](double sum, const GapCause& cause) { return sum + cause.share; });
   };
-  const double all = sumOf(causes);
+  const double all = inexact * sumOf(causes);
   const auto isCause = [all](const GapCause& cause)
   {
     return isOfLinearFit(cause) ? cause.share > Decision::PartlyShrink

@@ -292,18 +292,23 @@ TEST(SimToRealGap, TwoEffectsShareTheGap)
   EXPECT_NEAR(sum + report.unexplained.share, 1.0, 1e-9);
 }
 
-// Responses in another unit, or another exposure: a gradient of 5 % is a fiftieth of that gap.
+// Responses in another unit, or another exposure, of all channels or of each: a gradient of 5 % is a fiftieth of that gap.
 TEST(SimToRealGap, ALargeGainHidesNothing)
 {
-  const msi::GapReport report = diagnosisOf(captureWith(
-    { { "exposure_gain", "", "", { 0.4 } }, { "illumination_gradient", "", "", { 0.05, 0.0 } } }));
-  EXPECT_EQ(report.verdict, GapVerdict::Explained);
-  ASSERT_EQ(report.correction.size(), 2U);
-  EXPECT_EQ(report.causes.front().effect, "exposure_gain");
-  for (const msi::CameraEffect& effect : report.correction)
+  const msi::CameraEffect gradient{ "illumination_gradient", "", "", { 0.05, 0.0 } };
+  for (const msi::CameraEffect& gain : { msi::CameraEffect{ "exposure_gain", "", "", { 0.4 } },
+         msi::CameraEffect{ "channel_gain", "", "", { 0.4, 1.6, 0.9, 1.2, 0.5, 1.7, 0.7 } } })
   {
-    const double planted = effect.name == "exposure_gain" ? 0.4 : 0.05;
-    EXPECT_NEAR(effect.parameters.front(), planted, 0.002) << effect.name;
+    const msi::GapReport report = diagnosisOf(captureWith({ gain, gradient }));
+    EXPECT_EQ(report.verdict, GapVerdict::Explained);
+    ASSERT_EQ(report.causes.size(), 2U) << gain.name;
+    EXPECT_EQ(report.causes.front().effect, gain.name);
+    EXPECT_EQ(report.causes.back().effect, gradient.name);
+    for (const msi::CameraEffect& effect : report.correction)
+    {
+      const double planted = (effect.name == gain.name ? gain : gradient).parameters.front();
+      EXPECT_NEAR(effect.parameters.front(), planted, 0.002) << effect.name;
+    }
   }
 }
 
@@ -443,8 +448,8 @@ TEST(SimToRealGap, CurvesInOtherUnitsThanTheReadingsAreSaid)
   msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } }, 96);
   const Eigen::MatrixXd curves = capture.camera.responsivity();
   const Eigen::ArrayXd peak = curves.rowwise().maxCoeff();
-  capture.camera = capture.camera.with(peak.inverse().matrix().asDiagonal() * curves,
-    (capture.camera.dark().array() / peak).matrix());
+  capture.camera = capture.camera.with(
+    peak.inverse().matrix().asDiagonal() * curves, (capture.camera.dark().array() / peak).matrix());
   EXPECT_TRUE(says(diagnosisOf(capture).notes, "Units? The curves of the simulated camera give"));
 }
 

@@ -425,13 +425,23 @@ std::vector<std::pair<std::string, double>> effectProbabilities(
   return probabilities;
 }
 
+namespace
+{
+// Of the gap's size, what large gains do not take away.
+double inexactPart(const Observation& data, const FoundSets& found)
+{
+  const double inexact = std::fmax(data.inexactEnergy() - data.noiseEnergy(), 0.0);
+  return std::sqrt(std::fmin(inexact / std::fmax(found.gapEnergy, 1e-300), 1.0));
+}
+}
+
 std::vector<Explanation> conclude(GapReport& report, const Observation& data,
   const FoundSets& found, const Evidence& evidence, std::uint64_t seed)
 {
   std::vector<Explanation> explanations = explanationsOf(data, found);
   if (evidence.credited > 0.0)
   {
-    creditCauses(report, foundCauses(data, found, evidence.credited));
+    creditCauses(report, foundCauses(data, found, evidence.credited), inexactPart(data, found));
     leaveOutSmall(explanations, namesOf(data, *found.best), report.causes, evidence.credited);
     report.verdict = !report.unconfirmed ? verdictOf(evidence.explained)
       : report.causes.empty()            ? GapVerdict::Unexplained

@@ -257,18 +257,16 @@ Eigen::ArrayXd sceneNoise(const FieldStatistics& statistics)
 
 Eigen::ArrayXd energyBesideGain(const std::vector<Eigen::MatrixXd>& normals)
 {
-  double square = 0.0; // of the response
-  double gained = 0.0; // times the residual
-  for (const Eigen::MatrixXd& normal : normals)
-  {
-    square += normal(FieldColumn::gain(), FieldColumn::gain());
-    gained += normal(FieldColumn::gain(), FieldColumn::residual());
-  }
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(FieldColumn::residual());
-  change[FieldColumn::gain()] = Decision::largeGain(gained / std::fmax(square, 1e-30));
   Eigen::ArrayXd energy(static_cast<Eigen::Index>(normals.size()));
   std::transform(normals.begin(), normals.end(), energy.begin(),
-    [&change](const Eigen::MatrixXd& normal) { return energyLeft(normal, change); });
+    [](const Eigen::MatrixXd& normal)
+    {
+      const auto ofGain = normal.row(FieldColumn::gain());
+      Eigen::VectorXd change = Eigen::VectorXd::Zero(FieldColumn::residual());
+      change[FieldColumn::gain()] = Decision::largeGain(
+        ofGain[FieldColumn::residual()] / std::fmax(ofGain[FieldColumn::gain()], 1e-30));
+      return energyLeft(normal, change);
+    });
   return energy;
 }
 

@@ -233,13 +233,16 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options, Ind
 
 double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight)
 {
-  const auto sum = [&weight](const Eigen::ArrayXXd& values)
-  { return (weight.array() > 0.0).select(weight.array() * values, 0.0).sum(); };
+  const auto weighted = [&weight](const Eigen::ArrayXXd& values) -> Eigen::ArrayXXd
+  { return (weight.array() > 0.0).select(weight.array() * values, 0.0); };
   const Eigen::ArrayXXd u = data.simulated.array();
-  const double square = sum(u.square());
-  const double gain = square > 0.0 ? sum(u * data.observed.array()) / square : 1.0;
-  const double large = Decision::largeGain(gain - 1.0);
-  return sum((data.observed.array() - (1.0 + large) * u).square());
+  const Eigen::ArrayXd square = weighted(u.square()).rowwise().sum();
+  const Eigen::ArrayXd product = weighted(u * data.observed.array()).rowwise().sum();
+  const Eigen::ArrayXd gain =
+    (square > 0.0)
+      .select(product / square, 1.0)
+      .unaryExpr([](double one) { return 1.0 + Decision::largeGain(one - 1.0); });
+  return weighted((data.observed.array() - u.colwise() * gain).square()).sum();
 }
 
 void setWeights(GapData& data)

@@ -43,6 +43,13 @@ int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std
   return signs;
 }
 
+double energyBesideGain(double response, double product, double gap) noexcept
+{
+  const double gain = product / std::fmax(response, 1e-30);
+  const double large = gain - std::clamp(gain, -Decision::SmallPart, Decision::SmallPart);
+  return gap - large * (2.0 * product - large * response);
+}
+
 double independentNumbers(double numbers, std::size_t groups, Eigen::Index channelNumbers)
 {
   return std::fmax(std::fmin(static_cast<double>(groups), numbers),

@@ -10,6 +10,10 @@ namespace msi
 // are there in every medium.
 int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std::size_t>& set);
 
+// Of a channel's gap without its gain but for Decision::SmallPart: a gain has an exact form, and other units or another exposure do not
+// make the forms of other effects worse. Of sums of squares of response and gap, and of their product.
+double energyBesideGain(double response, double product, double gap) noexcept;
+
 // How many independent numbers a residual beyond noise is taken to be: `numbers` (Decision::DiscrepancyNumbers or
 // BeliefNumbers), or one per group where there are fewer groups; but at least Decision::DiscrepancyPerChannel for each number that
 // an effect needs for a channel.

@@ -2,8 +2,6 @@
 // reasons, and what happens when each is halved or doubled.
 #pragma once
 
-#include <algorithm>
-
 namespace msi::Decision
 {
 
@@ -65,13 +63,6 @@ inline constexpr double LeastPart = 0.03;
 
 // Small beside the whole: what is predicted or explained, beside the noise or what is left. All but this part is nearly all.
 inline constexpr double SmallPart = 0.1;
-
-// Of a relative gain of all readings what is more than small: it has an exact form, and other units or another exposure do not make the
-// forms of other effects worse.
-inline double largeGain(double gain)
-{
-  return gain - std::clamp(gain, -SmallPart, SmallPart);
-}
 
 // Numbers of single channels that get less are none, since every camera has small errors in its channels; but for effects that
 // need an image, which a pattern tells from everything else.

@@ -78,7 +78,7 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
   NoiseEnergy = fitter.chance();
   for (const std::vector<Eigen::MatrixXd>& fold : fitter.folds())
   {
-    InexactEnergy += energyBesideGain(fold).sum();
+    InexactEnergy += inexactEnergies(fold).sum();
   }
   Elements = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true));
   Nominal = described(std::move(hypothesis));

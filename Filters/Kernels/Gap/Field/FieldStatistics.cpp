@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
+#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Numerics/LowerTriangle.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
@@ -255,17 +255,16 @@ Eigen::ArrayXd sceneNoise(const FieldStatistics& statistics)
   return variance;
 }
 
-Eigen::ArrayXd energyBesideGain(const std::vector<Eigen::MatrixXd>& normals)
+Eigen::ArrayXd inexactEnergies(const std::vector<Eigen::MatrixXd>& normals)
 {
+  const int gain = FieldColumn::gain();
+  const int residual = FieldColumn::residual();
   Eigen::ArrayXd energy(static_cast<Eigen::Index>(normals.size()));
   std::transform(normals.begin(), normals.end(), energy.begin(),
-    [](const Eigen::MatrixXd& normal)
+    [gain, residual](const Eigen::MatrixXd& normal)
     {
-      const auto ofGain = normal.row(FieldColumn::gain());
-      Eigen::VectorXd change = Eigen::VectorXd::Zero(FieldColumn::residual());
-      change[FieldColumn::gain()] = Decision::largeGain(
-        ofGain[FieldColumn::residual()] / std::fmax(ofGain[FieldColumn::gain()], 1e-30));
-      return energyLeft(normal, change);
+      return energyBesideGain(
+        normal(gain, gain), normal(gain, residual), normal(residual, residual));
     });
   return energy;
 }
@@ -294,7 +293,7 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
   }
   pixels = pixels.max(1.0);
   weights.limit = Decision::OutlierDeviations * (energy / pixels).sqrt();
-  weights.tolerance = Decision::FormPart * (energyBesideGain(normals) - noise).max(0.0) / pixels;
+  weights.tolerance = Decision::FormPart * (inexactEnergies(normals) - noise).max(0.0) / pixels;
   return weights;
 }
 

@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Samples/GapData.h"
 
 #include "Kernels/Camera/CameraResponse.h"
+#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Spectra/Interpolation.h"
@@ -231,24 +232,27 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options, Ind
   return data;
 }
 
-double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight)
+double inexactEnergy(const GapData& data, const Eigen::MatrixXd& weight)
 {
-  const auto weighted = [&weight](const Eigen::ArrayXXd& values) -> Eigen::ArrayXXd
-  { return (weight.array() > 0.0).select(weight.array() * values, 0.0); };
-  const Eigen::ArrayXXd u = data.simulated.array();
-  const Eigen::ArrayXd square = weighted(u.square()).rowwise().sum();
-  const Eigen::ArrayXd product = weighted(u * data.observed.array()).rowwise().sum();
-  const Eigen::ArrayXd gain =
-    (square > 0.0)
-      .select(product / square, 1.0)
-      .unaryExpr([](double one) { return 1.0 + Decision::largeGain(one - 1.0); });
-  return weighted((data.observed.array() - u.colwise() * gain).square()).sum();
+  const auto sum = [&weight](const Eigen::ArrayXXd& values) -> Eigen::ArrayXd
+  { return (weight.array() > 0.0).select(weight.array() * values, 0.0).rowwise().sum(); };
+  const Eigen::ArrayXXd response = data.simulated;
+  const Eigen::ArrayXXd gap = data.observed - data.simulated;
+  const Eigen::ArrayXd ofResponse = sum(response.square());
+  const Eigen::ArrayXd ofBoth = sum(response * gap);
+  const Eigen::ArrayXd ofGap = sum(gap.square());
+  double energy = 0.0;
+  for (Eigen::Index k = 0; k < data.channels(); ++k)
+  {
+    energy += energyBesideGain(ofResponse[k], ofBoth[k], ofGap[k]);
+  }
+  return energy;
 }
 
 void setWeights(GapData& data)
 {
   const double energy =
-    energyBesideGain(data, data.measured().cast<double>()) / static_cast<double>(data.elements);
+    inexactEnergy(data, data.measured().cast<double>()) / static_cast<double>(data.elements);
   const double tolerance = Decision::FormPart * energy + 1e-14;
   data.weight = data.measured().cast<double>() / (data.variance.array() + tolerance);
 }

@@ -28,7 +28,10 @@ public:
   Eigen::Index channelNumbers() const override { return Fitter.data().channels(); }
   double elements() const override { return Fitter.trainingElements(); }
   double noiseEnergy() const override { return Fitter.noiseEnergy(); }
-  double inexactEnergy() const override { return energyBesideGain(Fitter.data(), Fitter.weight()); }
+  double inexactEnergy() const override
+  {
+    return msi::inexactEnergy(Fitter.data(), Fitter.weight());
+  }
   FitPointer nominal() const override;
   // Forms with several starting points keep the best; steps in time start where the cumulative sums of the residual break.
   std::vector<GapPreview> previews(const ObservedFit& from) const override;

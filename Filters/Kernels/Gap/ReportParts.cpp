@@ -223,11 +223,11 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double inexac
     return std::accumulate(some.begin(), some.end(), 0.0,
       [](double sum, const GapCause& cause) { return sum + cause.share; });
   };
-  const double all = inexact * sumOf(causes);
-  const auto isCause = [all](const GapCause& cause)
+  const double all = sumOf(causes);
+  const auto isCause = [all, inexact](const GapCause& cause)
   {
     return isOfLinearFit(cause) ? cause.share > Decision::PartlyShrink
-                                : cause.share > Decision::LeastPart * all &&
+                                : cause.share > Decision::LeastPart * inexact * all &&
         !isSmallErrorOfChannels(cause, cause.share / all);
   };
   const auto first = std::stable_partition(causes.begin(), causes.end(), isCause);

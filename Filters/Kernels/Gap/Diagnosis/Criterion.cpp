@@ -46,7 +46,8 @@ int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std
 double energyBesideGain(double response, double product, double gap) noexcept
 {
   const double gain = product / std::fmax(response, 1e-30);
-  const double large = gain - std::clamp(gain, -Decision::SmallPart, Decision::SmallPart);
+  const double beyond = std::fmax(std::fabs(gain) / Decision::SmallPart, 1.0);
+  const double large = gain * (1.0 - 1.0 / (beyond * beyond));
   return gap - large * (2.0 * product - large * response);
 }
 

@@ -460,8 +460,11 @@ std::vector<Explanation> conclude(GapReport& report, const Observation& data,
   const bool gap = report.verdict != GapVerdict::NoGap;
   const double confirmed = evidence.explained -
     evidence.takenForNoise * std::fmax(evidence.explained - Decision::Unconfirmed, 0.0);
+  const bool ofChannels = std::any_of(report.causes.begin(), report.causes.end(),
+    [](const GapCause& cause) { return cause.perChannel; });
   const double none = gap
-    ? unknownProbability(confirmed, found.best->chanceOfCurve, standInsOf(data, *found.best))
+    ? unknownProbability(
+        confirmed, ofChannels ? found.best->chanceOfCurve : 1.0, standInsOf(data, *found.best))
     : 1.0 / (1.0 + std::fmin(evidence.noticed, 1.0));
   believe(report, effectProbabilities(explanations, gap, none));
   return explanations;

@@ -333,6 +333,18 @@ TEST(SignsOfStandIns, AnEffectOfEveryMediumIsNotTheMediums)
   EXPECT_EQ(msi::signsOfStandIns({ options.front() }, { 0 }), 1);
 }
 
+// A response with 100 of energy times a gain, and 3 of something else.
+TEST(Criterion, LargeGainsDoNotCountAsGap)
+{
+  const auto left = [](double gain)
+  { return msi::energyBesideGain(100.0, 100.0 * gain, 100.0 * gain * gain + 3.0); };
+  EXPECT_DOUBLE_EQ(left(0.05), 0.25 + 3.0);
+  EXPECT_DOUBLE_EQ(left(-0.1), 1.0 + 3.0);
+  EXPECT_NEAR(left(0.5), 100.0 * 0.02 * 0.02 + 3.0, 1e-12);
+  EXPECT_NEAR(left(-0.8), 100.0 * 0.0125 * 0.0125 + 3.0, 1e-12);
+  EXPECT_EQ(msi::energyBesideGain(0.0, 0.0, 3.0), 3.0);
+}
+
 // Column 1 does the same on a medium as column 0.
 TEST(Criterion, AnEffectOfTheOnlyMediumIsOneFormDearerThanTheCameras)
 {

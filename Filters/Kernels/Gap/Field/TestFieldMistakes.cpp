@@ -163,17 +163,19 @@ TEST(FieldMistakes, OtherUnitsChangeNothing)
 TEST(FieldMistakes, AnEffectBesideALargeGain)
 {
   const TestScene scene(65);
-  for (const double gain : { 0.5, 3.0 })
+  const std::vector<double> channels{ 0.4, 1.7, 0.6 };
+  for (const std::vector<double>& gains :
+    { std::vector<double>(3, 0.5), std::vector<double>(3, 3.0), channels })
   {
     const GapReport report = diagnose(changed(scene, 75,
-      [&scene, gain](double u, int, int x, int y, double)
+      [&scene, &gains](double u, int k, int x, int y, double)
       {
-        return gain * u *
+        return gains[static_cast<std::size_t>(k)] * u *
           (1.0 - 0.08 * (std::pow(scene.fieldX(x), 2) + std::pow(scene.fieldY(y), 2)));
       }));
     SCOPED_TRACE(describe(report));
     ASSERT_EQ(report.causes.size(), 2U);
-    EXPECT_EQ(report.causes[0].effect, "exposure_gain");
+    EXPECT_EQ(report.causes[0].effect, gains == channels ? "channel_gain" : "exposure_gain");
     EXPECT_EQ(report.causes[1].effect, "vignetting");
     EXPECT_GT(report.causes[1].probability, 0.9);
   }

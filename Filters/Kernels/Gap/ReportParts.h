@@ -75,7 +75,7 @@ void sortCauses(std::vector<GapCause>& causes);
 // Takes the causes into the report, and what none of them explains. Those that get less than Decision::LeastPart of what all get beside
 // large gains are no causes, nor are numbers of single channels with less than Decision::LeastPartPerChannel, but for effects that need an image: their effects go to GapReport::uncredited. What a
 // linear fit leaves of a curve is one where it partly explains the gap (Decision::PartlyShrink); every camera fitted as linear has some.
-// inexact: part of the gap's size that large gains do not take away (energyBesideGain).
+// inexact: part of the gap's size that large gains do not take away (FoundSets::inexactEnergy).
 void creditCauses(GapReport& report, std::vector<GapCause> causes, double inexact);
 
 // Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.

@@ -43,12 +43,19 @@ int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std
   return signs;
 }
 
-double energyBesideGain(double response, double product, double gap) noexcept
+Eigen::ArrayXd energiesBesideGain(const Eigen::ArrayXd& response, const Eigen::ArrayXd& product,
+  const Eigen::ArrayXd& gap, bool ofChannels)
 {
-  const double gain = product / std::fmax(response, 1e-30);
-  const double beyond = std::fmax(std::fabs(gain) / Decision::SmallPart, 1.0);
-  const double large = gain * (1.0 - 1.0 / (beyond * beyond));
-  return gap - large * (2.0 * product - large * response);
+  const auto large = [](double square, double both)
+  {
+    const double gain = both / std::fmax(square, 1e-30);
+    const double beyond = std::fmax(std::fabs(gain) / Decision::SmallPart, 1.0);
+    return gain * (1.0 - 1.0 / (beyond * beyond));
+  };
+  const Eigen::ArrayXd gain = ofChannels
+    ? Eigen::ArrayXd(response.binaryExpr(product, large))
+    : Eigen::ArrayXd::Constant(gap.size(), large(response.sum(), product.sum()));
+  return gap - gain * (2.0 * product - gain * response);
 }
 
 double independentNumbers(double numbers, std::size_t groups, Eigen::Index channelNumbers)
@@ -57,14 +64,14 @@ double independentNumbers(double numbers, std::size_t groups, Eigen::Index chann
     Decision::DiscrepancyPerChannel * static_cast<double>(channelNumbers));
 }
 
-Criterion::Criterion(const Observation& data, const ObservedFit& nominal, double numbers)
+Criterion::Criterion(
+  const Observation& data, const ObservedFit& nominal, double numbers, double inexact)
   : Data(data)
   , Gap(std::fmax(nominal.energy - data.noiseEnergy(), 0.0))
   , Noise(std::fmin(data.noiseEnergy(), nominal.energy))
   // Above zero, so that two equal data sets give numbers, too.
-  , Floor(
-      std::fmax(Decision::FormPart * std::fmin(std::fmax(data.inexactEnergy() - Noise, 0.0), Gap),
-        std::numeric_limits<double>::epsilon() * std::fmax(data.noiseEnergy(), 1.0)))
+  , Floor(std::fmax(Decision::FormPart * std::fmin(std::fmax(inexact - Noise, 0.0), Gap),
+      std::numeric_limits<double>::epsilon() * std::fmax(data.noiseEnergy(), 1.0)))
   , Discrepancy(
       independentNumbers(numbers, data.energies(nominal).before.size(), data.channelNumbers()))
   , Reference(std::numeric_limits<double>::infinity())

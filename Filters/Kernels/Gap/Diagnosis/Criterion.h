@@ -10,9 +10,11 @@ namespace msi
 // are there in every medium.
 int signsOfStandIns(const std::vector<GapOption>& options, const std::vector<std::size_t>& set);
 
-// Of a channel's gap without its gain but for Decision::SmallPart: a gain has an exact form, and other units or another exposure do not
-// make the forms of other effects worse. Of sums of squares of response and gap, and of their product.
-double energyBesideGain(double response, double product, double gap) noexcept;
+// Energies of the channels' gaps without a large gain, of all of them or of each: it has an exact form, and other units or another
+// exposure do not make the forms of other effects worse. A gain up to Decision::SmallPart stays as it is, of one far beyond next to
+// nothing. Of each channel, the sums of squares of response and gap, and of their products.
+Eigen::ArrayXd energiesBesideGain(const Eigen::ArrayXd& response, const Eigen::ArrayXd& product,
+  const Eigen::ArrayXd& gap, bool ofChannels);
 
 // How many independent numbers a residual beyond noise is taken to be: `numbers` (Decision::DiscrepancyNumbers or
 // BeliefNumbers), or one per group where there are fewer groups; but at least Decision::DiscrepancyPerChannel for each number that
@@ -24,16 +26,16 @@ double independentNumbers(double numbers, std::size_t groups, Eigen::Index chann
 //   -m/2 log (Q + f G)  -  1/2 log det(1 + prior covariance x information / phi)  -  surprise
 //   -  sum of the options' improbabilities
 //
-// Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera, but for what effects with exact forms take
-// away (Observation::inexactEnergy); f: Decision::FormPart.
+// Q: cross-validated energy; G: energy of the gap beyond noise at the nominal camera, without large gains
+// (Observation::inexactEnergy); f: Decision::FormPart.
 // phi, the dispersion, is what one independent number of the best residual known has of energy: noise, as far as
 //   it is coherent within groups, and what is left beyond noise, which counts as independentNumbers().
 // m = (Q + f G) / phi of that residual: the independent numbers.
 class Criterion
 {
 public:
-  // numbers: Decision::DiscrepancyNumbers, or BeliefNumbers.
-  Criterion(const Observation& data, const ObservedFit& nominal, double numbers);
+  // numbers: Decision::DiscrepancyNumbers, or BeliefNumbers. inexact: Observation::inexactEnergy().
+  Criterion(const Observation& data, const ObservedFit& nominal, double numbers, double inexact);
 
   // The least energy known sets the dispersion. coherence: of its fit.
   void refer(double energy, double coherence);

@@ -430,7 +430,7 @@ namespace
 // Of the gap's size, what large gains do not take away.
 double inexactPart(const Observation& data, const FoundSets& found)
 {
-  const double inexact = std::fmax(data.inexactEnergy() - data.noiseEnergy(), 0.0);
+  const double inexact = std::fmax(found.inexactEnergy - data.noiseEnergy(), 0.0);
   return std::sqrt(std::fmin(inexact / std::fmax(found.gapEnergy, 1e-300), 1.0));
 }
 }

@@ -70,8 +70,8 @@ public:
   virtual Eigen::Index channelNumbers() const = 0; // of all channels, the most that an effect needs
   virtual double elements() const = 0;             // residuals with weight
   virtual double noiseEnergy() const = 0;          // what noise alone leaves of the energy
-  // Of the nominal fit, but for what effects with exact forms take away.
-  virtual double inexactEnergy() const { return nominal()->energy; }
+  // Of the nominal fit, without a large gain of all channels or large ones of each (energiesBesideGain()).
+  virtual double inexactEnergy(bool /*ofChannels*/) const { return nominal()->energy; }
 
   virtual FitPointer nominal() const = 0;
   // Options whose effect the fit does not have.

@@ -18,13 +18,14 @@ constexpr std::ptrdiff_t MostForms = 3; // of a cause, fitted in full in the pla
 class SetSearch
 {
 public:
-  SetSearch(
-    const Observation& data, const SetSearchLimits& limits, const std::function<bool()>& stop)
+  SetSearch(const Observation& data, const SetSearchLimits& limits,
+    const std::function<bool()>& stop, double inexact)
     : Data(data)
     , Limits(limits)
     , Stop(stop)
     , Nominal(data.nominal())
-    , Score(data, *Nominal, Decision::DiscrepancyNumbers)
+    , Inexact(inexact)
+    , Score(data, *Nominal, Decision::DiscrepancyNumbers, inexact)
   {
     Visited.push_back(Nominal);
   }
@@ -45,8 +46,9 @@ public:
         break;
       }
     }
-    FoundSets found{ Nominal, best(), Visited, {}, {}, Score.gapEnergy(), Score.dispersion() };
-    Criterion belief(Data, *Nominal, Decision::BeliefNumbers);
+    FoundSets found{ Nominal, best(), Visited, {}, {}, Score.gapEnergy(), Inexact,
+      Score.dispersion() };
+    Criterion belief(Data, *Nominal, Decision::BeliefNumbers, Inexact);
     for (const FitPointer& fit : Visited)
     {
       belief.refer(fit->energy, fit->coherence);
@@ -197,6 +199,7 @@ private:
   SetSearchLimits Limits;
   const std::function<bool()>& Stop;
   FitPointer Nominal;
+  double Inexact;
   Criterion Score;
   std::vector<FitPointer> Visited;
   std::set<std::vector<std::size_t>> Tried;
@@ -206,7 +209,15 @@ private:
 FoundSets searchSets(
   const Observation& data, const SetSearchLimits& limits, const std::function<bool()>& stop)
 {
-  return SetSearch(data, limits, stop).run();
+  const double inexact = data.inexactEnergy(false);
+  FoundSets found = SetSearch(data, limits, stop, inexact).run();
+  const double besideChannels = data.inexactEnergy(true);
+  const bool hasGains = std::any_of(found.best->set.begin(), found.best->set.end(),
+    [&options = data.options()](std::size_t option)
+    { return options[option].perChannel && options[option].effect->has(EffectTrait::Exact); });
+  return hasGains && besideChannels < (1.0 - Decision::SmallPart) * inexact && !stop()
+    ? SetSearch(data, limits, stop, besideChannels).run()
+    : found;
 }
 
 } // namespace msi

@@ -24,10 +24,13 @@ struct FoundSets
   std::vector<double> score;       // of each, by the final criterion
   std::vector<double> belief;      // of each, by the criterion with Decision::BeliefNumbers
   double gapEnergy = 0.0;
+  double inexactEnergy =
+    0.0; // Observation::inexactEnergy(), without gains of channels where they were found
   double dispersion = 1.0;
 };
 
 // Beam search by size, then exchanges and removals of one or two effects and other forms of each, until none makes the set likelier.
+// Once more without large gains of channels in Observation::inexactEnergy() where they are in the set.
 // stop() is asked now and then; true ends the search early.
 FoundSets searchSets(
   const Observation& data, const SetSearchLimits& limits, const std::function<bool()>& stop);

@@ -333,16 +333,27 @@ TEST(SignsOfStandIns, AnEffectOfEveryMediumIsNotTheMediums)
   EXPECT_EQ(msi::signsOfStandIns({ options.front() }, { 0 }), 1);
 }
 
-// A response with 100 of energy times a gain, and 3 of something else.
+// Two channels whose responses have 100 and 300 of energy, times gains, and 3 of something else each.
 TEST(Criterion, LargeGainsDoNotCountAsGap)
 {
-  const auto left = [](double gain)
-  { return msi::energyBesideGain(100.0, 100.0 * gain, 100.0 * gain * gain + 3.0); };
-  EXPECT_DOUBLE_EQ(left(0.05), 0.25 + 3.0);
-  EXPECT_DOUBLE_EQ(left(-0.1), 1.0 + 3.0);
-  EXPECT_NEAR(left(0.5), 100.0 * 0.02 * 0.02 + 3.0, 1e-12);
-  EXPECT_NEAR(left(-0.8), 100.0 * 0.0125 * 0.0125 + 3.0, 1e-12);
-  EXPECT_EQ(msi::energyBesideGain(0.0, 0.0, 3.0), 3.0);
+  const auto left = [](double first, double second, bool ofChannels)
+  {
+    const Eigen::Array2d response(100.0, 300.0);
+    const Eigen::Array2d gain(first, second);
+    return msi::energiesBesideGain(
+      response, gain * response, gain.square() * response + 3.0, ofChannels);
+  };
+  for (const bool ofChannels : { false, true })
+  {
+    const Eigen::ArrayXd small = left(0.05, 0.1, ofChannels);
+    EXPECT_NEAR(small[0], 0.25 + 3.0, 1e-12);
+    EXPECT_NEAR(small[1], 3.0 + 3.0, 1e-12);
+    const Eigen::ArrayXd common = left(-0.5, -0.5, ofChannels); // of which .1 x .1 / .5 stays
+    EXPECT_NEAR(common[0], 100.0 * 0.02 * 0.02 + 3.0, 1e-12);
+    EXPECT_NEAR(common[1], 300.0 * 0.02 * 0.02 + 3.0, 1e-12);
+  }
+  EXPECT_NEAR(left(0.5, -0.8, true)[1], 300.0 * 0.0125 * 0.0125 + 3.0, 1e-12);
+  EXPECT_GT(left(0.5, -0.8, false)[0], 25.0);
 }
 
 // Column 1 does the same on a medium as column 0.

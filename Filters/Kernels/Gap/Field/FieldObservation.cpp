@@ -78,7 +78,8 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
   NoiseEnergy = fitter.chance();
   for (const std::vector<Eigen::MatrixXd>& fold : fitter.folds())
   {
-    InexactEnergy += inexactEnergies(fold).sum();
+    BesideGain += inexactEnergies(fold, false).sum();
+    BesideGains += inexactEnergies(fold, true).sum();
   }
   Elements = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true));
   Nominal = described(std::move(hypothesis));

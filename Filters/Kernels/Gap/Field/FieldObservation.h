@@ -38,7 +38,10 @@ public:
   Eigen::Index channelNumbers() const override;
   double elements() const override { return Elements; }
   double noiseEnergy() const override { return NoiseEnergy; }
-  double inexactEnergy() const override { return InexactEnergy; }
+  double inexactEnergy(bool ofChannels) const override
+  {
+    return ofChannels ? BesideGains : BesideGain;
+  }
   FitPointer nominal() const override { return Nominal; }
   std::vector<GapPreview> previews(const ObservedFit& from) const override;
   FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
@@ -66,7 +69,8 @@ private:
   const FieldLoop& Loop;
   std::vector<GapOption> Options;
   double Elements = 0.0;
-  double NoiseEnergy = 0.0, InexactEnergy = 0.0;
+  double NoiseEnergy = 0.0;
+  double BesideGain = 0.0, BesideGains = 0.0; // without large gains: inexactEnergy()
   FitPointer Nominal;
 };
 

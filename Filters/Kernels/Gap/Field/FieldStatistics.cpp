@@ -255,18 +255,18 @@ Eigen::ArrayXd sceneNoise(const FieldStatistics& statistics)
   return variance;
 }
 
-Eigen::ArrayXd inexactEnergies(const std::vector<Eigen::MatrixXd>& normals)
+Eigen::ArrayXd inexactEnergies(const std::vector<Eigen::MatrixXd>& normals, bool ofChannels)
 {
+  const auto of = [&normals](int row, int column)
+  {
+    Eigen::ArrayXd sums(static_cast<Eigen::Index>(normals.size()));
+    std::transform(normals.begin(), normals.end(), sums.begin(),
+      [row, column](const Eigen::MatrixXd& normal) { return normal(row, column); });
+    return sums;
+  };
   const int gain = FieldColumn::gain();
   const int residual = FieldColumn::residual();
-  Eigen::ArrayXd energy(static_cast<Eigen::Index>(normals.size()));
-  std::transform(normals.begin(), normals.end(), energy.begin(),
-    [gain, residual](const Eigen::MatrixXd& normal)
-    {
-      return energyBesideGain(
-        normal(gain, gain), normal(gain, residual), normal(residual, residual));
-    });
-  return energy;
+  return energiesBesideGain(of(gain, gain), of(gain, residual), of(residual, residual), ofChannels);
 }
 
 FieldWeights fieldWeights(const FieldStatistics& statistics)
@@ -293,7 +293,8 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
   }
   pixels = pixels.max(1.0);
   weights.limit = Decision::OutlierDeviations * (energy / pixels).sqrt();
-  weights.tolerance = Decision::FormPart * (inexactEnergies(normals) - noise).max(0.0) / pixels;
+  weights.tolerance =
+    Decision::FormPart * (inexactEnergies(normals, false) - noise).max(0.0) / pixels;
   return weights;
 }
 

@@ -232,27 +232,21 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options, Ind
   return data;
 }
 
-double inexactEnergy(const GapData& data, const Eigen::MatrixXd& weight)
+double inexactEnergy(const GapData& data, const Eigen::MatrixXd& weight, bool ofChannels)
 {
   const auto sum = [&weight](const Eigen::ArrayXXd& values) -> Eigen::ArrayXd
   { return (weight.array() > 0.0).select(weight.array() * values, 0.0).rowwise().sum(); };
   const Eigen::ArrayXXd response = data.simulated;
   const Eigen::ArrayXXd gap = data.observed - data.simulated;
-  const Eigen::ArrayXd ofResponse = sum(response.square());
-  const Eigen::ArrayXd ofBoth = sum(response * gap);
-  const Eigen::ArrayXd ofGap = sum(gap.square());
-  double energy = 0.0;
-  for (Eigen::Index k = 0; k < data.channels(); ++k)
-  {
-    energy += energyBesideGain(ofResponse[k], ofBoth[k], ofGap[k]);
-  }
-  return energy;
+  return energiesBesideGain(
+    sum(response.square()), sum(response * gap), sum(gap.square()), ofChannels)
+    .sum();
 }
 
 void setWeights(GapData& data)
 {
   const double energy =
-    inexactEnergy(data, data.measured().cast<double>()) / static_cast<double>(data.elements);
+    inexactEnergy(data, data.measured().cast<double>(), false) / static_cast<double>(data.elements);
   const double tolerance = Decision::FormPart * energy + 1e-14;
   data.weight = data.measured().cast<double>() / (data.variance.array() + tolerance);
 }

@@ -54,8 +54,8 @@ std::vector<std::string> sampleNames(const GapCapture& capture);
 GapData prepareGapData(
   const GapCapture& capture, const GapOptions& options, IndexList leftOut = {});
 
-// energyBesideGain() of all channels, weighted.
-double inexactEnergy(const GapData& data, const Eigen::MatrixXd& weight);
+// energiesBesideGain() together, weighted.
+double inexactEnergy(const GapData& data, const Eigen::MatrixXd& weight, bool ofChannels);
 // Weights 1 / (variance + Decision::FormPart x mean square of that): the library's forms are approximations of the
 // physics, and below that part of the gap no element is trusted more than another.
 void setWeights(GapData& data);

@@ -28,9 +28,9 @@ public:
   Eigen::Index channelNumbers() const override { return Fitter.data().channels(); }
   double elements() const override { return Fitter.trainingElements(); }
   double noiseEnergy() const override { return Fitter.noiseEnergy(); }
-  double inexactEnergy() const override
+  double inexactEnergy(bool ofChannels) const override
   {
-    return msi::inexactEnergy(Fitter.data(), Fitter.weight());
+    return msi::inexactEnergy(Fitter.data(), Fitter.weight(), ofChannels);
   }
   FitPointer nominal() const override;
   // Forms with several starting points keep the best; steps in time start where the cumulative sums of the residual break.

@@ -365,7 +365,7 @@ TEST(Criterion, AnEffectOfTheOnlyMediumIsOneFormDearerThanTheCameras)
   const msi::FitPointer nominal = data.nominal();
   const auto dearer = [&]
   {
-    const msi::Criterion score(data, *nominal, 50.0);
+    const msi::Criterion score(data, *nominal, 50.0, nominal->energy);
     return score(*data.extended(*nominal, { 0, {}, {} })) -
       score(*data.extended(*nominal, { 1, {}, {} }));
   };

@@ -302,6 +302,7 @@ TEST(SimToRealGap, ALargeGainHidesNothing)
     const msi::GapReport report = diagnosisOf(captureWith({ gain, gradient }));
     EXPECT_EQ(report.verdict, GapVerdict::Explained);
     ASSERT_EQ(report.causes.size(), 2U) << gain.name;
+    ASSERT_EQ(report.correction.size(), 2U) << gain.name;
     EXPECT_EQ(report.causes.front().effect, gain.name);
     EXPECT_EQ(report.causes.back().effect, gradient.name);
     for (const msi::CameraEffect& effect : report.correction)

@@ -215,9 +215,11 @@ FoundSets searchSets(
   const bool hasGains = std::any_of(found.best->set.begin(), found.best->set.end(),
     [&options = data.options()](std::size_t option)
     { return options[option].perChannel && options[option].effect->has(EffectTrait::Exact); });
-  return hasGains && besideChannels < (1.0 - Decision::SmallPart) * inexact && !stop()
-    ? SetSearch(data, limits, stop, besideChannels).run()
-    : found;
+  if (hasGains && besideChannels < (1.0 - Decision::SmallPart) * inexact && !stop())
+  {
+    found = SetSearch(data, limits, stop, besideChannels).run();
+  }
+  return found;
 }
 
 } // namespace msi

@@ -24,8 +24,7 @@ struct FoundSets
   std::vector<double> score;       // of each, by the final criterion
   std::vector<double> belief;      // of each, by the criterion with Decision::BeliefNumbers
   double gapEnergy = 0.0;
-  double inexactEnergy =
-    0.0; // Observation::inexactEnergy(), without gains of channels where they were found
+  double inexactEnergy = 0.0; // Observation::inexactEnergy() of the last search
   double dispersion = 1.0;
 };
 

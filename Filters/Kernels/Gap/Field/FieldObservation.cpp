@@ -78,8 +78,8 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
   NoiseEnergy = fitter.chance();
   for (const std::vector<Eigen::MatrixXd>& fold : fitter.folds())
   {
-    BesideGain += inexactEnergies(fold, false).sum();
-    BesideGains += inexactEnergies(fold, true).sum();
+    InexactEnergy[0] += energiesBesideGain(fold, false).sum();
+    InexactEnergy[1] += energiesBesideGain(fold, true).sum();
   }
   Elements = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true));
   Nominal = described(std::move(hypothesis));

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,10 +39,7 @@ public:
   Eigen::Index channelNumbers() const override;
   double elements() const override { return Elements; }
   double noiseEnergy() const override { return NoiseEnergy; }
-  double inexactEnergy(bool ofChannels) const override
-  {
-    return ofChannels ? BesideGains : BesideGain;
-  }
+  double inexactEnergy(bool ofChannels) const override { return InexactEnergy[ofChannels ? 1 : 0]; }
   FitPointer nominal() const override { return Nominal; }
   std::vector<GapPreview> previews(const ObservedFit& from) const override;
   FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
@@ -70,7 +68,7 @@ private:
   std::vector<GapOption> Options;
   double Elements = 0.0;
   double NoiseEnergy = 0.0;
-  double BesideGain = 0.0, BesideGains = 0.0; // without large gains: inexactEnergy()
+  std::array<double, 2> InexactEnergy{}; // inexactEnergy() of false and of true
   FitPointer Nominal;
 };
 

@@ -255,7 +255,7 @@ Eigen::ArrayXd sceneNoise(const FieldStatistics& statistics)
   return variance;
 }
 
-Eigen::ArrayXd inexactEnergies(const std::vector<Eigen::MatrixXd>& normals, bool ofChannels)
+Eigen::ArrayXd energiesBesideGain(const std::vector<Eigen::MatrixXd>& normals, bool ofChannels)
 {
   const auto of = [&normals](int row, int column)
   {
@@ -294,7 +294,7 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
   pixels = pixels.max(1.0);
   weights.limit = Decision::OutlierDeviations * (energy / pixels).sqrt();
   weights.tolerance =
-    Decision::FormPart * (inexactEnergies(normals, false) - noise).max(0.0) / pixels;
+    Decision::FormPart * (energiesBesideGain(normals, false) - noise).max(0.0) / pixels;
   return weights;
 }
 

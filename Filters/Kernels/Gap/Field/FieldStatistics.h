@@ -68,8 +68,8 @@ struct FieldStatistics
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
   const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked = everyStep());
 
-// energiesBesideGain(). normals: of each channel, with a column of the gain.
-Eigen::ArrayXd inexactEnergies(const std::vector<Eigen::MatrixXd>& normals, bool ofChannels);
+// The same by normal matrices, of each channel, with a column of the gain.
+Eigen::ArrayXd energiesBesideGain(const std::vector<Eigen::MatrixXd>& normals, bool ofChannels);
 
 // The variance of noise in the simulated image, of each channel, 0 where it is not sure. In the mean over a block, the product of the
 // residual and the derivative by blur is blur times the square of the latter; noise adds the same to it in every block, flat or not.

@@ -232,7 +232,7 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options, Ind
   return data;
 }
 
-double inexactEnergy(const GapData& data, const Eigen::MatrixXd& weight, bool ofChannels)
+double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight, bool ofChannels)
 {
   const auto sum = [&weight](const Eigen::ArrayXXd& values) -> Eigen::ArrayXd
   { return (weight.array() > 0.0).select(weight.array() * values, 0.0).rowwise().sum(); };
@@ -245,8 +245,8 @@ double inexactEnergy(const GapData& data, const Eigen::MatrixXd& weight, bool of
 
 void setWeights(GapData& data)
 {
-  const double energy =
-    inexactEnergy(data, data.measured().cast<double>(), false) / static_cast<double>(data.elements);
+  const double energy = energyBesideGain(data, data.measured().cast<double>(), false) /
+    static_cast<double>(data.elements);
   const double tolerance = Decision::FormPart * energy + 1e-14;
   data.weight = data.measured().cast<double>() / (data.variance.array() + tolerance);
 }

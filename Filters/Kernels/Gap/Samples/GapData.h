@@ -55,7 +55,7 @@ GapData prepareGapData(
   const GapCapture& capture, const GapOptions& options, IndexList leftOut = {});
 
 // energiesBesideGain() together, weighted.
-double inexactEnergy(const GapData& data, const Eigen::MatrixXd& weight, bool ofChannels);
+double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight, bool ofChannels);
 // Weights 1 / (variance + Decision::FormPart x mean square of that): the library's forms are approximations of the
 // physics, and below that part of the gap no element is trusted more than another.
 void setWeights(GapData& data);

@@ -200,13 +200,10 @@ void noteSamples(std::vector<std::string>& notes, const GapData& data, const Gap
 void noteWhite(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
 {
   const Eigen::ArrayXd white = data.camera.whiteResponse();
-  const auto left = [&](const Eigen::ArrayXd& divisor)
-  {
-    const Eigen::MatrixXd relative = data.simulated.array().colwise() / divisor;
-    return measuredOnly(data, data.observed - relative).squaredNorm();
-  };
+  const auto energy = [&data](const Eigen::MatrixXd& simulated)
+  { return measuredOnly(data, data.observed - simulated).squaredNorm(); };
   if (report.verdict != GapVerdict::NoGap && white.minCoeff() > 0.0 &&
-    left(white) < OtherUnits * left(Eigen::ArrayXd::Ones(white.size())))
+    energy(data.simulated.array().colwise() / white) < OtherUnits * energy(data.simulated))
   {
     notes.push_back(textOf(3, "Units? The curves of the simulated camera give a perfect white ",
       white.minCoeff(), " to ", white.maxCoeff(),

@@ -30,7 +30,7 @@ public:
   double noiseEnergy() const override { return Fitter.noiseEnergy(); }
   double inexactEnergy(bool ofChannels) const override
   {
-    return msi::inexactEnergy(Fitter.data(), Fitter.weight(), ofChannels);
+    return energyBesideGain(Fitter.data(), Fitter.weight(), ofChannels);
   }
   FitPointer nominal() const override;
   // Forms with several starting points keep the best; steps in time start where the cumulative sums of the residual break.

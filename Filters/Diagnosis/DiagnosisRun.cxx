@@ -87,7 +87,7 @@ GapReport runDiagnosis(vtkAlgorithm* algorithm, const GapCapture& capture, GapOp
     [&capture](const GapOptions& given) { return diagnoseGap(capture, given); });
 }
 
-FieldGap runDiagnosis(vtkAlgorithm* algorithm, const FramelessPair& pair, GapOptions options)
+FieldGap runDiagnosis(vtkAlgorithm* algorithm, const FieldPair& pair, GapOptions options)
 {
   return runBeside(algorithm, std::move(options),
     [&pair](const GapOptions& given) { return diagnoseField(pair, given); });

@@ -14,7 +14,7 @@ namespace msi
 // be Python's. options.progress, parallelFor and exclusive are set here.
 // Errors: those of the diagnosis; std::runtime_error when the algorithm was asked to stop.
 GapReport runDiagnosis(vtkAlgorithm* algorithm, const GapCapture& capture, GapOptions options);
-FieldGap runDiagnosis(vtkAlgorithm* algorithm, const FramelessPair& pair, GapOptions options);
+FieldGap runDiagnosis(vtkAlgorithm* algorithm, const FieldPair& pair, GapOptions options);
 
 } // namespace msi
 

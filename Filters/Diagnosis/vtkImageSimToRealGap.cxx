@@ -19,7 +19,6 @@
 #include "vtkTable.h"
 
 #include "Kernels/Gap/Field/FieldCorrection.h"
-#include "Kernels/Gap/Field/FieldFrame.h"
 
 #include <algorithm>
 #include <array>
@@ -213,21 +212,20 @@ int vtkImageSimToRealGap::RequestData(
       pair.real = real->GetPointer(0);
       pair.simulated = simulated->GetPointer(0);
       pair.labels = labels.empty() ? nullptr : labels.data();
-      const msi::FramelessPair inside(pair);
+      pair = withoutFrame(std::move(pair));
       msi::GapOptions options;
       options.without = this->Without;
       options.maximumCauses = this->MaximumCauses;
       options.seed = static_cast<std::uint64_t>(this->Seed);
       options.addRest = this->AddRest;
-      const msi::FieldGap found = msi::runDiagnosis(this, inside, options);
+      const msi::FieldGap found = msi::runDiagnosis(this, pair, options);
 
       auto* output = vtkImageData::GetData(outputs, GAP_MAP);
       output->CopyStructure(realImage);
       const auto gap = newArray("Gap", real);
       const auto after = newArray("GapAfter", real);
       const auto corrected = newArray("Corrected", real);
-      writeGap(
-        inside.pair(), found, gap->GetPointer(0), after->GetPointer(0), corrected->GetPointer(0));
+      writeGap(pair, found, gap->GetPointer(0), after->GetPointer(0), corrected->GetPointer(0));
       for (vtkFloatArray* array : { corrected.Get(), after.Get(), gap.Get() })
       {
         msi::setAxis(output, array, axis);

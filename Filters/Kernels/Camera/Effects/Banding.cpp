@@ -117,16 +117,6 @@ struct StripesOfImage
     signal = signal * factor + added;
     return factor;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Lines,
-      { { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Rows },
-        { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns },
-        { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns } },
-      stripe };
-    return made;
-  }
 };
 
 // Sine and cosine of a period, in every channel.
@@ -193,7 +183,12 @@ Effect banding()
       { "row_offsets", { profile(StripesOfImage::Added) } },
       { "column_offsets", { profile(StripesOfImage::OfColumns + StripesOfImage::Added) } } } };
   effect.onImage.makePixels = makePixelOperator<Banding>;
-  effect.onImage.step = &StripesOfImage::step();
+  static const ImageStep step{ ImageStage::Lines,
+    { { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Rows },
+      { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns },
+      { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns } },
+    StripesOfImage::stripe };
+  effect.onImage.step = &step;
   return effect;
 }
 

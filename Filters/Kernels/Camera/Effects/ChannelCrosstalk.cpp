@@ -82,12 +82,6 @@ struct CrosstalkOfImage
     signal += numbers[0] * before + numbers[1] * behind + numbers[2] * all;
     return 1.0; // what changes the light here changes that of the neighbours much alike
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Exposure, { {}, {}, {} }, exchange };
-    return made;
-  }
 };
 }
 
@@ -124,7 +118,8 @@ Effect channelCrosstalk()
     { { "one_sided", { imageTerm(0, previous), imageTerm(1, next) } },
       { "shared", { imageTerm(2, all) } } } };
   effect.makeBlock = makeBlockOperator<ChannelCrosstalk>;
-  effect.onImage.step = &CrosstalkOfImage::step();
+  static const ImageStep step{ ImageStage::Exposure, { {}, {}, {} }, CrosstalkOfImage::exchange };
+  effect.onImage.step = &step;
   return effect;
 }
 

@@ -56,14 +56,6 @@ struct DarkOfImage
     signal += numbers[0] + numbers[1] * pixel.x + numbers[2] * pixel.y;
     return 1.0;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Detector,
-      { { 0.0, ImageAxis::Channel }, { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position } },
-      add };
-    return made;
-  }
 };
 }
 
@@ -90,7 +82,10 @@ Effect darkOffset()
       { "per_channel", { imageTerm(0, offset(true)) } },
       { "plane", { imageTerm(0, everywhere), imageTerm(1, alongX), imageTerm(2, alongY) } } } };
   effect.makeBlock = makeBlockOperator<DarkOffset>;
-  effect.onImage.step = &DarkOfImage::step();
+  static const ImageStep step{ ImageStage::Detector,
+    { { 0.0, ImageAxis::Channel }, { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position } },
+    DarkOfImage::add };
+  effect.onImage.step = &step;
   effect.afterDark = true;
   return effect;
 }

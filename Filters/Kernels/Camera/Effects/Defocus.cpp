@@ -39,13 +39,6 @@ struct DefocusOfImage
   }
 
   static double varianceOf(const double* numbers) { return std::fmax(numbers[0], 0.0); }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Scene, { { 0.0, ImageAxis::Edges } }, blurred, {},
-      nullptr, nullptr, varianceOf };
-    return made;
-  }
 };
 
 SymmetricKernel makeBlur(const BoundEffect& effect)
@@ -65,7 +58,9 @@ Effect defocus()
     { "grid target for each filter" }, EffectTrait::ActsOnEdges,
     { { "common", { blurVariance(false) } }, { "per_channel", { blurVariance(true) } } } };
   effect.onImage.makeBlur = makeBlur;
-  effect.onImage.step = &DefocusOfImage::step();
+  static const ImageStep step{ ImageStage::Scene, { { 0.0, ImageAxis::Edges } },
+    DefocusOfImage::blurred, {}, nullptr, nullptr, DefocusOfImage::varianceOf };
+  effect.onImage.step = &step;
   return effect;
 }
 

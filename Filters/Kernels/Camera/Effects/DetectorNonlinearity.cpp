@@ -149,13 +149,6 @@ struct CurveOfImage
     signal = bent * (linear + bent * (square + cube * bent));
     return outer * slope;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Detector,
-      { { 0.0, ImageAxis::Level }, {}, {}, { 1.0 }, {} }, bend };
-    return made;
-  }
 };
 }
 
@@ -194,7 +187,9 @@ Effect detectorNonlinearity()
       { "cubic", { imageTerm(CurveOfImage::Square, square), imageTerm(CurveOfImage::Cube, cube) } },
       { "per_channel", { imageTerm(CurveOfImage::Anchored, square.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<DetectorNonlinearity>;
-  effect.onImage.step = &CurveOfImage::step();
+  static const ImageStep step{ ImageStage::Detector,
+    { { 0.0, ImageAxis::Level }, {}, {}, { 1.0 }, {} }, CurveOfImage::bend };
+  effect.onImage.step = &step;
   return effect;
 }
 

@@ -43,14 +43,6 @@ struct DistortionOfImage
     displacement.aspect = numbers[Aspect];
     displacement.shear = numbers[Shear];
   }
-
-  static const ImageStep& step()
-  {
-    const ImageNumber edges{ 0.0, ImageAxis::Edges };
-    static const ImageStep made{ ImageStage::Scene, { edges, edges, edges, edges, edges }, moved,
-      {}, nullptr, displace };
-    return made;
-  }
 };
 
 EffectParameter growth(const std::string& name, double typical, const std::string& text)
@@ -87,7 +79,10 @@ Effect distortion()
       parameters } },
     { "grid target" }, EffectTrait::ActsOnEdges,
     { { "common", { term(Image::Radial) } }, { "common", view }, { "common", all } } };
-  effect.onImage.step = &DistortionOfImage::step();
+  const ImageNumber edges{ 0.0, ImageAxis::Edges };
+  static const ImageStep step{ ImageStage::Scene, { edges, edges, edges, edges, edges },
+    DistortionOfImage::moved, {}, nullptr, DistortionOfImage::displace };
+  effect.onImage.step = &step;
   return effect;
 }
 

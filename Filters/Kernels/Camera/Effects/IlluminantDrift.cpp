@@ -100,12 +100,6 @@ struct LampOfImage
     }
     return factor;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Detector, { {}, {}, {}, {} }, shine };
-    return made;
-  }
 };
 
 class IlluminantDrift : public ResponsivityOperator
@@ -217,7 +211,8 @@ Effect illuminantDrift()
     effect.definition.imageForms.push_back(form);
   }
   effect.makeResponsivity = makeResponsivityOperator<IlluminantDrift>;
-  effect.onImage.step = &LampOfImage::step();
+  static const ImageStep step{ ImageStage::Detector, { {}, {}, {}, {} }, LampOfImage::shine };
+  effect.onImage.step = &step;
   return effect;
 }
 

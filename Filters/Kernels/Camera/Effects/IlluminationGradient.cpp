@@ -94,15 +94,6 @@ struct GradientOfImage
     derivatives[SquareY] = sine * sine;
     derivatives[Product] = 2.0 * cosine * sine;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Lens,
-      { { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position }, {},
-        { 0.0, ImageAxis::None, ImagePull::Kept } },
-      shade, { ImageAxis::Position, ImageAxis::Position, ImageAxis::Position }, turned };
-    return made;
-  }
 };
 }
 
@@ -148,7 +139,12 @@ Effect illuminationGradient()
         { imageTerm(GradientOfImage::AlongX, alongX.ofLight()),
           imageTerm(GradientOfImage::AlongY, alongY.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<IlluminationGradient>;
-  effect.onImage.step = &GradientOfImage::step();
+  static const ImageStep step{ ImageStage::Lens,
+    { { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position }, {},
+      { 0.0, ImageAxis::None, ImagePull::Kept } },
+    GradientOfImage::shade, { ImageAxis::Position, ImageAxis::Position, ImageAxis::Position },
+    GradientOfImage::turned };
+  effect.onImage.step = &step;
   return effect;
 }
 

@@ -48,12 +48,6 @@ struct LagOfImage
     signal += numbers[0] * *pixel.previous + numbers[1] * more;
     return 1.0;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Exposure, { {}, {} }, keep };
-    return made;
-  }
 };
 }
 
@@ -70,7 +64,8 @@ Effect lag()
     { "channels captured in another order" }, EffectTrait::None,
     { { "common", { imageTerm(0, retained) } }, { "conserving", { imageTerm(1, retained) } } } };
   effect.onImage.makePixels = makePixelOperator<Lag>;
-  effect.onImage.step = &LagOfImage::step();
+  static const ImageStep step{ ImageStage::Exposure, { {}, {} }, LagOfImage::keep };
+  effect.onImage.step = &step;
   return effect;
 }
 

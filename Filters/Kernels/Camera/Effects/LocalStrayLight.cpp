@@ -99,12 +99,6 @@ struct TailOfImage
     step.numbers.resize(FirstPass, { 0.0, ImageAxis::Edges });
     return step;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made = stepOfTail();
-    return made;
-  }
 };
 
 // Weights of the single passes of the tail, of any shape; the form neighbours comes nearest to it where it is put back.
@@ -155,7 +149,8 @@ Effect localStrayLight()
   effect.makeSurround = makeSurroundOperator<StrayLight>;
   effect.surround = Surround::Near;
   effect.onImage.makeTail = makeTail;
-  effect.onImage.step = &TailOfImage::step();
+  static const ImageStep step = TailOfImage::stepOfTail();
+  effect.onImage.step = &step;
   return effect;
 }
 

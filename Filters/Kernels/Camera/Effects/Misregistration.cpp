@@ -48,14 +48,6 @@ struct MisregistrationOfImage
     numbers[Magnification] = displacement.magnification;
     numbers[Rotation] = displacement.rotation;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Scene,
-      { { 0.0, ImageAxis::Edges }, { 0.0, ImageAxis::Edges }, {}, {} }, moved, {}, nullptr,
-      displace, nullptr, nullptr, place };
-    return made;
-  }
 };
 }
 
@@ -91,7 +83,11 @@ Effect misregistration()
       { "common", "all channels alike", parameters(false) } },
     { "grid target for each filter" }, EffectTrait::ActsOnEdges,
     { form(false, 2), form(false, 4), form(true, 2), form(true, 3), form(true, 4) } };
-  effect.onImage.step = &MisregistrationOfImage::step();
+  static const ImageStep step{ ImageStage::Scene,
+    { { 0.0, ImageAxis::Edges }, { 0.0, ImageAxis::Edges }, {}, {} }, MisregistrationOfImage::moved,
+    {}, nullptr, MisregistrationOfImage::displace, nullptr, nullptr,
+    MisregistrationOfImage::place };
+  effect.onImage.step = &step;
   return effect;
 }
 

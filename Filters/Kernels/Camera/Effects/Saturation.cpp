@@ -114,13 +114,6 @@ struct ClippingOfImage
     signal -= numbers[Clip] * lost;
     return 1.0 - byLevel;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Detector,
-      { { 0.0, ImageAxis::Level }, { NeutralLevel, ImageAxis::None, ImagePull::Found } }, clip };
-    return made;
-  }
 };
 }
 
@@ -148,7 +141,11 @@ Effect saturation()
       { { ClippingOfImage::Clip, false, 0.0, 1.0, 0.3 },
         imageTerm(ClippingOfImage::ClipLevel, level.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<Saturation>;
-  effect.onImage.step = &ClippingOfImage::step();
+  static const ImageStep step{ ImageStage::Detector,
+    { { 0.0, ImageAxis::Level },
+      { ClippingOfImage::NeutralLevel, ImageAxis::None, ImagePull::Found } },
+    ClippingOfImage::clip };
+  effect.onImage.step = &step;
   effect.afterDark = true;
   return effect;
 }

@@ -81,12 +81,6 @@ struct RestOfImage
     signal = numbers[Constant] + u * (factor + numbers[Square] * u);
     return factor + 2.0 * numbers[Square] * u;
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Detector, std::vector<ImageNumber>(Down + 1), add };
-    return made;
-  }
 };
 }
 
@@ -120,7 +114,9 @@ Effect unmodelledResponse()
       parameters } },
     { "chart with other samples" }, EffectTrait::Remainder, { ofImage } };
   effect.makeBlock = makeBlockOperator<UnmodelledResponse>;
-  effect.onImage.step = &RestOfImage::step();
+  static const ImageStep step{ ImageStage::Detector, std::vector<ImageNumber>(Down + 1),
+    RestOfImage::add };
+  effect.onImage.step = &step;
   effect.afterDark = true;
   return effect;
 }

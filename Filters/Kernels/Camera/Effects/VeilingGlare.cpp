@@ -32,12 +32,6 @@ struct GlareOfImage
       (1.0 - numbers[Conserving]) * signal + (numbers[Added] + numbers[Conserving]) * pixel.mean;
     return 1.0 - numbers[Conserving];
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Light, { {}, {} }, cover };
-    return made;
-  }
 };
 }
 
@@ -56,7 +50,8 @@ Effect veilingGlare()
       { "conserving", { imageTerm(GlareOfImage::Conserving, glare(false)) } },
       { "per_channel", { imageTerm(GlareOfImage::Added, glare(true)) } } } };
   effect.makeSurround = makeSurroundOperator<StrayLight>;
-  effect.onImage.step = &GlareOfImage::step();
+  static const ImageStep step{ ImageStage::Light, { {}, {} }, GlareOfImage::cover };
+  effect.onImage.step = &step;
   return effect;
 }
 

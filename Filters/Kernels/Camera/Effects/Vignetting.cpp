@@ -108,15 +108,6 @@ struct VignettingOfImage
         -(right * (about[CenterX] + numbers[CenterX]) + down * (about[CenterY] + numbers[CenterY]));
     }
   }
-
-  static const ImageStep& step()
-  {
-    static const ImageStep made{ ImageStage::Lens,
-      { { 0.0 }, { 0.0, ImageAxis::Position }, { 0.0 }, { 0.0, ImageAxis::None, ImagePull::Itself },
-        { 0.0, ImageAxis::None, ImagePull::Itself } },
-      darken, { ImageAxis::None, ImageAxis::None, ImageAxis::None }, recentered };
-    return made;
-  }
 };
 }
 
@@ -162,7 +153,12 @@ Effect vignetting()
       { "polynomial", { steep, fourth, sixth, centerX, centerY } },
       { "per_channel", { imageTerm(VignettingOfImage::Falloff, falloff.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<Vignetting>;
-  effect.onImage.step = &VignettingOfImage::step();
+  static const ImageStep step{ ImageStage::Lens,
+    { { 0.0 }, { 0.0, ImageAxis::Position }, { 0.0 }, { 0.0, ImageAxis::None, ImagePull::Itself },
+      { 0.0, ImageAxis::None, ImagePull::Itself } },
+    VignettingOfImage::darken, { ImageAxis::None, ImageAxis::None, ImageAxis::None },
+    VignettingOfImage::recentered };
+  effect.onImage.step = &step;
   return effect;
 }
 

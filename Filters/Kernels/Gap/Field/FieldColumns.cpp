@@ -12,45 +12,39 @@
 namespace msi
 {
 
-namespace
+const FieldColumns& fieldColumns()
 {
-// The axes of each column.
-const std::vector<unsigned>& axesOfColumns()
-{
-  static const std::vector<unsigned> all = []
+  static const FieldColumns known = []
   {
-    std::vector<unsigned> axes;
+    FieldColumns columns;
     for (const PlacedStep& step : imageSteps())
     {
       for (const ImageNumber& number : step.step->numbers)
       {
-        axes.push_back(number.axes);
+        columns.axes.push_back(number.axes);
       }
-      axes.insert(axes.end(), step.step->further.begin(), step.step->further.end());
+      columns.axes.insert(columns.axes.end(), step.step->further.begin(), step.step->further.end());
+      columns.step.resize(columns.axes.size(), &step);
+      columns.blur =
+        step.step->blurVariance != nullptr ? static_cast<int>(step.column) : columns.blur;
     }
-    return axes;
+    const auto with = [&axes = columns.axes](unsigned wanted)
+    { return static_cast<int>(std::find(axes.begin(), axes.end(), wanted) - axes.begin()); };
+    columns.gain = with(ImageAxis::Channel | ImageAxis::Level);
+    columns.offset = with(ImageAxis::Channel);
+    columns.residual = static_cast<int>(columns.axes.size());
+    columns.count = columns.residual + 1;
+    return columns;
   }();
-  return all;
+  return known;
 }
 
-int columnWith(unsigned axes)
-{
-  const std::vector<unsigned>& all = axesOfColumns();
-  return static_cast<int>(std::find(all.begin(), all.end(), axes) - all.begin());
-}
-}
-
-int FieldColumn::residual()
-{
-  return static_cast<int>(axesOfColumns().size());
-}
-
-std::vector<int> FieldColumn::of(unsigned axis)
+std::vector<int> FieldColumns::of(unsigned axis) const
 {
   std::vector<int> columns;
-  for (int c = 0; c < residual(); ++c)
+  for (int c = 0; c < residual; ++c)
   {
-    if ((axesOfColumns()[static_cast<std::size_t>(c)] & axis) != 0)
+    if ((axes[static_cast<std::size_t>(c)] & axis) != 0)
     {
       columns.push_back(c);
     }
@@ -58,38 +52,12 @@ std::vector<int> FieldColumn::of(unsigned axis)
   return columns;
 }
 
-const PlacedStep& FieldColumn::stepOf(int column)
-{
-  const std::vector<PlacedStep>& steps = imageSteps();
-  return *(std::upper_bound(steps.begin(), steps.end(), static_cast<std::size_t>(column),
-             [](std::size_t place, const PlacedStep& step) { return place < step.column; }) -
-    1);
-}
-
-int FieldColumn::gain()
-{
-  return columnWith(ImageAxis::Channel | ImageAxis::Level);
-}
-
-int FieldColumn::offset()
-{
-  return columnWith(ImageAxis::Channel);
-}
-
-int FieldColumn::blur()
-{
-  const std::vector<PlacedStep>& steps = imageSteps();
-  const auto blurs = std::find_if(steps.begin(), steps.end(),
-    [](const PlacedStep& step) { return step.step->blurVariance != nullptr; });
-  return static_cast<int>(blurs->column);
-}
-
 Eigen::VectorXd columnsChanged(
   ImageParameter parameter, const FieldModel& model, const FieldModel& about, Eigen::Index channel)
 {
   const PlacedStep& step = stepOf(parameter);
   const auto n = static_cast<int>(parameter - step.number);
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::residual());
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(fieldColumns().residual);
   double* own = column.data() + step.column;
   if (step.step->change != nullptr)
   {
@@ -265,11 +233,11 @@ public:
     , Glare(glare[channel])
     , Place(channelPlace(channel, data.channels()))
     , Middle(middleOf(data.pair, block.window))
-    , Where(ShownPlace(model.displacement(channel), data.pair.extent), Middle)
-    , Near(data, block.window, channel, Where.moved, model.blurVariance(channel),
+    , Change(model.ofScene(channel))
+    , Where(ShownPlace(Change.displacement, data.pair.extent), Middle)
+    , Near(data, block.window, channel, Where.moved, Change.blurVariance,
         std::any_of(Steps.begin(), Steps.end(),
           [](const ChannelStep& step) { return step.placed->step->stage == ImageStage::Scene; }))
-    , TailWeights(model.tailWeights(channel))
   {
     const auto pixels = static_cast<int>(block.window.pixels());
     const FieldFactor factor(model);
@@ -301,7 +269,7 @@ public:
     pixel.blur = Near.blur(number);
     pixel.surround = Block.tail.data() +
       (static_cast<std::size_t>(number) * Data.pair.channels.size() + Channel) * TailPasses;
-    pixel.tailWeights = TailWeights.data();
+    pixel.tailWeights = Change.tailWeights.data();
     pixel.mean = Glare;
     pixel.channel = Place;
     return pixel;
@@ -335,9 +303,9 @@ private:
   ChannelSteps Steps;
   double Glare, Place; // of the channel
   Eigen::Vector2d Middle;
+  SceneChange Change;
   Displacement Where;
   Neighbourhood Near;
-  std::array<double, TailPasses> TailWeights;
   std::vector<double> Others; // light from elsewhere, of each pixel
   std::vector<double> Signal;
 };
@@ -393,7 +361,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
         found.there.push_back(static_cast<Eigen::Index>(step.placed->column + c));
       }
     }
-    found.there.push_back(FieldColumn::residual());
+    found.there.push_back(fieldColumns().residual);
     found.columns.resize(count, static_cast<Eigen::Index>(found.there.size()));
     found.level.resize(count);
     by = StepDerivatives();
@@ -450,7 +418,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
 std::vector<FieldResidual> fieldResiduals(
   const FieldData& data, const FieldModel& model, const FieldLoop& loop, bool testToo)
 {
-  const AskedSteps asked{ &FieldColumn::stepOf(FieldColumn::gain()) };
+  const AskedSteps asked{ fieldColumns().step[fieldColumns().gain] };
   const Eigen::Index K = data.channels();
   const Eigen::ArrayXd glare = data.cells.mean(model);
   std::vector<FieldResidual> residuals(data.blocks.size() * static_cast<std::size_t>(K));
@@ -465,7 +433,7 @@ std::vector<FieldResidual> fieldResiduals(
       forColumns(data, model, glare, block, asked,
         [&](Eigen::Index k, const ChannelColumns& found)
         {
-          const auto gain = std::find(found.there.begin(), found.there.end(), FieldColumn::gain()) -
+          const auto gain = std::find(found.there.begin(), found.there.end(), fieldColumns().gain) -
             found.there.begin();
           residuals[static_cast<std::size_t>(b * K + k)] = { found.pixel, found.level,
             found.columns.col(gain), found.residual() };

@@ -14,22 +14,17 @@ namespace msi
 
 // The columns of the linear model of a block's residual, one channel: derivatives of the prediction, as the steps give them
 // (PlacedStep::column), and last the residual.
-namespace FieldColumn
+struct FieldColumns
 {
-int residual(); // real - predicted, the last one; how many stand before it
-inline int count()
-{
-  return residual() + 1;
-}
-// Those of an axis (ImageAxis).
-std::vector<int> of(unsigned axis);
-const PlacedStep& stepOf(int column);
-// By a gain, relative to it: the response itself. By an offset.
-int gain();
-int offset();
-// By a variance of blur.
-int blur();
-}
+  std::vector<unsigned> axes;          // ImageAxis, of each but the residual
+  std::vector<const PlacedStep*> step; // of each but the residual
+  int gain, offset;    // by a gain, relative to it: the response itself; by an offset
+  int blur = 0;        // by a variance of blur
+  int residual, count; // real - predicted, the last one; with it
+
+  std::vector<int> of(unsigned axis) const;
+};
+const FieldColumns& fieldColumns();
 
 // What one parameter changes in the columns of a channel, which are those at `model`, where the model is `about`.
 Eigen::VectorXd columnsChanged(

@@ -24,9 +24,10 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   Eigen::ArrayXd variance(K);
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    displacements.push_back(model.displacement(k));
-    variance[k] = model.blurVariance(k);
-    Tail.push_back(model.tailWeights(k));
+    const SceneChange change = model.ofScene(k);
+    displacements.push_back(change.displacement);
+    variance[k] = change.blurVariance;
+    Tail.push_back(change.tailWeights);
     for (int pass = Passes; pass < TailPasses; ++pass)
     {
       Passes = Tail.back()[static_cast<std::size_t>(pass)] != 0.0 ? pass + 1 : Passes;

@@ -348,17 +348,15 @@ void addTails(FieldData& data, const Region& region)
 }
 }
 
-FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, const FieldLoop& loop)
+FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop)
 {
-  const FieldPair& pair = inside.pair();
   if (pair.extent.width < 1 || pair.extent.height < 1 || pair.channels.empty())
   {
     reject("the images have ", pair.extent.width, " x ", pair.extent.height, " pixels and ",
       pair.channels.size(), " channels; expected at least one of each");
   }
   FieldData data;
-  data.pair = pair;
-  data.framePart = inside.part();
+  data.pair = withoutFrame(pair);
   const std::vector<PairSums> sums = channelSums(data.pair);
   requireRelativeToWhite(sums);
   data.filled = filledScene(data.pair);

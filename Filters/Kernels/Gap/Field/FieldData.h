@@ -1,7 +1,6 @@
 // An image pair made ready for fitting: blocks of usable pixels, the tail of their surround, folds.
 #pragma once
 
-#include "Kernels/Gap/Field/FieldFrame.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/Field/FieldPair.h"
 
@@ -60,8 +59,7 @@ struct FieldBlock
 
 struct FieldData
 {
-  FieldPair pair;
-  double framePart = 0.0;    // FramelessPair::part()
+  FieldPair pair;            // withoutFrame()
   std::vector<float> filled; // filledScene()
   Eigen::ArrayXd unit;       // of the real image's channels, K; FieldBlock::real is divided by it
   std::vector<FieldBlock> blocks;
@@ -83,7 +81,7 @@ struct FieldData
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.
 // Errors: std::invalid_argument for an empty image, no channel, or too few usable pixels.
 // Holds pointers to the images of the pair.
-FieldData prepareFieldData(const FramelessPair& inside, std::uint64_t seed, const FieldLoop& loop);
+FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop);
 
 // Draws at most `most` blocks and deals them to folds and test, whole groups at a time: what errs in one block (a material whose
 // color is simulated wrongly) errs in its neighbours, too, and may not vouch for itself.

@@ -67,7 +67,7 @@ struct TailForm
 
 TailForm tailForm(const FieldModel& model)
 {
-  const std::array<double, TailPasses> weights = model.tailWeights(0);
+  const std::array<double, TailPasses> weights = model.ofScene(0).tailWeights;
   const Eigen::Map<const Eigen::ArrayXd> weight(weights.data(), TailPasses);
   TailForm best{ 0.0, 0.0 };
   double least = std::numeric_limits<double>::infinity();

@@ -25,13 +25,13 @@ struct FieldFitter::Design
   void add(
     const Eigen::MatrixXd& normal, const Eigen::VectorXd& change, NormalEquationsSum& sum) const
   {
-    const Eigen::Index last = FieldColumn::residual();
+    const Eigen::Index last = fieldColumns().residual;
     const auto products = normal.topLeftCorner(last, last);
     sum.add(numbers, columns.transpose() * products * columns, gradient(normal, change));
   }
   Eigen::VectorXd gradient(const Eigen::MatrixXd& normal, const Eigen::VectorXd& change) const
   {
-    const Eigen::Index last = FieldColumn::residual();
+    const Eigen::Index last = fieldColumns().residual;
     return columns.transpose() *
       (normal.col(last).head(last) - normal.topLeftCorner(last, last) * change);
   }
@@ -41,19 +41,13 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
   : Data(data)
   , Statistics(statistics)
 {
-  const auto K = static_cast<std::size_t>(data.channels());
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count());
-  Fold.assign(FieldFolds, std::vector<Eigen::MatrixXd>(K, zero));
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  for (int fold = 0; fold < FieldFolds; ++fold)
   {
-    const int fold = data.blocks[b].fold;
-    for (std::size_t k = 0; fold >= 0 && k < K; ++k)
+    Fold.push_back(
+      statistics.normals([&](std::size_t block) { return data.blocks[block].fold == fold; }));
+    for (const Eigen::MatrixXd& normal : Fold.back())
     {
-      const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
-      const Eigen::MatrixXd normal = sums.normal();
-      Fold[static_cast<std::size_t>(fold)][k] += normal;
-      Energy += normal(FieldColumn::residual(), FieldColumn::residual());
-      Chance += sums.chance;
+      Energy += normal(fieldColumns().residual, fieldColumns().residual);
     }
   }
 }
@@ -75,7 +69,7 @@ std::vector<FieldFitter::Design> FieldFitter::designs(
           columnsChanged(numbers[n].term->parameter, Statistics.model, about, channel));
       }
     }
-    designs[k].columns.resize(FieldColumn::residual(), static_cast<Eigen::Index>(columns.size()));
+    designs[k].columns.resize(fieldColumns().residual, static_cast<Eigen::Index>(columns.size()));
     for (std::size_t c = 0; c < columns.size(); ++c)
     {
       designs[k].columns.col(static_cast<Eigen::Index>(c)) = columns[c];
@@ -122,7 +116,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
   std::vector<Eigen::VectorXd> known;
   for (Eigen::Index k = 0; k < Data.channels(); ++k)
   {
-    known.emplace_back(Eigen::VectorXd::Zero(FieldColumn::residual()));
+    known.emplace_back(Eigen::VectorXd::Zero(fieldColumns().residual));
     for (ImageParameter parameter = 0; parameter < fieldParameterCount(); ++parameter)
     {
       const double change = fit.next.at(parameter, k) - model.at(parameter, k);

@@ -45,9 +45,8 @@ public:
   // Effects that the model does not have yet start from the best of their starts (ImageTerm::starts).
   FieldFit fitFromBestStart(const FieldSet& set) const;
 
-  // Weighted energy of the training blocks at the model itself, and what noise allows of it.
+  // Weighted energy of the training blocks at the model itself.
   double energy() const noexcept { return Energy; }
-  double chance() const noexcept { return Chance; }
   // Sums of BlockSums::normal() over the training blocks: of each fold those of the channels.
   const std::vector<std::vector<Eigen::MatrixXd>>& folds() const noexcept { return Fold; }
 
@@ -64,7 +63,6 @@ private:
   const FieldStatistics& Statistics;
   std::vector<std::vector<Eigen::MatrixXd>> Fold; // fold, K
   double Energy = 0.0;
-  double Chance = 0.0;
 };
 
 // A set of effects fitted in full.

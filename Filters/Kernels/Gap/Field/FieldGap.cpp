@@ -54,8 +54,8 @@ void search(FieldFinding& finding, const FieldData& data, const std::vector<Fiel
   const auto statisticsAt = [&](const FieldModel& model)
   {
     return fieldStatistics(data, model, nullptr, loop,
-      AskedSteps{ &FieldColumn::stepOf(FieldColumn::gain()),
-        &FieldColumn::stepOf(FieldColumn::offset()), &FieldColumn::stepOf(FieldColumn::blur()) });
+      AskedSteps{ fieldColumns().step[fieldColumns().gain],
+        fieldColumns().step[fieldColumns().offset], fieldColumns().step[fieldColumns().blur] });
   };
   finding.weights = fieldWeights(statisticsAt(FieldModel(data.channels())));
   const auto observe = [&]
@@ -98,7 +98,7 @@ CameraEffect regularPartOf(const FieldData& data, const FieldStatistics& left)
   const auto count = static_cast<Eigen::Index>(remainderStep().step->width());
   std::vector<Eigen::Index> columns(static_cast<std::size_t>(count));
   std::iota(columns.begin(), columns.end(), static_cast<Eigen::Index>(remainderStep().column));
-  columns.push_back(FieldColumn::residual());
+  columns.push_back(fieldColumns().residual);
   std::vector<std::vector<Eigen::MatrixXd>> products = FieldFitter(data, left).folds();
   for (std::vector<Eigen::MatrixXd>& fold : products)
   {
@@ -176,8 +176,8 @@ std::vector<std::string> indistinctEffects(
     double information = 1e-30;
     for (Eigen::Index k = 0; k < data.channels(); ++k)
     {
-      Eigen::VectorXd column = Eigen::VectorXd::Zero(FieldColumn::count());
-      column.head(FieldColumn::residual()) =
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(fieldColumns().count);
+      column.head(fieldColumns().residual) =
         columnsChanged(first.parameter, statistics.model, statistics.model, k);
       for (std::size_t b = 0; b < data.blocks.size(); ++b)
       {
@@ -236,9 +236,9 @@ std::vector<std::string> notesOn(
   {
     notes.push_back(oddPixelsNote(data, " left out"));
   }
-  if (data.framePart > 0.0)
+  if (data.pair.framePart > 0.0)
   {
-    notes.push_back(textOf(2, "a frame of ", 100.0 * data.framePart,
+    notes.push_back(textOf(2, "a frame of ", 100.0 * data.pair.framePart,
       " % of the pixels is 0 in all channels of one image, as registration leaves it, and takes no "
       "part"));
   }
@@ -399,7 +399,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
 }
 }
 
-std::optional<FieldGap> diagnoseField(const FramelessPair& pair, const GapOptions& options)
+std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options)
 {
   const std::vector<FieldChoice> choices = fieldChoices(options.without);
   const FieldLoop loop = [&options](int count, const std::function<void(int)>& body)

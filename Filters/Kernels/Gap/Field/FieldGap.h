@@ -1,7 +1,6 @@
 // Diagnosis of the gap between a real and a simulated image of the same scene, from the images themselves.
 #pragma once
 
-#include "Kernels/Gap/Field/FieldFrame.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/GapReport.h"
 #include "Kernels/Gap/SimToRealGap.h"
@@ -37,6 +36,6 @@ struct FieldGap
 // Cost: about 3 s on one core for 8 channels, up to 20 s where many effects compete, whatever the number of pixels, and one
 //   reading of the images beside; linear in the channels. Memory: a copy of the simulated image where it has gaps, else of at most
 //   2 million pixels.
-std::optional<FieldGap> diagnoseField(const FramelessPair& pair, const GapOptions& options = {});
+std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options = {});
 
 } // namespace msi

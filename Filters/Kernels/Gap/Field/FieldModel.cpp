@@ -173,41 +173,24 @@ void addElsewhere(const FieldPair& pair, const float* scene, const FieldFactor& 
   }
 }
 
-ImageDisplacement FieldModel::displacement(Eigen::Index channel) const
+SceneChange FieldModel::ofScene(Eigen::Index channel) const
 {
-  ImageDisplacement displacement{};
-  for (const PlacedStep& step : imageSteps())
+  SceneChange change;
+  for (const PlacedStep& placed : imageSteps())
   {
-    if (step.step->displace != nullptr)
+    const ImageStep& step = *placed.step;
+    const double* own = numbers(placed, channel);
+    if (step.displace != nullptr)
     {
-      step.step->displace(numbers(step, channel), displacement);
+      step.displace(own, change.displacement);
     }
-  }
-  return displacement;
-}
-
-double FieldModel::blurVariance(Eigen::Index channel) const
-{
-  double variance = 0.0;
-  for (const PlacedStep& step : imageSteps())
-  {
-    variance +=
-      step.step->blurVariance != nullptr ? step.step->blurVariance(numbers(step, channel)) : 0.0;
-  }
-  return variance;
-}
-
-std::array<double, TailPasses> FieldModel::tailWeights(Eigen::Index channel) const
-{
-  std::array<double, TailPasses> weights{};
-  for (const PlacedStep& step : imageSteps())
-  {
-    if (step.step->tail != nullptr)
+    if (step.tail != nullptr)
     {
-      step.step->tail(numbers(step, channel), weights.data());
+      step.tail(own, change.tailWeights.data());
     }
+    change.blurVariance += step.blurVariance != nullptr ? step.blurVariance(own) : 0.0;
   }
-  return weights;
+  return change;
 }
 
 FieldLines::FieldLines(

@@ -64,6 +64,14 @@ const PlacedStep& remainderStep(); // of EffectTrait::Remainder
 double run(const ChannelSteps& steps, ImagePixel& pixel, const double* others, double signal,
   StepDerivatives* derivatives = nullptr);
 
+// What comes before the steps run, in a channel.
+struct SceneChange
+{
+  ImageDisplacement displacement{};
+  double blurVariance = 0.0;
+  std::array<double, TailPasses> tailWeights{};
+};
+
 // One number of each parameter for every channel; parameters common to the channels repeat.
 struct FieldModel
 {
@@ -99,9 +107,7 @@ struct FieldModel
   ChannelSteps steps(
     ImageStage first, ImageStage last, Eigen::Index channel, const AskedSteps& asked = {}) const;
 
-  ImageDisplacement displacement(Eigen::Index channel) const;
-  double blurVariance(Eigen::Index channel) const;
-  std::array<double, TailPasses> tailWeights(Eigen::Index channel) const;
+  SceneChange ofScene(Eigen::Index channel) const;
 
   FieldStripes rows, columns;
   FieldStripes& stripes(bool ofRows) noexcept { return ofRows ? rows : columns; }

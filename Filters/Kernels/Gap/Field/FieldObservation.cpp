@@ -75,7 +75,7 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
     fieldStatistics(data, FieldModel(data.channels()), &weights, loop));
   const FieldFitter fitter(data, *hypothesis.statistics);
   hypothesis.fit = fitter.fit({});
-  NoiseEnergy = fitter.chance();
+  NoiseEnergy = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::chance), true));
   for (const std::vector<Eigen::MatrixXd>& fold : fitter.folds())
   {
     InexactEnergy[0] += energiesBesideGain(fold, false).sum();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct FieldPair
   const float* real = nullptr;
   const float* simulated = nullptr;
   const int* labels = nullptr;
+  double framePart = 0.0; // of the pixels, in both images: withoutFrame()
+  std::vector<std::shared_ptr<const Eigen::MatrixXf>> own = {}; // its images without a frame
 
   std::size_t pixels() const noexcept { return wholeImage(extent).pixels(); }
   std::size_t index(int x, int y) const noexcept
@@ -42,6 +45,10 @@ private:
     return 0.5 * std::max(1, std::max(extent.width, extent.height) - 1);
   }
 };
+
+// The pair with NaN where one image has a frame, as registration leaves it: pixels that are 0 in all channels, from the border on, where
+// the other image is not as dark. Keeps copies of images with a frame.
+FieldPair withoutFrame(FieldPair pair);
 
 // Every pixel, or every few of an image of more than 2^20, with the cell in which it lies of a raster of width x height:
 // visit(x, y, cell), row after row.

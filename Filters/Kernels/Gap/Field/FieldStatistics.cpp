@@ -93,7 +93,7 @@ void addDifferences(const ChannelColumns& found, const ImageWindow& window, Bloc
 
 Eigen::MatrixXd BlockSums::normal() const
 {
-  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count());
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(fieldColumns().count, fieldColumns().count);
   whole(there, there) = products;
   return whole;
 }
@@ -205,8 +205,8 @@ double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
     Blur,
     Residual
   };
-  const std::array<int, 4> there{ FieldColumn::gain(), FieldColumn::offset(), FieldColumn::blur(),
-    FieldColumn::residual() };
+  const std::array<int, 4> there{ fieldColumns().gain, fieldColumns().offset, fieldColumns().blur,
+    fieldColumns().residual };
   const auto blocks = static_cast<Eigen::Index>(statistics.blocks());
   std::vector<Eigen::Matrix4d> normals;
   Eigen::Matrix4d all = Eigen::Matrix4d::Zero();
@@ -264,8 +264,8 @@ Eigen::ArrayXd energiesBesideGain(const std::vector<Eigen::MatrixXd>& normals, b
       [row, column](const Eigen::MatrixXd& normal) { return normal(row, column); });
     return sums;
   };
-  const int gain = FieldColumn::gain();
-  const int residual = FieldColumn::residual();
+  const int gain = fieldColumns().gain;
+  const int residual = fieldColumns().residual;
   return energiesBesideGain(of(gain, gain), of(gain, residual), of(residual, residual), ofChannels);
 }
 
@@ -274,22 +274,21 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
   FieldWeights weights;
   weights.noise = fieldNoise(statistics);
   weights.sceneNoise = sceneNoise(statistics);
-  std::vector<Eigen::MatrixXd> normals;
+  const std::vector<Eigen::MatrixXd> normals = statistics.normals([](std::size_t) { return true; });
   Eigen::ArrayXd noise = Eigen::ArrayXd::Zero(statistics.channels);
   Eigen::ArrayXd pixels = noise;
   Eigen::ArrayXd energy = noise;
   for (Eigen::Index k = 0; k < statistics.channels; ++k)
   {
-    normals.emplace_back(Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count()));
     for (std::size_t b = 0; b < statistics.blocks(); ++b)
     {
       const BlockSums& sums = statistics.at(b, k);
-      normals.back() += sums.normal();
       noise[k] +=
         sums.pixels * noiseVariance(weights.noise[static_cast<std::size_t>(k)], sums.level);
       pixels[k] += sums.pixels;
     }
-    energy[k] = normals.back()(FieldColumn::residual(), FieldColumn::residual());
+    energy[k] =
+      normals[static_cast<std::size_t>(k)](fieldColumns().residual, fieldColumns().residual);
   }
   pixels = pixels.max(1.0);
   weights.limit = Decision::OutlierDeviations * (energy / pixels).sqrt();
@@ -342,7 +341,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       }
       else
       {
-        const auto blur = std::find(found.there.begin(), found.there.end(), FieldColumn::blur());
+        const auto blur = std::find(found.there.begin(), found.there.end(), fieldColumns().blur);
         const Eigen::VectorXd ofNoise = found.ofNoise(blur - found.there.begin());
         sums.blurOfNoise = ofNoise[blur - found.there.begin()];
         sums.residualOfNoise = ofNoise[last];

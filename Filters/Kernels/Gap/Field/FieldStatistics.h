@@ -15,7 +15,7 @@ namespace msi
 // The numbers of one block in one channel.
 struct BlockSums
 {
-  // Weighted columns' products, FieldColumn::count()^2; the last is the residual.
+  // Weighted columns' products, fieldColumns().count^2; the last is the residual.
   Eigen::MatrixXd normal() const;
   // Those of ChannelColumns::there: all blocks in full are more than memory is fast for.
   std::vector<Eigen::Index> there;
@@ -57,6 +57,21 @@ struct FieldStatistics
   const BlockSums& at(std::size_t block, Eigen::Index channel) const
   {
     return sums[block * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)];
+  }
+  // Sums of BlockSums::normal() over the blocks for which keep(block) is true, of each channel.
+  template <typename Keep>
+  std::vector<Eigen::MatrixXd> normals(const Keep& keep) const
+  {
+    std::vector<Eigen::MatrixXd> kept(static_cast<std::size_t>(channels),
+      Eigen::MatrixXd::Zero(fieldColumns().count, fieldColumns().count));
+    for (std::size_t b = 0; b < blocks(); ++b)
+    {
+      for (Eigen::Index k = 0; keep(b) && k < channels; ++k)
+      {
+        kept[static_cast<std::size_t>(k)] += at(b, k).normal();
+      }
+    }
+    return kept;
   }
   // Of each block a number of all its channels together.
   Eigen::VectorXd ofBlocks(double BlockSums::*number) const;

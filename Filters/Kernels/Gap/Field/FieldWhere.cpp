@@ -14,15 +14,15 @@ namespace
 {
 AxisBasis basis(const char* name, unsigned axis)
 {
-  return { name, {}, FieldColumn::of(axis), FieldColumn::of(axis) };
+  return { name, {}, fieldColumns().of(axis), fieldColumns().of(axis) };
 }
 
 // channel and level first, edges last. Where the surround is partly not simulated (gaps) it is no part of the edges.
 std::vector<AxisBasis> fieldAxisBases(const FieldModel& model, bool gaps)
 {
   std::vector<AxisBasis> axes = {
-    { "channel", {}, FieldColumn::of(ImageAxis::Channel) },
-    { "level", FieldColumn::of(ImageAxis::Level), {} },
+    { "channel", {}, fieldColumns().of(ImageAxis::Channel) },
+    { "level", fieldColumns().of(ImageAxis::Level), {} },
     basis("position", ImageAxis::Position),
   };
   for (const bool rows : { true, false })
@@ -34,7 +34,10 @@ std::vector<AxisBasis> fieldAxisBases(const FieldModel& model, bool gaps)
   }
   axes.push_back(basis("edges", ImageAxis::Edges));
   const auto ofSurround = [](int column)
-  { return FieldColumn::stepOf(column).step->stage == ImageStage::Surround; };
+  {
+    return fieldColumns().step[static_cast<std::size_t>(column)]->step->stage ==
+      ImageStage::Surround;
+  };
   if (gaps)
   {
     std::vector<int>& edges = axes.back().own;
@@ -44,79 +47,54 @@ std::vector<AxisBasis> fieldAxisBases(const FieldModel& model, bool gaps)
   return axes;
 }
 
-// The normal matrices of one part of the blocks, K.
-ChannelNormals sumOfNormals(const FieldData& data, const FieldStatistics& statistics, bool training)
-{
-  ChannelNormals sum(static_cast<std::size_t>(data.channels()),
-    Eigen::MatrixXd::Zero(FieldColumn::count(), FieldColumn::count()));
-  for (std::size_t b = 0; b < data.blocks.size(); ++b)
-  {
-    for (std::size_t k = 0; (data.blocks[b].fold >= 0) == training && k < sum.size(); ++k)
-    {
-      sum[k] += statistics.at(b, static_cast<Eigen::Index>(k)).normal();
-    }
-  }
-  return sum;
-}
-
 std::vector<AxisSplit> splitOf(const FieldData& data, const FieldStatistics& statistics)
 {
-  return { { sumOfNormals(data, statistics, true), sumOfNormals(data, statistics, false) } };
-}
-
-// Of each label, a row a channel: sum of what the columns leave, pixels, squared residual.
-using LabelSums = std::map<int, Eigen::ArrayX3d>;
-
-void add(LabelSums& all, int label, const Eigen::ArrayX3d& sums)
-{
-  all.try_emplace(label, Eigen::ArrayX3d::Zero(sums.rows(), 3)).first->second += sums;
-}
-
-LabelSums labelSums(const FieldData& data, const FieldBlock& block, const FieldModel& model,
-  const Eigen::ArrayXd& glare, const std::vector<Eigen::VectorXd>& change)
-{
-  LabelSums all;
-  const auto sum = [&](Eigen::Index k, const ChannelColumns& found)
+  const auto part = [&](bool training)
   {
-    const Eigen::VectorXd residual = found.residual();
-    Eigen::VectorXd weight = Eigen::VectorXd::Zero(FieldColumn::count());
-    weight.head(FieldColumn::residual()) = change[static_cast<std::size_t>(k)];
-    const Eigen::VectorXd left = residual - found.columns * weight(found.there);
-    for (Eigen::Index n = 0; n < left.size(); ++n)
-    {
-      const ImagePlace place = block.place(found.pixel[static_cast<std::size_t>(n)]);
-      const int label = data.pair.labels[data.pair.index(place.x, place.y)];
-      if (label != 0)
-      {
-        Eigen::ArrayX3d sums = Eigen::ArrayX3d::Zero(data.channels(), 3);
-        sums.row(k) << left[n], 1.0, residual[n] * residual[n];
-        add(all, label, sums);
-      }
-    }
+    return statistics.normals(
+      [&](std::size_t b) { return (data.blocks[b].fold >= 0) == training; });
   };
-  forColumns(data, model, glare, block, everyStep(), sum);
-  return all;
+  return { { part(true), part(false) } };
 }
 
 // What the means of labels in the training blocks predict of the test blocks, and where.
 GapAxis sampleAxis(const FieldData& data, const FieldModel& model,
   const std::vector<Eigen::VectorXd>& change, double beyond, const FieldLoop& loop)
 {
+  // Of each label, a row a channel: sum of what the columns leave, pixels, squared residual.
+  using LabelSums = std::map<int, Eigen::ArrayX3d>;
+  const Eigen::ArrayX3d none = Eigen::ArrayX3d::Zero(data.channels(), 3);
   const Eigen::ArrayXd glare = data.cells.mean(model);
   std::vector<LabelSums> ofBlock(data.blocks.size());
-  loop(static_cast<int>(ofBlock.size()),
-    [&](int b)
+  const auto measure = [&](int b)
+  {
+    const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
+    const auto sum = [&](Eigen::Index k, const ChannelColumns& found)
     {
-      const auto block = static_cast<std::size_t>(b);
-      ofBlock[block] = labelSums(data, data.blocks[block], model, glare, change);
-    });
+      const Eigen::VectorXd residual = found.residual();
+      Eigen::VectorXd weight = Eigen::VectorXd::Zero(fieldColumns().count);
+      weight.head(fieldColumns().residual) = change[static_cast<std::size_t>(k)];
+      const Eigen::VectorXd left = residual - found.columns * weight(found.there);
+      for (Eigen::Index n = 0; n < left.size(); ++n)
+      {
+        const ImagePlace place = block.place(found.pixel[static_cast<std::size_t>(n)]);
+        if (const int label = data.pair.labels[data.pair.index(place.x, place.y)]; label != 0)
+        {
+          ofBlock[static_cast<std::size_t>(b)].try_emplace(label, none).first->second.row(k) +=
+            Eigen::Array3d(left[n], 1.0, residual[n] * residual[n]).transpose();
+        }
+      }
+    };
+    forColumns(data, model, glare, block, everyStep(), sum);
+  };
+  loop(static_cast<int>(ofBlock.size()), measure);
   LabelSums training;
   LabelSums test;
   for (std::size_t b = 0; b < ofBlock.size(); ++b)
   {
     for (const auto& [label, sums] : ofBlock[b])
     {
-      add(data.blocks[b].fold >= 0 ? training : test, label, sums);
+      (data.blocks[b].fold >= 0 ? training : test).try_emplace(label, none).first->second += sums;
     }
   }
   double gained = 0.0;
@@ -145,9 +123,9 @@ double regionEnergy(const FieldData& data, const FieldStatistics& statistics,
     {
       const auto channel = static_cast<Eigen::Index>(k);
       const Eigen::MatrixXd normal = plain.at(b, channel).normal();
-      const double pixels = normal(FieldColumn::offset(), FieldColumn::offset());
-      const double sum = normal(FieldColumn::offset(), FieldColumn::residual()) -
-        normal.row(FieldColumn::offset()).head(FieldColumn::residual()).dot(change[k]);
+      const double pixels = normal(fieldColumns().offset, fieldColumns().offset);
+      const double sum = normal(fieldColumns().offset, fieldColumns().residual) -
+        normal.row(fieldColumns().offset).head(fieldColumns().residual).dot(change[k]);
       energy += pixels > 0.0 ? sum * sum / pixels - statistics.at(b, channel).noise / pixels : 0.0;
     }
   }
@@ -176,7 +154,7 @@ std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& sta
     plain = fieldStatistics(data, moved, nullptr, loop);
     axes.back().behind = splitOf(data, plain);
   }
-  const PredictedEnergies energies = predictedEnergies(axes, splits, FieldColumn::gain());
+  const PredictedEnergies energies = predictedEnergies(axes, splits, fieldColumns().gain);
   double noise = 0.0;
   std::vector<std::pair<double, double>> level;
   std::vector<std::pair<double, double>> gradient;

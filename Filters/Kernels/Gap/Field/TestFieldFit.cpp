@@ -55,7 +55,7 @@ TEST(FieldFit, ProductsOfNoiseInTheScene)
     model[imageParameter("defocus", "blur")].setConstant(variance);
     model[imageParameter("misregistration", "along_x")].setConstant(variance > 0.0 ? 0.3 : 0.0);
     const Eigen::ArrayXd glare = data.cells.mean(model);
-    const int blur = FieldColumn::blur();
+    const int blur = fieldColumns().blur;
     const int right = static_cast<int>(stepOf(imageParameter("misregistration", "along_x")).column);
     Eigen::Matrix3d seen = Eigen::Matrix3d::Zero(); // blur, right, residual
     Eigen::Matrix3d expected = seen;
@@ -65,7 +65,7 @@ TEST(FieldFit, ProductsOfNoiseInTheScene)
         [&](Eigen::Index, const ChannelColumns& found)
         {
           std::vector<Eigen::Index> columns;
-          for (const Eigen::Index column : { blur, right, FieldColumn::residual() })
+          for (const Eigen::Index column : { blur, right, fieldColumns().residual })
           {
             columns.push_back(
               std::find(found.there.begin(), found.there.end(), column) - found.there.begin());

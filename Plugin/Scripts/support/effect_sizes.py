@@ -4,6 +4,7 @@ picture it. An effect without words is told by its numbers alone."""
 import math
 
 _MIDDLE = 0.5  # of the range up to white
+_NO_END = 2.0  # times white: a level that no sample reaches
 
 
 def _plain(value, sign=""):
@@ -105,8 +106,8 @@ def _crosstalk(form, p):
         return f"{_percent(p['coupling'][0])} of the signal of each channel is what all channels have in common"
     if "coupling" in p:
         return f"{_percent(p['coupling'][0])} of the signal exchanged with each neighbouring channel"
-    return (f"{_percent(p['from_previous'][0])} of the signal from the channel before, {_percent(p['from_next'][0])} from the one "
-            "behind")
+    before, behind = (f"{_plain(100 * p[name][0])} %" for name in ("from_previous", "from_next"))
+    return f"{before} of the signal from the channel before, {behind} from the one behind"
 
 
 def _wider(value):
@@ -152,10 +153,28 @@ def _distortion(_form, p):
     return "; ".join(parts)
 
 
+def _saturation(_form, p):
+    ends = [level for level in p["level"] if level < _NO_END] or p["level"]
+    some = f", in {len(ends)} of {len(p['level'])} channels" if len(ends) < len(p["level"]) else ""
+    return _of(ends, "responses end at {} of white") + some
+
+
+def _stray_light(form, p):
+    shares = [value[0] for name, value in p.items() if name.startswith("share_")]
+    fraction = sum(shares) if form == "any_shape" else p["fraction"][0]
+    if fraction < 0:
+        return f"{_percent(fraction)} less of the light falls on the surround than is simulated"
+    return f"{_percent(fraction)} of the light falls on the surround"
+
+
 def _banding(form, p):
     across = "column to column" if form.startswith("column") else "row to row"
     white = " of white" if form.endswith("offsets") else ""
-    return f"up to {_percent(max(p['amplitude'], key=abs))}{white} from {across}, {p['period'][0]:.3g} pixels a cycle"
+    cycle = f"{p['period'][0]:.3g} pixels a cycle"
+    if "rms" not in p:
+        return f"up to {_percent(max(p['amplitude'], key=abs))}{white} from {across}, {cycle}"
+    periodic = p["periodic_part"][0] > 0.5
+    return f"{_percent(p['rms'][0])}{white} from {across} (standard deviation), {cycle if periodic else 'without a period'}"
 
 
 # By effect: from the form and its parameters, each a list with one number or one for each channel.
@@ -174,15 +193,14 @@ WORDS = {
     "illumination_gradient": _gradient,
     "vignetting": _falloff,
     "veiling_glare": lambda f, p: _of(p["fraction"], "{} of the scene's mean lies over the field"),
-    "local_stray_light": lambda f, p: (_of(p["fraction"], "{} of the light falls on the surround") if p["fraction"][0] >= 0 else
-                                       f"{_percent(p['fraction'][0])} less of the light falls on the surround than is simulated"),
+    "local_stray_light": _stray_light,
     "exposure_gain": lambda f, p: "all channels " + _brighter(p["gain"][0] - 1.0),
     "channel_gain": lambda f, p: _relative([v - 1.0 for v in p["gain"]], _brighter),
     "channel_crosstalk": _crosstalk,
     "session_drift": _drift,
     "detector_nonlinearity": _nonlinearity,
     "dark_offset": _dark,
-    "saturation": lambda f, p: _of(p["level"], "responses end at {} of white"),
+    "saturation": _saturation,
     "excess_noise": _noise,
     "distortion": _distortion,
     "misregistration": _displacement,

@@ -6,6 +6,10 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace msi
@@ -101,22 +105,36 @@ struct TailOfImage
   }
 };
 
-// Weights of the single passes of the tail, of any shape; the form neighbours comes nearest to it where it is put back.
-std::vector<ImageTerm> anyTail()
+// A number for each pass but the first.
+std::vector<EffectParameter> shares()
 {
-  std::vector<ImageTerm> terms;
-  terms.reserve(TailOfImage::FreePasses);
-  for (int i = 0; i < TailOfImage::FreePasses; ++i)
+  std::vector<EffectParameter> parameters;
+  for (int number = 1; number <= TailOfImage::FreePasses; ++number)
   {
-    terms.push_back(
-      { TailOfImage::FirstWeight + static_cast<std::size_t>(i), false, -0.05, 0.6, 0.01 });
+    const double pixels = std::sqrt((std::pow(4.0, number + 1) - 1.0) / 3.0);
+    std::ostringstream meaning;
+    meaning << "share of the light that is spread by " << std::setprecision(2) << pixels
+            << " pixels (standard deviation)";
+    parameters.push_back(
+      { "share_" + std::to_string(number), "1", 0.0, -0.05, 0.6, 0.01, meaning.str() });
   }
-  return terms;
+  return parameters;
 }
 
 ScatterTail makeTail(const BoundEffect& effect)
 {
-  return ScatterTail(effect.value("radius"));
+  if (effect.form().name != "any_shape")
+  {
+    return ScatterTail(effect.value("radius"));
+  }
+  // StrayLight takes it times the sum of the shares.
+  const Eigen::ArrayXd shares = sharesOf(effect);
+  std::vector<double> weights{ 0.0 };
+  for (const double share : shares)
+  {
+    weights.push_back(share / totalOf(shares));
+  }
+  return ScatterTail(weights);
 }
 }
 
@@ -128,6 +146,13 @@ Effect localStrayLight()
     "reach of the tail, images only", false, true };
   ImageTerm reach = imageTerm(TailOfImage::Radius, radius);
   reach.starts = { 2.0, 4.0, 8.0, 16.0, 32.0 };
+  const std::vector<EffectParameter> ofPasses = shares();
+  std::vector<ImageTerm> anyShape;
+  for (const EffectParameter& share : ofPasses)
+  {
+    anyShape.push_back(imageTerm(TailOfImage::FirstWeight + anyShape.size(), share));
+    anyShape.back().mayEnd = true;
+  }
   Effect effect;
   effect.definition = { "local_stray_light", "Local stray light",
     "Light scattered by a small angle: the broad tail of the point spread.",
@@ -142,10 +167,14 @@ Effect localStrayLight()
           { "reach", "pitches", 1.0, 0.2, 4.0, 0.5,
             "reach of the tail, tables only; a pitch is the distance to the next sample", false,
             true },
-          radius } } },
+          radius } },
+      { "any_shape",
+        "u + sum of share_i (T_i u - u), T_i a B3 spline, each twice as wide as the one before; "
+        "on a table the mean of the neighbours",
+        ofPasses, {}, FormTrait::OfImages } },
     Captures::BlackAndWhite, EffectTrait::ActsOnEdges,
     { { "neighbours", { imageTerm(TailOfImage::Fraction, tail), reach } },
-      { "neighbours", anyTail() } } };
+      { "any_shape", anyShape } } };
   effect.makeSurround = makeSurroundOperator<StrayLight>;
   effect.surround = Surround::Near;
   effect.onImage.makeTail = makeTail;

@@ -57,6 +57,11 @@ ScatterTail::ScatterTail(double radius)
   }
 }
 
+ScatterTail::ScatterTail(const std::vector<double>& weights)
+  : Weights(weights.begin(), weights.end())
+{
+}
+
 int ScatterTail::reach() const noexcept
 {
   return splineReach(static_cast<int>(Weights.size()));

@@ -30,6 +30,8 @@ class ScatterTail
 {
 public:
   explicit ScatterTail(double radius);
+  // Of any weights of the passes, the first with a stride of one.
+  explicit ScatterTail(const std::vector<double>& weights);
 
   // Pixels around a window that its result depends on.
   int reach() const noexcept;

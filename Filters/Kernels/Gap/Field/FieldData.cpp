@@ -115,7 +115,7 @@ constexpr double UsablePart = 0.25;
 
 constexpr double MostMean = 2.0;    // white
 constexpr double OtherUnit = 5.0;   // times
-constexpr double SameScale = 1.1;   // times
+constexpr double SameScale = 0.125; // relative
 constexpr double Correlated = 0.25; // squared
 
 // Of each channel.
@@ -187,10 +187,12 @@ Eigen::ArrayXd fieldUnits(const std::vector<PairSums>& sums)
     return Eigen::ArrayXd::Ones(channels);
   }
   double common = orderStatistic(ratio, channels / 2);
-  // Full scale of percent and of files of 8 to 16 bits, if it is that; not what is brighter or darker by an effect.
-  for (const double scale : { 100.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0 })
+  // Full scale of percent, of 8 to 16 bits, and of 10 and 12 bits in a file of 16 whose full scale is 1, if it is that; not what is
+  // brighter or darker by an effect.
+  for (const double scale :
+    { 100.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0, 1023.0 / 65535.0, 4095.0 / 65535.0 })
   {
-    common = std::fmax(common / scale, scale / common) < SameScale ? scale : common;
+    common = std::fabs(common / scale - 1.0) < SameScale ? scale : common;
   }
   return alike(ratio / common) ? Eigen::ArrayXd(Eigen::ArrayXd::Constant(channels, common)) : ratio;
 }

@@ -15,7 +15,6 @@ namespace msi
 
 namespace
 {
-constexpr int RadiusSteps = 48;
 
 std::string withChannel(const std::string& name, const std::string& channel)
 {
@@ -38,6 +37,11 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const Fie
   std::vector<GapParameter> parameters;
   parameters.push_back({ "period", sines.period, "pixels",
     profile ? 0.0 : model.stripes(isOfRows(choice)).periodError });
+  if (profile)
+  {
+    parameters.push_back({ "rms", sines.rms, isOffset(choice) ? "white" : "1", 0.0 });
+    parameters.push_back({ "periodic_part", sines.part, "1", 0.0 });
+  }
   for (Eigen::Index k = 0; k < K; ++k)
   {
     const std::string& channel = channels[static_cast<std::size_t>(k)];
@@ -58,40 +62,6 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const Fie
   return parameters;
 }
 
-// The fraction and radius of the effect's own form that come nearest to free weights of the passes.
-struct TailForm
-{
-  double fraction;
-  double radius;
-};
-
-TailForm tailForm(const FieldModel& model)
-{
-  const std::array<double, TailPasses> weights = model.ofScene(0).tailWeights;
-  const Eigen::Map<const Eigen::ArrayXd> weight(weights.data(), TailPasses);
-  TailForm best{ 0.0, 0.0 };
-  double least = std::numeric_limits<double>::infinity();
-  for (int step = 0; step <= RadiusSteps; ++step)
-  {
-    const double radius = std::exp2(6.0 * step / RadiusSteps); // 1 .. 64 pixels
-    const std::vector<double> passes = passWeights(radius, TailPasses);
-    const Eigen::Map<const Eigen::ArrayXd> form(passes.data(), TailPasses);
-    const double fraction = (form * weight).sum() / form.square().sum();
-    const double error = (weight - fraction * form).square().sum();
-    if (error < least)
-    {
-      least = error;
-      best = { fraction, radius };
-    }
-  }
-  return best;
-}
-
-// A tail of any shape, by the weights of its passes.
-bool isFree(const FieldChoice& choice)
-{
-  return choice.stage() == ImageStage::Surround && choice.terms.front().name.empty();
-}
 }
 
 std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)
@@ -186,7 +156,8 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
           { { term.parameter, term.perChannel, hasCommonForm, deviation, term.typical, 0.0,
               term.lower - kind.neutral, term.upper - kind.neutral,
               kind.pull == ImagePull::Neutral ? 0.0 : deviation, kind.pull == ImagePull::Itself,
-              choice->effect->stage == EffectStage::Image || term.followsLight, term.name.empty() },
+              choice->effect->stage == EffectStage::Image || term.followsLight,
+              term.mayEnd || term.name.empty() },
             &term, term.perChannel ? k : -1 });
       }
     }
@@ -201,17 +172,6 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
   if (isBanding(choice))
   {
     return bandingParameters(choice, model, channels, error, next);
-  }
-  if (isFree(choice))
-  {
-    const TailForm form = tailForm(model);
-    const auto passes = static_cast<Eigen::Index>(choice.terms.size());
-    const Eigen::VectorXd errors = error.segment(next, passes);
-    parameters.push_back({ "fraction", form.fraction, "1", errors.norm() });
-    parameters.push_back({ "radius", form.radius, "pixels",
-      form.radius * errors.norm() / std::fmax(std::fabs(form.fraction), 1e-12) });
-    next += passes;
-    return parameters;
   }
   for (const FieldNumber& number : numbersOf({ &choice }, model))
   {

@@ -47,6 +47,7 @@ struct BandingSines
   double period = 0.0;
   Eigen::ArrayXXd amplitude, start;
   double part = 1.0; // of the profile's energy
+  double rms = 0.0;  // of the profile, in the channel where it is largest
 };
 
 // The three sines of a common period that come nearest to a profile, lines x K. Amplitudes stop at those of the library.

@@ -1,5 +1,6 @@
 #include "Kernels/Gap/Field/FieldStarts.h"
 
+#include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Numerics/Angle.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
@@ -302,19 +303,27 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
       powerAt(even, static_cast<double>(i) / static_cast<double>(Oversampling * lines)).sum();
   }
   // Two cycles at least; harmonics beyond two pixels a cycle are those of another period.
-  Eigen::Index best = 2 * Oversampling;
-  double most = -1.0;
+  Eigen::ArrayXd together = Eigen::ArrayXd::Zero(energy.size());
   for (Eigen::Index i = 2 * Oversampling; i < energy.size(); ++i)
   {
-    double sum = 0.0;
     for (Eigen::Index n = 1; n <= BandingHarmonics && n * i < energy.size(); ++n)
     {
-      sum += energy[n * i];
+      together[i] += energy[n * i];
     }
-    if (sum > most)
+  }
+  Eigen::Index best = 0;
+  const double most = together.maxCoeff(&best);
+  // A period is one of twice and three times its length, too.
+  for (Eigen::Index n = BandingHarmonics; n > 1; --n)
+  {
+    const Eigen::Index first = n * best - n;
+    const Eigen::Index count = std::min(2 * n + 1, together.size() - first);
+    Eigen::Index at = 0;
+    if (count > 0 &&
+      together.segment(first, count).maxCoeff(&at) > (1.0 - Decision::SmallPart) * most)
     {
-      most = sum;
-      best = i;
+      best = first + at;
+      break;
     }
   }
   sines.period =
@@ -334,6 +343,7 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
     }
   }
   sines.part = 1.0 - left / std::fmax(profile.square().sum(), 1e-30);
+  sines.rms = std::sqrt(profile.square().colwise().mean().maxCoeff());
   return sines;
 }
 

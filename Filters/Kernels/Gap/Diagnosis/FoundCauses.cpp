@@ -150,14 +150,42 @@ std::vector<double> sharesUnderPrecedence(
   return share;
 }
 
+namespace
+{
+// Whether a number for each channel is needed: most of what they are is not their mean.
+bool differByChannel(const GapOption& option, const std::vector<GapParameter>& numbers)
+{
+  double common = 0.0;
+  double all = 0.0;
+  for (const EffectParameter& parameter : findForm(*option.effect, option.form)->parameters)
+  {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const GapParameter& number : numbers)
+    {
+      if (parameter.perChannel && number.name.rfind(parameter.name + "[", 0) == 0)
+      {
+        const double deviation = (number.value - parameter.neutral) / parameter.typical;
+        sum += deviation;
+        count += 1.0;
+        all += deviation * deviation;
+      }
+    }
+    common += sum * sum / std::fmax(count, 1.0);
+  }
+  return option.perChannel && 2.0 * common <= all;
+}
+}
+
 std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink)
 {
   const ObservedFit& best = *found.best;
   const std::vector<double> reached = subsetShrinksOf(data, found);
+  const auto parameters = data.parameters(best);
   std::vector<char> later;
-  for (const std::size_t option : best.set)
+  for (std::size_t p = 0; p < best.set.size(); ++p)
   {
-    later.push_back(data.options()[option].perChannel ? 1 : 0);
+    later.push_back(differByChannel(data.options()[best.set[p]], parameters[p]) ? 1 : 0);
   }
   std::vector<double> share = sharesUnderPrecedence(reached, later);
   double sum = 0.0;
@@ -166,7 +194,6 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
     one = std::fmax(one, 0.0);
     sum += one;
   }
-  const auto parameters = data.parameters(best);
   std::vector<GapCause> causes;
   for (std::size_t p = 0; p < best.set.size(); ++p)
   {
@@ -236,16 +263,14 @@ int standInsOf(const Observation& data, const ObservedFit& fit)
 }
 }
 
-// An effect that is not in the library is e times less likely than one that is.
 double unknownProbability(double explained, double chanceOfCurve, int standIns)
 {
-  double odds =
-    (1.0 - std::clamp(explained, 0.0, 1.0)) / Decision::UnknownRest + std::exp(-1.0) * standIns;
-  const double chance = std::fmax(chanceOfCurve, std::numeric_limits<double>::epsilon());
-  if (chance < std::exp(-1.0))
-  {
-    odds += std::exp(-Decision::EffectImprobability - 1.0) / (-chance * std::log(chance));
-  }
+  // Before the data speak as likely as an effect that is in the library, and never less.
+  const double chance =
+    std::clamp(chanceOfCurve, std::numeric_limits<double>::epsilon(), std::exp(-1.0));
+  const double odds = (1.0 - std::clamp(explained, 0.0, 1.0)) / Decision::UnknownRest +
+    std::exp(-1.0) * standIns +
+    std::exp(-Decision::EffectImprobability - 1.0) / (-chance * std::log(chance));
   return odds / (1.0 + odds);
 }
 

@@ -18,7 +18,8 @@ namespace msi
 //
 // A number for each channel can also do what one number for all channels does. Where they do the same, the effect with the
 // common number is credited with it: it gets its Shapley value under precedence constraints (Faigle and Kern 1992,
-// doi:10.1007/BF01258278) where that is larger than the plain one, those that come later the smaller of both.
+// doi:10.1007/BF01258278) where that is larger than the plain one, those that come later the smaller of both. Numbers of channels that
+// are mostly their mean are one number in this.
 std::vector<double> sharesUnderPrecedence(
   const std::vector<double>& shrink, const std::vector<char>& later);
 
@@ -33,6 +34,7 @@ std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& foun
 //   standIns: signs that effects stand for another: two causes of one medium, an effect of a medium that all media have, a gain
 //     in disguise, a parameter at the end of its range.
 //     Each is e times likelier than one unknown effect in the place of all.
+// Never less likely than an effect of the library is before the data speak.
 double unknownProbability(double explained, double chanceOfCurve = 1.0, int standIns = 0);
 
 // The likeliest fit of each set of effects, whatever their forms and media; their probabilities sum to 1, the largest first.

@@ -118,18 +118,20 @@ TEST(LearnedPrior, NothingFreeIsNothingKnown)
 
 TEST(UnknownProbability, GrowsWithWhatIsLeft)
 {
-  EXPECT_EQ(msi::unknownProbability(1.0), 0.0);
+  // Never less likely than an effect of the library is before the data speak.
+  const double before = std::exp(-msi::Decision::EffectImprobability);
+  EXPECT_NEAR(msi::unknownProbability(1.0), before / (1.0 + before), 1e-12);
   EXPECT_LT(msi::unknownProbability(0.9), 0.25);
-  EXPECT_NEAR(msi::unknownProbability(1.0 - msi::Decision::UnknownRest), 0.5, 1e-12);
+  EXPECT_NEAR(msi::unknownProbability(1.0 - msi::Decision::UnknownRest), 0.5, before);
   EXPECT_GT(msi::unknownProbability(0.0), 0.7);
   // 1 / (-e p ln p) times that of an effect: the largest odds that the chance p can give.
   const double chance = 1e-4;
   const double odds =
     std::exp(-msi::Decision::EffectImprobability - 1.0) / (-chance * std::log(chance));
   EXPECT_NEAR(msi::unknownProbability(1.0, chance), odds / (1.0 + odds), 1e-12);
-  EXPECT_EQ(msi::unknownProbability(1.0, 0.5), 0.0);
+  EXPECT_EQ(msi::unknownProbability(1.0, 0.5), msi::unknownProbability(1.0));
   // Odds of e^-1 for each sign that effects stand for another.
-  EXPECT_NEAR(msi::unknownProbability(1.0, 1.0, 2), 2.0 / (2.0 + std::exp(1.0)), 1e-12);
+  EXPECT_NEAR(msi::unknownProbability(1.0, 1.0, 2), 2.0 / (2.0 + std::exp(1.0)), before);
   EXPECT_EQ(msi::unknownProbability(-0.5), msi::unknownProbability(0.0));
 }
 

@@ -312,7 +312,8 @@ TEST(Conclude, TheVerdictAndTheProbabilitiesSayTheSame)
   evidence.gap = true;
   conclude(report, data, sets, evidence, 1);
   EXPECT_EQ(report.verdict, msi::GapVerdict::Unexplained);
-  EXPECT_NEAR(report.probabilityOf("unknown"), 0.75, 1e-9);
+  const double odds = 3.0 + std::exp(-msi::Decision::EffectImprobability);
+  EXPECT_NEAR(report.probabilityOf("unknown"), odds / (1.0 + odds), 1e-9);
   EXPECT_EQ(report.probabilityOf("nothing"), 0.0);
 }
 

@@ -270,9 +270,9 @@ std::vector<std::string> notesOn(
       units += textOf(3, ", ", data.unit[k]);
     }
     notes.push_back("Units? The real image is not in units of white: its channels are " + units +
-      " times the simulated ones; the figures are after division by that, and so do not show by "
-      "how much the exposure differs. A flat field or the response of a white brings the real "
-      "image to 1 for a perfect white");
+      " times the simulated ones; the figures are after division by that, and an exposure is told "
+      "relative to it alone. A flat field or the response of a white brings the real image to 1 "
+      "for a perfect white");
   }
   if (data.usablePart < FewUsable)
   {

@@ -147,9 +147,9 @@ struct ImageTerm
   double lower, upper, typical;
   std::string name = {}; // of the form's parameter; empty: the library has no such number
   std::string unit = {};
-  bool squared = false;      // it is the square of the library's number
-  bool followsLight = false; // EffectParameter::followsLight
-  bool mayEnd = false; // one of several that make up a shape: the end of its range tells nothing
+  bool squared = false;            // it is the square of the library's number
+  bool followsLight = false;       // EffectParameter::followsLight
+  bool mayEnd = false;             // it makes up a shape: the end of its range tells nothing
   std::vector<double> starts = {}; // values to start from while the step is neutral; empty: its own
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
-#include <vector>
 
 namespace msi
 {
@@ -95,25 +94,22 @@ struct ClippingOfImage
   enum Number : std::size_t
   {
     Clip, // 1: a rounded min(u, level); parts of it only on the way there
-    ClipLevel,
-    Softness
+    ClipLevel
   };
 
   static constexpr double NeutralLevel = 8.0;
-  static constexpr double NeutralSoftness = 0.01;
+  static constexpr double ClipSoftness = 0.01;
 
   static double clip(const double* numbers, const ImagePixel&, double& signal, double* by)
   {
     const double beyond = signal - numbers[ClipLevel];
-    const double softness = numbers[Softness];
-    const double root = std::sqrt(beyond * beyond + softness * softness);
+    const double root = std::sqrt(beyond * beyond + ClipSoftness * ClipSoftness);
     const double lost = 0.5 * (beyond + root);
     const double byLevel = 0.5 * numbers[Clip] * (1.0 + beyond / root);
     if (by != nullptr)
     {
       by[Clip] = -lost;
       by[ClipLevel] = byLevel;
-      by[Softness] = -0.5 * numbers[Clip] * softness / root;
     }
     signal -= numbers[Clip] * lost;
     return 1.0 - byLevel;
@@ -125,14 +121,8 @@ Effect saturation()
 {
   const EffectParameter level{ "level", "white", ClippingOfImage::NeutralLevel, 0.1, 8.0, 0.1,
     "largest response" };
-  const EffectParameter softness{ "softness", "white", ClippingOfImage::NeutralSoftness, 0.001, 0.2,
+  const EffectParameter softness{ "softness", "white", ClippingOfImage::ClipSoftness, 0.001, 0.2,
     0.02, "width of the rounded corner", false, true };
-  using Image = ClippingOfImage;
-  const std::vector<ImageTerm> sharp = { { Image::Clip, false, 0.0, 1.0, 0.3 },
-    imageTerm(Image::ClipLevel, level.ofLight()) };
-  std::vector<ImageTerm> rounded = sharp;
-  rounded.push_back(imageTerm(Image::Softness, softness));
-  rounded.back().starts = { Image::NeutralSoftness, 0.05, 0.15 };
   Effect effect;
   effect.definition = { "saturation", "Saturation", "Full wells or the end of the converter.",
     EffectStage::Detector, EffectNeed::Nothing,
@@ -147,12 +137,14 @@ Effect saturation()
         "as soft, with a level_k of each channel: channels that are exposed differently",
         { level.ofLight(), softness }, { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 } } } },
     { "shorter exposure", 2.0 }, EffectTrait::LimitsResponse,
-    { { "per_channel", sharp }, { "per_channel", rounded } } };
+    { { "per_channel",
+      { { ClippingOfImage::Clip, false, 0.0, 1.0, 0.3 },
+        imageTerm(ClippingOfImage::ClipLevel, level.ofLight()) } } } };
   effect.makeBlock = makeBlockOperator<Saturation>;
   static const ImageStep step{ ImageStage::Detector,
-    { { 0.0, ImageAxis::Level }, { Image::NeutralLevel, ImageAxis::None, ImagePull::Found },
-      { Image::NeutralSoftness, ImageAxis::None, ImagePull::Kept } },
-    Image::clip };
+    { { 0.0, ImageAxis::Level },
+      { ClippingOfImage::NeutralLevel, ImageAxis::None, ImagePull::Found } },
+    ClippingOfImage::clip };
   effect.onImage.step = &step;
   effect.afterDark = true;
   return effect;

@@ -92,16 +92,14 @@ void Criterion::refer(double energy, double coherence)
   Numbers = (Reference + Floor) / Dispersion;
 }
 
-double Criterion::fitOf(double energy) const
-{
-  return -0.5 * Numbers * std::log((energy + Floor) / (Reference + Floor));
-}
-
 double Criterion::operator()(const ObservedFit& fit) const
 {
-  return std::isfinite(fit.energy) ? fitOf(fit.energy) - occam(fit) - improbability(fit.set) -
-      (fit.atBound ? Decision::StandIn : 0.0)
-                                   : -std::numeric_limits<double>::infinity();
+  if (!std::isfinite(fit.energy))
+  {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const double likelihood = -0.5 * Numbers * std::log((fit.energy + Floor) / (Reference + Floor));
+  return likelihood - occam(fit) - improbability(fit.set) - (fit.atBound ? Decision::StandIn : 0.0);
 }
 
 double Criterion::occam(const ObservedFit& fit) const

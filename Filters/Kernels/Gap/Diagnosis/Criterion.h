@@ -42,9 +42,6 @@ public:
   double operator()(const ObservedFit& fit) const;
 
   double gapEnergy() const noexcept { return Gap; }
-  double dispersion() const noexcept { return Dispersion; }
-  // Logarithm of the likelihood of an energy, relative to the best residual's.
-  double fitOf(double energy) const;
 
 private:
   double improbability(const std::vector<std::size_t>& set) const;

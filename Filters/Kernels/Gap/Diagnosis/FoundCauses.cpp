@@ -237,12 +237,9 @@ std::vector<GapCandidate> foundCandidates(
   for (const auto& [cause, v] : bestForm)
   {
     const GroupEnergies energies = data.energies(*found.visited[v]);
-    const double shrink = shrinkOf(energies);
-    std::array<double, 2> interval =
-      shrinkInterval({ energies.before, energies.after, energies.noise }, seed);
-    interval = { std::fmin(interval[0], shrink), std::fmax(interval[1], shrink) };
+    const GapFigures figures = figuresOf(energies, 1.0, seed);
     candidates.push_back({ cause.first, data.options()[found.visited[v]->set.front()].form,
-      cause.second, shrink, interval });
+      cause.second, figures.shrink, figures.shrinkInterval });
   }
   std::stable_sort(candidates.begin(), candidates.end(),
     [](const GapCandidate& a, const GapCandidate& b) { return a.shrink > b.shrink; });

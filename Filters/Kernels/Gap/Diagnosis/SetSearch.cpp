@@ -46,8 +46,7 @@ public:
         break;
       }
     }
-    FoundSets found{ Nominal, best(), Visited, {}, {}, Score.gapEnergy(), Inexact,
-      Score.dispersion() };
+    FoundSets found{ Nominal, best(), Visited, {}, {}, Score.gapEnergy(), Inexact };
     Criterion belief(Data, *Nominal, Decision::BeliefNumbers, Inexact);
     for (const FitPointer& fit : Visited)
     {

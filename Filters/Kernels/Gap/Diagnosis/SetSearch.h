@@ -25,7 +25,6 @@ struct FoundSets
   std::vector<double> belief;      // of each, by the criterion with Decision::BeliefNumbers
   double gapEnergy = 0.0;
   double inexactEnergy = 0.0; // Observation::inexactEnergy() of the last search
-  double dispersion = 1.0;
 };
 
 // Beam search by size, then exchanges and removals of one or two effects and other forms of each, until none makes the set likelier.

@@ -5,6 +5,7 @@
 #include "Kernels/Numerics/OrderStatistic.h"
 
 #include <Eigen/Cholesky>
+#include <unsupported/Eigen/SpecialFunctions>
 
 #include <algorithm>
 #include <cmath>
@@ -184,19 +185,6 @@ Eigen::ArrayXd powerAt(const LineValues& profile, double frequency)
   const Eigen::ArrayXd sz = sums(s, weighted);
   return (ss * cz * cz - 2.0 * cs * cz * sz + cc * sz * sz) / (cc * ss - cs * cs).max(1e-300);
 }
-
-// Probability that the sum of `channels` exponential deviates of mean one exceeds x.
-double gammaSurvival(double x, Eigen::Index channels)
-{
-  double logTerm = -x;
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < channels; ++i)
-  {
-    sum += std::exp(logTerm);
-    logTerm += std::log(x) - std::log(static_cast<double>(i + 1));
-  }
-  return std::fmin(sum, 1.0);
-}
 }
 
 void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals, bool alongRows,
@@ -234,7 +222,8 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
   const auto total = [&](double frequency) { return (powerAt(profile, frequency) / scale).sum(); };
   Eigen::Index best = 0;
   const double most = (power.rowwise() / scale.transpose()).rowwise().sum().maxCoeff(&best);
-  if (gammaSurvival(most, K) * span > FalseAlarm)
+  // The sum of K exponential deviates of mean one exceeds it with this probability.
+  if (Eigen::numext::igammac(static_cast<double>(K), most) * span > FalseAlarm)
   {
     return;
   }

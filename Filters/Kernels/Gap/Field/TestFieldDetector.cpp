@@ -208,6 +208,21 @@ TEST(FieldGap, SaturationAtALevelOfEachChannel)
   expectParameter(report, "saturation", "level[C3]", 0.42, 0.005);
 }
 
+// Darks of the channels that are nearly the same are one cause beside a curve, not what its form leaves.
+TEST(FieldGap, DarkOffsetsThatAreAlikeBesideACurve)
+{
+  const TestScene scene(34);
+  const double dark[] = { -0.027, -0.028, -0.037 };
+  const GapReport report = diagnose(changed(scene, 44,
+    [&](double u, int k, int, int, double) { return u * (1.0 + 0.075 * u) / 1.075 + dark[k]; }));
+  SCOPED_TRACE(describe(report));
+  ASSERT_EQ(report.causes.size(), 2U);
+  EXPECT_EQ(report.causes[0].effect, "dark_offset");
+  EXPECT_EQ(report.causes[1].effect, "detector_nonlinearity");
+  EXPECT_GT(report.causes[0].probability, 0.9);
+  expectParameter(report, "dark_offset", "offset[C3]", -0.037, 0.002);
+}
+
 TEST(FieldGap, NonlinearityIsAPowerOrACompression)
 {
   const TestScene scene(33);

@@ -153,7 +153,10 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
   std::optional<StagedResponse> here = stagedResponse(Data.camera, Data.scene, fit.set);
   if (fit.set.size() == 0 || !here)
   {
-    fit.predicted = fit.set.size() == 0 ? Data.simulated : noResponse(Data.camera, Data.scene);
+    // Without light as bad as can be.
+    fit.predicted = fit.set.size() == 0 ? Data.simulated
+                                        : Eigen::MatrixXd::Constant(Data.channels(), Data.samples(),
+                                            std::numeric_limits<double>::quiet_NaN());
     fit.root = huber(whitened(fit.predicted), flat(Weight));
     crossValidate(fit);
     return fit;
@@ -309,7 +312,12 @@ Eigen::MatrixXd leftOfHeldOut(const GapData& data, const EffectFit& fit, const S
     {
       EffectSet moved = fit.set;
       moved.effects[e].parameters[step->index] = std::clamp(end, 0.0, 1.0);
-      const Eigen::MatrixXd other = leftBy(data, respond(data.camera, data.scene, moved));
+      const auto there = stagedResponse(data.camera, data.scene, moved);
+      if (!there)
+      {
+        continue;
+      }
+      const Eigen::MatrixXd other = leftBy(data, there->response());
       for (Eigen::Index i = 0; i < data.samples(); ++i)
       {
         if (time[i] > before && time[i] < behind &&

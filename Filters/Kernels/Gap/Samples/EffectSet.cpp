@@ -1,6 +1,5 @@
 #include "Kernels/Gap/Samples/EffectSet.h"
 
-#include "Kernels/Camera/CameraSimulator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -198,19 +197,6 @@ EffectSet changed(
     value = std::clamp(value + change[static_cast<Eigen::Index>(p)], bounds.lower, bounds.upper);
   }
   return set;
-}
-
-Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set)
-{
-  const auto response = litOrNothing(
-    [&] { return CameraSimulator(camera, set.simulated(), optionsOf(set)).respond(scene); });
-  return response ? *response : noResponse(camera, scene);
-}
-
-Eigen::MatrixXd noResponse(const CameraModel& camera, const SampleScene& scene)
-{
-  return Eigen::MatrixXd::Constant(
-    camera.channelCount(), scene.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
 std::optional<StagedResponse> stagedResponse(

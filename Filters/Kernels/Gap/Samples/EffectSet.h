@@ -74,13 +74,8 @@ struct EffectSet
 EffectSet changed(
   EffectSet set, const std::vector<FreeParameter>& free, const Eigen::VectorXd& change);
 
-// Noise-free response of the camera with these effects, K x S; noResponse() where a channel is left without light.
-Eigen::MatrixXd respond(const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
-
-// As bad as can be, for a fit to turn back from: not a number anywhere.
-Eigen::MatrixXd noResponse(const CameraModel& camera, const SampleScene& scene);
-
-// The same for a fit, which asks for many that are alike. Empty where a channel is left without light.
+// Noise-free response of the camera with these effects, of which a fit asks many that are alike. Empty where a channel is left without
+// light.
 std::optional<StagedResponse> stagedResponse(
   const CameraModel& camera, const SampleScene& scene, const EffectSet& set);
 std::optional<StagedResponse> stagedResponse(const StagedResponse& related, const EffectSet& set);

@@ -153,7 +153,8 @@ TEST(EffectSet, RespondsAsTheSimulatorDoes)
   const msi::CameraEffect shift{ "filter_shift", "common", "", { 2.0 } };
   msi::EffectSet set;
   set.add(choiceOf(shift), sevenChannels(), { 2.0 });
-  EXPECT_EQ(msi::respond(sevenChannels(), rasterScene(), set), responseWith({ shift }));
+  EXPECT_EQ(
+    msi::stagedResponse(sevenChannels(), rasterScene(), set)->response(), responseWith({ shift }));
 }
 
 TEST(EffectSet, DerivativesAreThoseOfTheResponse)
@@ -169,8 +170,8 @@ TEST(EffectSet, DerivativesAreThoseOfTheResponse)
   msi::EffectSet down = set;
   up.value(free[2]) = 0.01;
   down.value(free[2]) = -0.01;
-  Eigen::MatrixXd central = (msi::respond(sevenChannels(), rasterScene(), up) -
-                              msi::respond(sevenChannels(), rasterScene(), down)) /
+  Eigen::MatrixXd central = (msi::stagedResponse(sevenChannels(), scene, up)->response() -
+                              msi::stagedResponse(sevenChannels(), scene, down)->response()) /
     0.02;
   EXPECT_EQ(derivatives[2].first, 2);
   ASSERT_EQ(derivatives[2].changes.rows(), 1);
@@ -300,7 +301,7 @@ TEST(HeldOut, ASampleBesideAStepMayLieOnEitherSide)
     set.add(
       { drift, msi::findForm(*drift, "step"), "" }, data.camera, { 0.05, guess / 95.0, 0.001 });
     msi::EffectFit fit;
-    fit.predicted = msi::respond(data.camera, data.scene, set);
+    fit.predicted = msi::stagedResponse(data.camera, data.scene, set)->response();
     fit.set = std::move(set);
     const Eigen::MatrixXd plain = data.observed - fit.predicted;
     const Eigen::MatrixXd left = msi::leftOfHeldOut(data, fit, training);

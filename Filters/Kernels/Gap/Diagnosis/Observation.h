@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -66,14 +67,18 @@ class Observation
 public:
   virtual ~Observation() = default;
 
-  virtual const std::vector<GapOption>& options() const = 0;
-  virtual Eigen::Index channelNumbers() const = 0; // of all channels, the most that an effect needs
-  virtual double elements() const = 0;             // residuals with weight
-  virtual double noiseEnergy() const = 0;          // what noise alone leaves of the energy
+  const std::vector<GapOption>& options() const noexcept { return Options; }
+  // Of all channels, the most that an effect needs.
+  Eigen::Index channelNumbers() const noexcept { return ChannelNumbers; }
+  double elements() const noexcept { return Elements; } // residuals with weight
+  double noiseEnergy() const noexcept
+  {
+    return NoiseEnergy;
+  } // what noise alone leaves of the energy
   // Of the nominal fit, without a large gain of all channels or large ones of each (energiesBesideGain()).
-  virtual double inexactEnergy(bool /*ofChannels*/) const { return nominal()->energy; }
+  double inexactEnergy(bool ofChannels) const { return InexactEnergy[ofChannels ? 1 : 0]; }
+  const FitPointer& nominal() const noexcept { return Nominal; }
 
-  virtual FitPointer nominal() const = 0;
   // Options whose effect the fit does not have.
   virtual std::vector<GapPreview> previews(const ObservedFit& from) const = 0;
   virtual FitPointer extended(const ObservedFit& from, const GapPreview& with) const = 0;
@@ -82,6 +87,14 @@ public:
   virtual GroupEnergies energies(const ObservedFit& fit) const = 0;
   // Of each position of the fit.
   virtual std::vector<std::vector<GapParameter>> parameters(const ObservedFit& fit) const = 0;
+
+protected:
+  std::vector<GapOption> Options;
+  Eigen::Index ChannelNumbers = 1;
+  double Elements = 0.0;
+  double NoiseEnergy = 0.0;
+  std::array<double, 2> InexactEnergy{};
+  FitPointer Nominal;
 };
 
 } // namespace msi

@@ -30,14 +30,12 @@ public:
     {
       Options.push_back({ &msi::effectLibrary()[static_cast<std::size_t>(c)], "", "", false, 3.0 });
     }
+    Elements = NoiseEnergy = static_cast<double>(Y.size());
+    Nominal = fitted({});
+    InexactEnergy = { Nominal->energy, Nominal->energy };
   }
   void makePerChannel(std::size_t option) { Options[option].perChannel = true; }
   void makeOfMedium(std::size_t option, const char* medium) { Options[option].medium = medium; }
-  const std::vector<msi::GapOption>& options() const override { return Options; }
-  Eigen::Index channelNumbers() const override { return 1; }
-  double elements() const override { return static_cast<double>(Y.size()); }
-  double noiseEnergy() const override { return static_cast<double>(Y.size()); }
-  msi::FitPointer nominal() const override { return fitted({}); }
   std::vector<msi::GapPreview> previews(const msi::ObservedFit& from) const override
   {
     std::vector<msi::GapPreview> all;
@@ -131,7 +129,6 @@ private:
 
   Eigen::MatrixXd X;
   Eigen::VectorXd Y;
-  std::vector<msi::GapOption> Options;
 };
 
 Eigen::MatrixXd drawnNumbers(Eigen::Index rows, Eigen::Index columns, unsigned seed)

@@ -36,6 +36,23 @@ std::vector<GapOption> fieldOptions(const std::vector<FieldChoice>& choices)
   return options;
 }
 
+// Of a channel, the most that an effect needs.
+Eigen::Index numbersOfAChannel(const std::vector<FieldChoice>& choices)
+{
+  std::map<const EffectDefinition*, std::ptrdiff_t> fewest; // forms with more come later
+  Eigen::Index most = 0;
+  for (const FieldChoice& choice : choices)
+  {
+    const auto count = std::count_if(choice.terms.begin(), choice.terms.end(),
+      [](const ImageTerm& term) { return term.perChannel; });
+    if (count > 0)
+    {
+      most = std::max(most, fewest.emplace(choice.effect, count).first->second);
+    }
+  }
+  return most;
+}
+
 bool hasProfile(const FieldSet& set, bool rows)
 {
   return hasChoice(set,
@@ -68,8 +85,9 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
   , Weights(weights)
   , Start(start)
   , Loop(loop)
-  , Options(fieldOptions(choices))
 {
+  Options = fieldOptions(choices);
+  ChannelNumbers = numbersOfAChannel(choices) * data.channels();
   FieldHypothesis hypothesis;
   hypothesis.statistics = std::make_shared<FieldStatistics>(
     fieldStatistics(data, FieldModel(data.channels()), &weights, loop));
@@ -83,23 +101,6 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
   }
   Elements = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true));
   Nominal = described(std::move(hypothesis));
-}
-
-Eigen::Index FieldObservation::channelNumbers() const
-{
-  std::map<const EffectDefinition*, std::ptrdiff_t>
-    fewest; // of a channel: forms with more come later
-  std::ptrdiff_t most = 0;
-  for (const FieldChoice& choice : Choices)
-  {
-    const auto count = std::count_if(choice.terms.begin(), choice.terms.end(),
-      [](const ImageTerm& term) { return term.perChannel; });
-    if (count > 0)
-    {
-      most = std::max(most, fewest.emplace(choice.effect, count).first->second);
-    }
-  }
-  return most * Data.channels();
 }
 
 bool FieldObservation::hasStart(const FieldModel& model, const FieldChoice& choice)

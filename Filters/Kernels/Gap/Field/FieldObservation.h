@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,12 +34,6 @@ public:
     const FieldWeights& weights, const std::vector<ImageDisplacement>& start,
     const FieldLoop& loop);
 
-  const std::vector<GapOption>& options() const override { return Options; }
-  Eigen::Index channelNumbers() const override;
-  double elements() const override { return Elements; }
-  double noiseEnergy() const override { return NoiseEnergy; }
-  double inexactEnergy(bool ofChannels) const override { return InexactEnergy[ofChannels ? 1 : 0]; }
-  FitPointer nominal() const override { return Nominal; }
   std::vector<GapPreview> previews(const ObservedFit& from) const override;
   FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
   FitPointer reduced(const ObservedFit& from, std::size_t positions) const override;
@@ -65,11 +58,6 @@ private:
   const FieldWeights& Weights;
   const std::vector<ImageDisplacement>& Start; // of each channel; empty: none is moved far
   const FieldLoop& Loop;
-  std::vector<GapOption> Options;
-  double Elements = 0.0;
-  double NoiseEnergy = 0.0;
-  std::array<double, 2> InexactEnergy{}; // inexactEnergy() of false and of true
-  FitPointer Nominal;
 };
 
 } // namespace msi

@@ -120,13 +120,14 @@ SampleObservation::SampleObservation(const GapData& data, SampleList training,
   const std::vector<EffectChoice>& choices, std::uint64_t seed)
   : Fitter(data, std::move(training), seed)
   , Choices(choices)
-  , Options(gapOptions(choices))
 {
-}
-
-FitPointer SampleObservation::nominal() const
-{
-  return described(Fitter.nominal(), {});
+  Options = gapOptions(choices);
+  ChannelNumbers = data.channels();
+  Elements = Fitter.trainingElements();
+  NoiseEnergy = Fitter.noiseEnergy();
+  InexactEnergy = { energyBesideGain(data, Fitter.weight(), false),
+    energyBesideGain(data, Fitter.weight(), true) };
+  Nominal = described(Fitter.nominal(), {});
 }
 
 EffectFit SampleObservation::linearised(const ObservedFit& fit) const

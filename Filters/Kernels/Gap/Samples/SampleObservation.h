@@ -24,15 +24,6 @@ public:
   SampleObservation(const GapData& data, SampleList training,
     const std::vector<EffectChoice>& choices, std::uint64_t seed);
 
-  const std::vector<GapOption>& options() const override { return Options; }
-  Eigen::Index channelNumbers() const override { return Fitter.data().channels(); }
-  double elements() const override { return Fitter.trainingElements(); }
-  double noiseEnergy() const override { return Fitter.noiseEnergy(); }
-  double inexactEnergy(bool ofChannels) const override
-  {
-    return energyBesideGain(Fitter.data(), Fitter.weight(), ofChannels);
-  }
-  FitPointer nominal() const override;
   // Forms with several starting points keep the best; steps in time start where the cumulative sums of the residual break.
   std::vector<GapPreview> previews(const ObservedFit& from) const override;
   FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
@@ -52,7 +43,6 @@ private:
 
   EffectFitter Fitter;
   std::vector<EffectChoice> Choices;
-  std::vector<GapOption> Options;
 };
 
 } // namespace msi

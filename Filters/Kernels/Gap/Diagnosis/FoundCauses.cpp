@@ -152,7 +152,7 @@ std::vector<double> sharesUnderPrecedence(
 
 namespace
 {
-// Whether a number for each channel is needed: most of what they are is not their mean.
+// Whether a number for each channel is needed: the effect has no form with one for all, or most of what they are is not their mean.
 bool differByChannel(const GapOption& option, const std::vector<GapParameter>& numbers)
 {
   double common = 0.0;
@@ -173,7 +173,7 @@ bool differByChannel(const GapOption& option, const std::vector<GapParameter>& n
     }
     common += sum * sum / std::fmax(count, 1.0);
   }
-  return option.perChannel && 2.0 * common <= all;
+  return option.perChannel && (!option.effect->hasCommonForm() || 2.0 * common <= all);
 }
 }
 

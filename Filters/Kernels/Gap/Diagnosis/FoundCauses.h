@@ -19,7 +19,7 @@ namespace msi
 // A number for each channel can also do what one number for all channels does. Where they do the same, the effect with the
 // common number is credited with it: it gets its Shapley value under precedence constraints (Faigle and Kern 1992,
 // doi:10.1007/BF01258278) where that is larger than the plain one, those that come later the smaller of both. Numbers of channels that
-// are mostly their mean are one number in this.
+// are mostly their mean are one number in this, if the effect has a form with one: an exposure is another effect than gains.
 std::vector<double> sharesUnderPrecedence(
   const std::vector<double>& shrink, const std::vector<char>& later);
 

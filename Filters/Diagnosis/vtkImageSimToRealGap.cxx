@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 vtkStandardNewMacro(vtkImageSimToRealGap);
 

@@ -102,12 +102,13 @@ def _dark(form, p):
 
 
 def _crosstalk(form, p):
+    # A negative part, against physics, says that something else is behind it.
+    part = {name: f"{_plain(100 * value[0])} %" for name, value in p.items()}
     if form == "shared":
-        return f"{_percent(p['coupling'][0])} of the signal of each channel is what all channels have in common"
+        return f"{part['coupling']} of the signal of each channel is what all channels have in common"
     if "coupling" in p:
-        return f"{_percent(p['coupling'][0])} of the signal exchanged with each neighbouring channel"
-    before, behind = (f"{_plain(100 * p[name][0])} %" for name in ("from_previous", "from_next"))
-    return f"{before} of the signal from the channel before, {behind} from the one behind"
+        return f"{part['coupling']} of the signal exchanged with each neighbouring channel"
+    return f"{part['from_previous']} of the signal from the channel before, {part['from_next']} from the one behind"
 
 
 def _wider(value):

@@ -34,10 +34,11 @@ std::vector<Eigen::Index> zerosFromBorder(const ImageValues& image, const ImageE
     look(0, i);
     look(extent.width - 1, i);
   }
-  for (std::size_t next = 0; next < zeros.size(); ++next)
+  for (std::size_t next = 0; next < zeros.size();)
   {
-    const Eigen::Index x = zeros[next] % extent.width;
-    const Eigen::Index y = zeros[next] / extent.width;
+    const Eigen::Index pixel = zeros[next++];
+    const Eigen::Index x = pixel % extent.width;
+    const Eigen::Index y = pixel / extent.width;
     look(x - 1, y);
     look(x + 1, y);
     look(x, y - 1);

@@ -60,6 +60,22 @@ TEST(FieldBanding, SinesOfASquareWaveAndOfASawtooth)
   }
 }
 
+// Three times the period has its energy, too, and a little of the noise's.
+TEST(FieldBanding, ASineInNoiseHasItsOwnPeriod)
+{
+  const msi::CounterRandom random(7);
+  Eigen::ArrayXXd profile(240, 1);
+  for (int line = 0; line < 240; ++line)
+  {
+    profile(line, 0) = 0.03 * std::sin(2.0 * Pi * line / 18.6) +
+      0.004 * random.normal(static_cast<std::uint64_t>(line));
+  }
+  const msi::BandingSines sines = msi::nearestSines(profile);
+  EXPECT_NEAR(sines.period, 18.6, 0.2); // the periods that are tried
+  EXPECT_NEAR(sines.amplitude(0, 0), 0.03, 0.001);
+  EXPECT_NEAR(sines.rms, std::hypot(0.03 / std::sqrt(2.0), 0.004), 0.001);
+}
+
 TEST(FieldGap, StripesOfAnyPeriodicShape)
 {
   const TestScene scene(44);

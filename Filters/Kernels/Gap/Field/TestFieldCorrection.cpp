@@ -137,6 +137,28 @@ TEST(FieldCorrection, TheSimulatorHasTheLampThatWasFound)
   expectSimulatorGivesTheCorrectedImage(test, found);
 }
 
+TEST(FieldCorrection, TheSimulatorHasTheTailThatWasFound)
+{
+  const TestScene scene(64, 3, 120, 100);
+  const TestPair test = makePair(
+    scene,
+    [&](int k)
+    {
+      ImagePlane plane = scene.pixels(scene.fine(k));
+      const ImagePlane wide = gaussianBlurred(plane, 7.0);
+      for (std::size_t i = 0; i < plane.value.size(); ++i)
+      {
+        plane.value[i] += 0.25 * (wide.value[i] - plane.value[i]);
+      }
+      return plane;
+    },
+    74);
+  const FieldGap found = *msi::diagnoseField(test.pair());
+  ASSERT_EQ(found.report.correction.size(), 1U);
+  ASSERT_EQ(found.report.correction.front().form, "any_shape");
+  expectSimulatorGivesTheCorrectedImage(test, found);
+}
+
 // Turned channels under light off the middle, with sines of three harmonics in the place of a profile.
 TEST(FieldCorrection, TheSimulatorTurnsAsTheModelDoes)
 {

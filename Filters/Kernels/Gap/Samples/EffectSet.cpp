@@ -1,6 +1,5 @@
 #include "Kernels/Gap/Samples/EffectSet.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

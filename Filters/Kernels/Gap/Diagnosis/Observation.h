@@ -71,10 +71,8 @@ public:
   // Of all channels, the most that an effect needs.
   Eigen::Index channelNumbers() const noexcept { return ChannelNumbers; }
   double elements() const noexcept { return Elements; } // residuals with weight
-  double noiseEnergy() const noexcept
-  {
-    return NoiseEnergy;
-  } // what noise alone leaves of the energy
+  // What noise alone leaves of the energy.
+  double noiseEnergy() const noexcept { return NoiseEnergy; }
   // Of the nominal fit, without a large gain of all channels or large ones of each (energiesBesideGain()).
   double inexactEnergy(bool ofChannels) const { return InexactEnergy[ofChannels ? 1 : 0]; }
   const FitPointer& nominal() const noexcept { return Nominal; }

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -111,10 +110,9 @@ std::vector<EffectParameter> shares()
   std::vector<EffectParameter> parameters;
   for (int number = 1; number <= TailOfImage::FreePasses; ++number)
   {
-    const double pixels = std::sqrt((std::pow(4.0, number + 1) - 1.0) / 3.0);
     std::ostringstream meaning;
-    meaning << "share of the light that is spread by " << std::setprecision(2) << pixels
-            << " pixels (standard deviation)";
+    meaning << "share of the light that is spread by " << std::setprecision(2)
+            << splineDeviation(number + 1) << " pixels (standard deviation)";
     parameters.push_back(
       { "share_" + std::to_string(number), "1", 0.0, -0.05, 0.6, 0.01, meaning.str() });
   }
@@ -129,11 +127,9 @@ ScatterTail makeTail(const BoundEffect& effect)
   }
   // StrayLight takes it times the sum of the shares.
   const Eigen::ArrayXd shares = sharesOf(effect);
+  const Eigen::ArrayXd parts = shares / totalOf(shares);
   std::vector<double> weights{ 0.0 };
-  for (const double share : shares)
-  {
-    weights.push_back(share / totalOf(shares));
-  }
+  weights.insert(weights.end(), parts.begin(), parts.end());
   return ScatterTail(weights);
 }
 }

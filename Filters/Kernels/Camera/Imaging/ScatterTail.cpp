@@ -14,11 +14,11 @@ namespace
 constexpr double SmallestRadius = 1.0;
 constexpr double LargestRadius = 64.0;
 constexpr double Negligible = 1e-4;
-
-double deviationAfter(int pass)
-{
-  return std::sqrt((std::pow(4.0, pass) - 1.0) / 3.0);
 }
+
+double splineDeviation(int passes)
+{
+  return std::sqrt((std::pow(4.0, passes) - 1.0) / 3.0);
 }
 
 SymmetricKernel splineKernel(int channels, int stride)
@@ -43,7 +43,7 @@ ScatterTail::ScatterTail(double radius)
   double sum = 0.0;
   for (int pass = 1;; ++pass)
   {
-    const double weight = std::exp2(-pass) * std::exp(-deviationAfter(pass) / (2.0 * radius));
+    const double weight = std::exp2(-pass) * std::exp(-splineDeviation(pass) / (2.0 * radius));
     if (pass > 2 && weight < Negligible * sum)
     {
       break;

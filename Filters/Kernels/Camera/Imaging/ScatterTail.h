@@ -18,6 +18,9 @@ constexpr int splineReach(int passes)
   return 2 * ((1 << passes) - 1);
 }
 
+// Standard deviation along an axis after so many of them, in pixels.
+double splineDeviation(int passes);
+
 // A point spread T of sum one that falls from a few pixels to several radii.
 //
 // A sum of ever wider kernels: splineKernel() applied with strides of 1, 2, 4, ... pixels

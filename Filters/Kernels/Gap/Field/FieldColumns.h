@@ -18,9 +18,9 @@ struct FieldColumns
 {
   std::vector<unsigned> axes;          // ImageAxis, of each but the residual
   std::vector<const PlacedStep*> step; // of each but the residual
-  int gain, offset;    // by a gain, relative to it: the response itself; by an offset
-  int blur = 0;        // by a variance of blur
-  int residual, count; // real - predicted, the last one; with it
+  int gain = 0, offset = 0;    // by a gain, relative to it: the response itself; by an offset
+  int blur = 0;                // by a variance of blur
+  int residual = 0, count = 0; // real - predicted, the last one; with it
 
   std::vector<int> of(unsigned axis) const;
 };

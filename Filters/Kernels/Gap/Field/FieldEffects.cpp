@@ -1,21 +1,17 @@
 #include "Kernels/Gap/Field/FieldEffects.h"
 
-#include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 namespace msi
 {
 
 namespace
 {
-
 std::string withChannel(const std::string& name, const std::string& channel)
 {
   return name + "[" + channel + "]";
@@ -61,7 +57,6 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const Fie
   next += profile ? K : 2 * K;
   return parameters;
 }
-
 }
 
 std::vector<FieldChoice> fieldChoices(const std::vector<std::string>& without)

@@ -90,9 +90,10 @@ Effect channelCrosstalk()
   const EffectParameter coupling{ "coupling", "1", 0.0, -0.2, 0.45, 0.01,
     "share exchanged with each neighbour" };
   EffectParameter previous = coupling;
+  previous.lower = 0.0;
   previous.name = "from_previous";
   previous.meaning = "share taken over from the channel before";
-  EffectParameter next = coupling;
+  EffectParameter next = previous;
   next.name = "from_next";
   next.meaning = "share taken over from the channel behind";
   EffectParameter all = coupling;

@@ -192,8 +192,11 @@ void LinearFit::describe(ObservedFit& fit, const Eigen::VectorXd& step) const
   {
     FreeNumber& number = moved[n];
     number.deviation += step[static_cast<Eigen::Index>(n)];
-    const double room = std::min(number.upper - number.deviation, number.deviation - number.lower);
-    fit.atBound = fit.atBound || (!number.mayEnd && room < Rounding * number.typical);
+    const double rounding = Rounding * number.typical;
+    // An end that is neutral is none.
+    const bool ends = (number.upper > 0.0 && number.upper - number.deviation < rounding) ||
+      (number.lower < 0.0 && number.deviation - number.lower < rounding);
+    fit.atBound = fit.atBound || (!number.mayEnd && ends);
   }
   const LearnedPrior prior(moved);
   fit.prior = prior.distribution;

@@ -159,21 +159,25 @@ struct ImageSimulator::Implementation
     }
   }
 
+  // Where the pixels from (x, y) to the right lie.
+  ColumnContext placesOf(int x, int y, int count, ImageWorkspace& work) const
+  {
+    const double half = 0.5 * std::max(1, std::max(Extent.width, Extent.height) - 1);
+    work.fieldX.clear();
+    for (int i = 0; i < count; ++i)
+    {
+      work.fieldX.push_back((x + i - 0.5 * (Extent.width - 1)) / half);
+    }
+    work.fieldY.assign(work.fieldX.size(), (y - 0.5 * (Extent.height - 1)) / half);
+    return { nullptr, work.fieldX.data(), work.fieldY.data() };
+  }
+
   // The light on the detector, pixel by pixel: a run of at most BlockPixels pixels of one row.
   void irradiate(const float* reflectance, const int* medium, int x, int y, int count,
     float* signal, ImageWorkspace& work) const
   {
     const auto size = static_cast<std::size_t>(count);
-    const double half = 0.5 * std::max(1, std::max(Extent.width, Extent.height) - 1);
-    work.fieldX.resize(size);
-    work.fieldY.assign(size, (y - 0.5 * (Extent.height - 1)) / half);
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      work.fieldX[i] = (x + static_cast<int>(i) - 0.5 * (Extent.width - 1)) / half;
-    }
-    ColumnContext columns;
-    columns.fieldX = work.fieldX.data();
-    columns.fieldY = work.fieldY.data();
+    ColumnContext columns = placesOf(x, y, count, work);
     const float* source = reflectance;
     if (Chain.needsMedium())
     {
@@ -284,7 +288,7 @@ struct ImageSimulator::Implementation
     {
       step->apply(block, x, y);
     }
-    Chain.detect<float>(block, {});
+    Chain.detect<float>(block, placesOf(x, y, count, work));
     const auto firstPixel =
       static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(Extent.width) +
       static_cast<std::uint64_t>(x);

@@ -278,6 +278,29 @@ TEST(ImageSimulator, AnEvenSceneAnswersAsItsSampleOnATable)
   EXPECT_LT((seen.cast<double>().colwise() - table.col(0)).cwiseAbs().maxCoeff(), 3e-6);
 }
 
+// Effects on the detector are told the place of a pixel, too.
+TEST(ImageSimulator, AnOffsetMayLeanOverTheField)
+{
+  const std::vector<float> before = simulateAll({});
+  CameraEffect offset{ "dark_offset", "plane", "", std::vector<double>(3 * Channels, 0.0) };
+  CameraEffect rest = msi::neutralEffect("unmodelled_response", sevenChannels().channels());
+  offset.parameters[Channels] = 0.04;       // along x
+  offset.parameters[2 * Channels] = -0.02;  // along y
+  rest.parameters[3 * Channels + 1] = 0.05; // along x, in the second channel
+  const std::vector<float> leaning = simulateAll({ offset, rest });
+  for (const int x : { 0, 40, 96 })
+  {
+    for (const int y : { 3, 50 })
+    {
+      const float right = static_cast<float>(x - 48) / 48.0F;
+      const float down = static_cast<float>(y - 26) / 48.0F;
+      EXPECT_NEAR(at(leaning, x, y, 0), at(before, x, y, 0) + 0.04F * right - 0.02F * down, 1e-6);
+      EXPECT_NEAR(at(leaning, x, y, 1), at(before, x, y, 1) * (1.0F + 0.05F * right), 1e-6);
+      EXPECT_NEAR(at(leaning, x, y, 2), at(before, x, y, 2), 1e-6);
+    }
+  }
+}
+
 TEST(ImageSimulator, LagKeepsAPartOfTheChannelBefore)
 {
   const msi::CameraModel camera = sevenChannels();

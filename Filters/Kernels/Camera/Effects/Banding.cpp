@@ -12,7 +12,7 @@ namespace msi
 namespace
 {
 // s_k = sum over n of amplitude_n,k sin(2 pi (n position / period + start_n,k)): u_k (1 + s_k), or u_k + s_k
-class Banding : public PixelOperator
+class Banding
 {
 public:
   explicit Banding(const BoundEffect& effect)
@@ -38,7 +38,7 @@ public:
       }
     }
   }
-  void apply(Eigen::Map<Eigen::MatrixXf> block, int x, int y) const noexcept override
+  void operator()(Eigen::Map<Eigen::MatrixXf> block, int x, int y) const
   {
     Eigen::ArrayXf change = changes(AlongRows ? y : x);
     for (Eigen::Index j = 0; j < block.cols(); ++j)
@@ -182,7 +182,8 @@ Effect banding()
       { "column_harmonics", { profile(StripesOfImage::OfColumns + StripesOfImage::Gain) } },
       { "row_offsets", { profile(StripesOfImage::Added) } },
       { "column_offsets", { profile(StripesOfImage::OfColumns + StripesOfImage::Added) } } } };
-  effect.onImage.makePixels = makePixelOperator<Banding>;
+  effect.onImage.makePixels = [](const BoundEffect& bound) -> PixelOperator
+  { return Banding(bound); };
   static const ImageStep step{ ImageStage::Lines,
     { { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Rows },
       { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns },

@@ -7,7 +7,7 @@ namespace msi
 namespace
 {
 // u_k + before_k (u_k-1 - u_k) + after_k (u_k+1 - u_k) + all (mean - u_k); at the ends the neighbour that is missing gives nothing.
-class ChannelCrosstalk : public BlockOperatorOf<ChannelCrosstalk>
+class ChannelCrosstalk
 {
 public:
   explicit ChannelCrosstalk(const BoundEffect& effect)
@@ -17,7 +17,7 @@ public:
   {
   }
   template <typename Scalar>
-  void run(Block<Scalar> signal, const ColumnContext&) const noexcept
+  void operator()(Block<Scalar> signal, const ColumnContext&) const noexcept
   {
     const auto& before = Before.as<Scalar>();
     const auto& after = After.as<Scalar>();

@@ -1,6 +1,6 @@
 // A gain of each channel.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/GainOperator.h"
+#include "Kernels/Camera/Effects/Gain.h"
 
 namespace msi
 {
@@ -13,7 +13,7 @@ Effect channelGain()
     "Every channel has an error of its own in exposure or white balance.", EffectStage::Detector,
     EffectNeed::Nothing, { { "per_channel", "gain_k u_k", { gain }, {} } }, { "grey ramp", 5.0 },
     EffectTrait::Exact, { { "per_channel", { imageTerm(0, gain) } } } };
-  effect.makeBlock = makeBlockOperator<GainOperator>;
+  effect.makeBlock = makeGain;
   effect.onImage.step = &gainStep();
   return effect;
 }

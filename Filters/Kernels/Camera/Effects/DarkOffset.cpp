@@ -8,7 +8,7 @@ namespace msi
 
 namespace
 {
-class DarkOffset : public BlockOperatorOf<DarkOffset>
+class DarkOffset
 {
 public:
   explicit DarkOffset(const BoundEffect& effect)
@@ -21,7 +21,7 @@ public:
     }
   }
   template <typename Scalar>
-  void run(Block<Scalar> response, const ColumnContext& columns) const noexcept
+  void operator()(Block<Scalar> response, const ColumnContext& columns) const noexcept
   {
     response.array().colwise() += Offset.as<Scalar>();
     for (Eigen::Index j = 0; AlongX && j < response.cols(); ++j)

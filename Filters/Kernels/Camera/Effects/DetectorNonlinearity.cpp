@@ -12,7 +12,7 @@ namespace msi
 
 namespace
 {
-class DetectorNonlinearity : public BlockOperatorOf<DetectorNonlinearity>
+class DetectorNonlinearity
 {
 public:
   explicit DetectorNonlinearity(const BoundEffect& effect)
@@ -50,7 +50,7 @@ public:
     }
   }
   template <typename Scalar>
-  void run(Block<Scalar> signal, const ColumnContext&) const noexcept
+  void operator()(Block<Scalar> signal, const ColumnContext&) const noexcept
   {
     auto u = signal.array();
     const auto linear = static_cast<Scalar>(Linear);

@@ -122,9 +122,9 @@ EffectChain::Step EffectChain::bind(std::size_t effect)
   {
     step.onBlock = effectOperators.makeBlock(bound);
   }
-  if (effectOperators.makeSurround != nullptr)
+  if (effectOperators.makeStrayLight != nullptr)
   {
-    step.withSurround = effectOperators.makeSurround(bound);
+    step.strayLight = std::make_shared<const StrayLight>(effectOperators.makeStrayLight(bound));
   }
   return step;
 }
@@ -170,10 +170,10 @@ void EffectChain::place(const Step& step)
   {
     OnResponsivity.push_back(step.onResponsivity);
   }
-  if (step.withSurround)
+  if (step.strayLight)
   {
     (registered(definition).surround == Surround::Scene ? VeilingGlare : LocalStrayLight) =
-      step.withSurround;
+      step.strayLight;
   }
   if (step.onBlock)
   {

@@ -63,8 +63,8 @@ public:
   {
     runAll(OnIrradiance, signal, columns);
   }
-  const SurroundOperator* veilingGlare() const noexcept { return VeilingGlare.get(); }
-  const SurroundOperator* localStrayLight() const noexcept { return LocalStrayLight.get(); }
+  const StrayLight* veilingGlare() const noexcept { return VeilingGlare.get(); }
+  const StrayLight* localStrayLight() const noexcept { return LocalStrayLight.get(); }
   template <typename Scalar>
   void detect(Block<Scalar> signal, const ColumnContext& columns) const noexcept
   {
@@ -106,7 +106,7 @@ private:
     int medium; // -1: all
     Shared<ResponsivityOperator> onResponsivity;
     Shared<BlockOperator> onBlock;
-    Shared<SurroundOperator> withSurround;
+    Shared<StrayLight> strayLight;
   };
 
   template <typename Scalar>
@@ -136,8 +136,8 @@ private:
   BlockOperators OnIrradiance;
   BlockOperators BeforeDark;
   BlockOperators AfterDark;
-  Shared<SurroundOperator> VeilingGlare;
-  Shared<SurroundOperator> LocalStrayLight;
+  Shared<StrayLight> VeilingGlare;
+  Shared<StrayLight> LocalStrayLight;
   bool NeedsPosition = false;
   bool NeedsOrder = false;
   // Nothing acts between integral and dark response: one sum, as the ideal camera does it.

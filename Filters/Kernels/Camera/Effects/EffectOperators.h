@@ -1,9 +1,13 @@
-// What an effect does to numbers, by the place where it acts. Internal to the simulator.
+// What an effect does to numbers, by the place where it acts, and short ways to say it. Internal to the simulator.
 #pragma once
 
-#include "Kernels/Spectra/WavelengthGrid.h"
+#include "Kernels/Camera/Effects/BoundEffect.h"
 
 #include <Eigen/Core>
+
+#include <memory>
+#include <type_traits>
+#include <utility>
 
 namespace msi
 {
@@ -40,45 +44,32 @@ public:
   virtual void apply(Block<float> block, const ColumnContext& columns) const noexcept = 0;
 };
 
-// Lets one template, Derived::run(block, columns), serve both scalars.
-template <typename Derived>
-class BlockOperatorOf : public BlockOperator
+// Calls run(block, columns) in both precisions.
+template <typename Run>
+class BlockOperatorOf final : public BlockOperator
 {
 public:
+  explicit BlockOperatorOf(Run run)
+    : Both(std::move(run))
+  {
+  }
   void apply(Block<double> block, const ColumnContext& columns) const noexcept override
   {
-    static_cast<const Derived*>(this)->run(block, columns);
+    Both(block, columns);
   }
   void apply(Block<float> block, const ColumnContext& columns) const noexcept override
   {
-    static_cast<const Derived*>(this)->run(block, columns);
+    Both(block, columns);
   }
-};
 
-// Stray light: mixes a signal with that of its surround, both K x P, in place.
-class SurroundOperator
-{
-public:
-  virtual ~SurroundOperator() = default;
-  // Of a surround that is not the neighbours alone: its reach on a table, in pitches; 0: the neighbours.
-  virtual double reach() const noexcept { return 0.0; }
-  virtual void apply(Block<double> block, ConstBlock<double> surround) const noexcept = 0;
-  virtual void apply(Block<float> block, ConstBlock<float> surround) const noexcept = 0;
+private:
+  Run Both;
 };
-
-template <typename Derived>
-class SurroundOperatorOf : public SurroundOperator
+template <typename Run>
+std::unique_ptr<BlockOperator> blockOperator(Run run)
 {
-public:
-  void apply(Block<double> block, ConstBlock<double> surround) const noexcept override
-  {
-    static_cast<const Derived*>(this)->run(block, surround);
-  }
-  void apply(Block<float> block, ConstBlock<float> surround) const noexcept override
-  {
-    static_cast<const Derived*>(this)->run(block, surround);
-  }
-};
+  return std::make_unique<BlockOperatorOf<Run>>(std::move(run));
+}
 
 // One value a channel (or wavelength), ready in both precisions.
 class ChannelValues
@@ -106,6 +97,111 @@ public:
 private:
   Eigen::ArrayXd Double;
   Eigen::ArrayXf Float;
+};
+
+// A number of an effect in the precision of what it acts on.
+template <typename Scalar>
+Scalar inPrecision(double number) noexcept
+{
+  return static_cast<Scalar>(number);
+}
+template <typename Scalar>
+const auto& inPrecision(const ChannelValues& values) noexcept
+{
+  return values.as<Scalar>();
+}
+
+// change(u, numbers...) for all values, an array K x P. The numbers, double or ChannelValues, come in its precision.
+template <typename Change, typename... Numbers>
+std::unique_ptr<BlockOperator> onAll(Change change, Numbers... numbers)
+{
+  return blockOperator(
+    [change, numbers...](auto block, const ColumnContext&)
+    {
+      using Scalar = typename decltype(block)::Scalar;
+      change(block.array(), inPrecision<Scalar>(numbers)...);
+    });
+}
+
+// The same for the reflectances r of the effect's medium, an array of N values at a time.
+template <typename Change, typename... Numbers>
+std::unique_ptr<BlockOperator> onMedium(
+  const BoundEffect& effect, Change change, Numbers... numbers)
+{
+  return blockOperator(
+    [change, numbers..., medium = effect.medium()](auto block, const ColumnContext& columns)
+    {
+      using Scalar = typename decltype(block)::Scalar;
+      for (Eigen::Index j = 0; j < block.cols(); ++j)
+      {
+        if (columns.medium[j] == medium)
+        {
+          change(block.col(j).array(), inPrecision<Scalar>(numbers)...);
+        }
+      }
+    });
+}
+
+// Multiplies channel k of every column by factor(k, x, y); all channels by that of the first where the effect is the same in all.
+template <typename Factor>
+std::unique_ptr<BlockOperator> onField(const BoundEffect& effect, Factor factor)
+{
+  return blockOperator(
+    [factor, ofChannels = effect.form().name == "per_channel"](
+      auto signal, const ColumnContext& columns)
+    {
+      using Scalar = typename decltype(signal)::Scalar;
+      for (Eigen::Index j = 0; j < signal.cols(); ++j)
+      {
+        const auto at = [&](Eigen::Index k)
+        { return static_cast<Scalar>(factor(k, columns.fieldX[j], columns.fieldY[j])); };
+        if (!ofChannels)
+        {
+          signal.col(j) *= at(0);
+          continue;
+        }
+        for (Eigen::Index k = 0; k < signal.rows(); ++k)
+        {
+          signal(k, j) *= at(k);
+        }
+      }
+    });
+}
+
+// Mixes a signal with that of its surround, both K x P, in place: u + fraction surround, or + fraction (surround - u) where light
+// only changes its place.
+class StrayLight
+{
+public:
+  // fraction: of each channel. reach: of a surround that is not the neighbours alone, on a table, in pitches; 0: the neighbours.
+  StrayLight(Eigen::ArrayXd fraction, bool added, double reach = 0.0)
+    : Fraction(std::move(fraction))
+    , Added(added)
+    , Reach(reach)
+  {
+  }
+  double reach() const noexcept { return Reach; }
+  template <typename Scalar>
+  void mix(Block<Scalar> signal, ConstBlock<Scalar> surround) const noexcept
+  {
+    for (Eigen::Index j = 0; j < signal.cols(); ++j)
+    {
+      auto u = signal.col(j).array();
+      if (Added)
+      {
+        u += Fraction.as<Scalar>() * surround.col(j).array();
+      }
+      else
+      {
+        u += Fraction.as<Scalar>() * (surround.col(j).array() - u);
+      }
+    }
+  }
+
+private:
+  ChannelValues Fraction;
+  bool Added;
+  double Reach;
 };
 
 } // namespace msi

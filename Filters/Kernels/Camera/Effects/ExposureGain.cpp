@@ -1,6 +1,6 @@
 // All channels brighter or darker.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/GainOperator.h"
+#include "Kernels/Camera/Effects/Gain.h"
 
 namespace msi
 {
@@ -14,7 +14,7 @@ Effect exposureGain()
     EffectStage::Detector, EffectNeed::Nothing, { { "common", "gain u", { gain } } },
     Captures::RepeatedWhite, EffectTrait::Exact | EffectTrait::CommonGain,
     { { "common", { imageTerm(0, gain) } } } };
-  effect.makeBlock = makeBlockOperator<GainOperator>;
+  effect.makeBlock = makeGain;
   effect.onImage.step = &gainStep();
   return effect;
 }

@@ -1,8 +1,8 @@
 // A brightener in the medium.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/MediumOperator.h"
 
-#include <cmath>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace msi
@@ -10,48 +10,35 @@ namespace msi
 
 namespace
 {
-class Fluorescence : public MediumOperator<Fluorescence>
+constexpr double LongestExcitation = 420.0; // nm
+
+std::unique_ptr<BlockOperator> makeFluorescence(const BoundEffect& effect)
 {
-public:
-  explicit Fluorescence(const BoundEffect& effect)
-    : MediumOperator(effect)
-    , Offset(effect.form().name == "uncoloured" || effect.form().name == "absorbed" ? 1.0 : 0.0)
-    , Slope(effect.form().name == "uncoloured" ? 0.0
-          : effect.form().name == "absorbed"   ? -1.0
-                                               : 1.0)
+  const std::string& form = effect.form().name;
+  const double offset = form == "uncoloured" || form == "absorbed" ? 1.0 : 0.0;
+  const double slope = form == "uncoloured" ? 0.0 : form == "absorbed" ? -1.0 : 1.0;
+  const WavelengthGrid& grid = effect.camera().wavelengths();
+  const Eigen::ArrayXd distance =
+    (grid.vector().array() - effect.value("peak")) / effect.value("width");
+  const ChannelValues emissions(effect.value("yield") * (-0.5 * distance.square()).exp());
+  Eigen::Index excited = 1;
+  while (excited < grid.size() && grid[excited] <= LongestExcitation)
   {
-    const Eigen::ArrayXd distance =
-      (effect.camera().wavelengths().vector().array() - effect.value("peak")) /
-      effect.value("width");
-    Emission = ChannelValues(effect.value("yield") * (-0.5 * distance.square()).exp());
-    const WavelengthGrid& grid = effect.camera().wavelengths();
-    ExcitedBands = 1;
-    while (ExcitedBands < grid.size() && grid[ExcitedBands] <= LongestExcitation)
-    {
-      ++ExcitedBands;
-    }
+    ++excited;
   }
-  template <typename Scalar, typename Column>
-  void change(Column r) const noexcept
+  const auto emit = [excited](auto r, const auto& emission, auto constant, auto factor)
   {
     // A plain loop: the order of the sum must not depend on the column's alignment.
+    using Scalar = decltype(factor);
     Scalar sum = 0;
-    for (Eigen::Index j = 0; j < ExcitedBands; ++j)
+    for (Eigen::Index j = 0; j < excited; ++j)
     {
       sum += r[j];
     }
-    const Scalar excitation = static_cast<Scalar>(Offset) +
-      static_cast<Scalar>(Slope) * sum / static_cast<Scalar>(ExcitedBands);
-    r += Emission.as<Scalar>() * excitation;
-  }
-
-private:
-  static constexpr double LongestExcitation = 420.0;
-  double Offset;
-  double Slope;
-  ChannelValues Emission;
-  Eigen::Index ExcitedBands;
-};
+    r += emission * (constant + factor * sum / static_cast<Scalar>(excited));
+  };
+  return onMedium(effect, emit, emissions, offset, slope);
+}
 }
 
 Effect fluorescence()
@@ -72,7 +59,7 @@ Effect fluorescence()
       { "uncoloured", "r + yield E", emission },
       { "absorbed", "r + yield E (1 - r_x)", emission } },
     { "UV-cut filter" } };
-  effect.makeBlock = makeBlockOperator<Fluorescence>;
+  effect.makeBlock = makeFluorescence;
   return effect;
 }
 

@@ -1,9 +1,9 @@
 // More light on one side of the field than on the other.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/FieldOperator.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace msi
@@ -11,38 +11,20 @@ namespace msi
 
 namespace
 {
-class IlluminationGradient : public FieldOperator<IlluminationGradient>
+std::unique_ptr<BlockOperator> makeGradient(const BoundEffect& effect)
 {
-public:
-  explicit IlluminationGradient(const BoundEffect& effect)
-    : FieldOperator(effect)
-    , AlongX(effect.perChannel("along_x"))
-    , AlongY(effect.perChannel("along_y"))
-  {
-    if (effect.form().name == "bent")
+  const bool bent = effect.form().name == "bent";
+  const double turn = bent ? Degree * effect.value("turn") : 0.0;
+  return onField(effect,
+    [alongX = effect.perChannel("along_x"), alongY = effect.perChannel("along_y"),
+      square = bent ? effect.value("square") : 0.0, cosine = std::cos(turn),
+      sine = std::sin(turn)](Eigen::Index k, double x, double y)
     {
-      Square = effect.value("square");
-      const double turn = Degree * effect.value("turn");
-      Cosine = std::cos(turn);
-      Sine = std::sin(turn);
-    }
-  }
-  double factor(Eigen::Index k, double x, double y) const noexcept
-  {
-    const double along = x * Cosine + y * Sine;
-    return 1.0 + AlongX[k] * x + AlongY[k] * y + Square * along * along;
-  }
-
-private:
-  Eigen::ArrayXd AlongX;
-  Eigen::ArrayXd AlongY;
-  double Square = 0.0;
-  double Cosine = 1.0, Sine = 0.0; // of its direction
-};
+      const double along = x * cosine + y * sine;
+      return 1.0 + alongX[k] * x + alongY[k] * y + square * along * along;
+    });
 }
 
-namespace
-{
 // Its step on image pairs.
 struct GradientOfImage
 {
@@ -138,7 +120,7 @@ Effect illuminationGradient()
       { "per_channel",
         { imageTerm(GradientOfImage::AlongX, alongX.ofLight()),
           imageTerm(GradientOfImage::AlongY, alongY.ofLight()) } } } };
-  effect.makeBlock = makeBlockOperator<IlluminationGradient>;
+  effect.makeBlock = makeGradient;
   static const ImageStep step{ ImageStage::Lens,
     { { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position }, {},
       { 0.0, ImageAxis::None, ImagePull::Kept } },

@@ -1,31 +1,8 @@
 // Light that strikes the surface again.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/MediumOperator.h"
 
 namespace msi
 {
-
-namespace
-{
-class Interreflection : public MediumOperator<Interreflection>
-{
-public:
-  explicit Interreflection(const BoundEffect& effect)
-    : MediumOperator(effect)
-    , Probability(effect.value("probability"))
-  {
-  }
-  template <typename Scalar, typename Column>
-  void change(Column r) const noexcept
-  {
-    const auto p = static_cast<Scalar>(Probability);
-    r = (Scalar(1) - p) * r / (Scalar(1) - p * r);
-  }
-
-private:
-  double Probability;
-};
-}
 
 Effect interreflection()
 {
@@ -38,7 +15,11 @@ Effect interreflection()
         "probability of a further reflection; negative where the spectrophotometer saw more of "
         "them" } } } },
     { "flat and folded sample" } };
-  effect.makeBlock = makeBlockOperator<Interreflection>;
+  effect.makeBlock = [](const BoundEffect& bound)
+  {
+    return onMedium(
+      bound, [](auto r, auto p) { r = (1 - p) * r / (1 - p * r); }, bound.value("probability"));
+  };
   return effect;
 }
 

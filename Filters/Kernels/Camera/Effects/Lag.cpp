@@ -6,29 +6,21 @@ namespace msi
 
 namespace
 {
-class Lag : public PixelOperator
+PixelOperator makeLag(const BoundEffect& effect)
 {
-public:
-  explicit Lag(const BoundEffect& effect)
-    : Retained(static_cast<float>(effect.value("retained")))
-    , Conserving(effect.form().name == "conserving")
-  {
-  }
-  void apply(Eigen::Map<Eigen::MatrixXf> run, int, int) const noexcept override
+  const auto retained = static_cast<float>(effect.value("retained"));
+  const bool conserving = effect.form().name == "conserving";
+  return [retained, conserving](Eigen::Map<Eigen::MatrixXf> run, int, int)
   {
     for (Eigen::Index j = 0; j < run.cols(); ++j)
     {
       for (Eigen::Index k = run.rows() - 1; k > 0; --k)
       {
-        run(k, j) += Retained * (run(k - 1, j) - (Conserving ? run(k, j) : 0.0F));
+        run(k, j) += retained * (run(k - 1, j) - (conserving ? run(k, j) : 0.0F));
       }
     }
-  }
-
-private:
-  float Retained;
-  bool Conserving;
-};
+  };
+}
 
 // Its step on image pairs: a number for each form.
 struct LagOfImage
@@ -63,7 +55,7 @@ Effect lag()
       { "conserving", "u_k + retained (u_k-1 - u_k), the first channel as it is", { retained } } },
     { "channels captured in another order" }, EffectTrait::None,
     { { "common", { imageTerm(0, retained) } }, { "conserving", { imageTerm(1, retained) } } } };
-  effect.onImage.makePixels = makePixelOperator<Lag>;
+  effect.onImage.makePixels = makeLag;
   static const ImageStep step{ ImageStage::Exposure, { {}, {} }, LagOfImage::keep };
   effect.onImage.step = &step;
   return effect;

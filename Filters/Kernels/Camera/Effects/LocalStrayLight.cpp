@@ -1,11 +1,11 @@
 // Light scattered by a small angle.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/StrayLight.h"
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -119,6 +119,31 @@ std::vector<EffectParameter> shares()
   return parameters;
 }
 
+// All parameters of the form any_shape.
+Eigen::ArrayXd sharesOf(const BoundEffect& effect)
+{
+  Eigen::ArrayXd values(TailOfImage::FreePasses);
+  std::transform(effect.form().parameters.begin(), effect.form().parameters.end(), values.begin(),
+    [&effect](const EffectParameter& share) { return effect.value(share.name); });
+  return values;
+}
+
+// Their sum; where they cancel, as little as leaves shares of it finite.
+double totalOf(const Eigen::ArrayXd& shares)
+{
+  const double sum = shares.sum();
+  return std::copysign(std::fmax(std::fabs(sum), 1e-6), sum);
+}
+
+StrayLight makeStrayLight(const BoundEffect& effect)
+{
+  const std::string& form = effect.form().name;
+  const double fraction =
+    form == "any_shape" ? totalOf(sharesOf(effect)) : effect.value("fraction");
+  return { Eigen::ArrayXd::Constant(effect.camera().channelCount(), fraction), false,
+    form == "tail" ? effect.value("reach") : 0.0 };
+}
+
 ScatterTail makeTail(const BoundEffect& effect)
 {
   if (effect.form().name != "any_shape")
@@ -126,8 +151,7 @@ ScatterTail makeTail(const BoundEffect& effect)
     return ScatterTail(effect.value("radius"));
   }
   // StrayLight takes it times the sum of the shares.
-  const Eigen::ArrayXd shares = sharesOf(effect);
-  const Eigen::ArrayXd parts = shares / totalOf(shares);
+  const Eigen::ArrayXd parts = sharesOf(effect) / totalOf(sharesOf(effect));
   std::vector<double> weights{ 0.0 };
   weights.insert(weights.end(), parts.begin(), parts.end());
   return ScatterTail(weights);
@@ -171,7 +195,7 @@ Effect localStrayLight()
     Captures::BlackAndWhite, EffectTrait::ActsOnEdges,
     { { "neighbours", { imageTerm(TailOfImage::Fraction, tail), reach } },
       { "any_shape", anyShape } } };
-  effect.makeSurround = makeSurroundOperator<StrayLight>;
+  effect.makeStrayLight = makeStrayLight;
   effect.surround = Surround::Near;
   effect.onImage.makeTail = makeTail;
   static const ImageStep step = TailOfImage::stepOfTail();

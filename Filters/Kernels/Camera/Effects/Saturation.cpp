@@ -13,7 +13,7 @@ namespace msi
 namespace
 {
 // The lower branch of a hyperbola around the corner of min(u, level), or the p-norm of both.
-class Saturation : public BlockOperatorOf<Saturation>
+class Saturation
 {
 public:
   explicit Saturation(const BoundEffect& effect)
@@ -25,7 +25,7 @@ public:
   {
   }
   template <typename Scalar>
-  void run(Block<Scalar> response, const ColumnContext&) const noexcept
+  void operator()(Block<Scalar> response, const ColumnContext&) const noexcept
   {
     if (LevelOf.size() > 0)
     {

@@ -183,11 +183,11 @@ Eigen::MatrixXd SceneRun::integral(const Eigen::MatrixXd& reflected) const
 void SceneRun::illuminate(Eigen::MatrixXd& signal, std::shared_ptr<const TailWeights>& tail) const
 {
   Chain.illuminate<double>(signal, columns());
-  if (const SurroundOperator* glare = Chain.veilingGlare())
+  if (const StrayLight* glare = Chain.veilingGlare())
   {
-    glare->apply(signal, ConstBlock<double>(ownSceneMean(signal, Scene)));
+    glare->mix<double>(signal, ownSceneMean(signal, Scene));
   }
-  if (const SurroundOperator* stray = Chain.localStrayLight())
+  if (const StrayLight* stray = Chain.localStrayLight())
   {
     const double reach = stray->reach();
     if (reach > 0.0)
@@ -197,11 +197,11 @@ void SceneRun::illuminate(Eigen::MatrixXd& signal, std::shared_ptr<const TailWei
       {
         tail = std::make_shared<const TailWeights>(Scene, reach, std::move(usable));
       }
-      stray->apply(signal, ConstBlock<double>(tail->mean(signal)));
+      stray->mix<double>(signal, tail->mean(signal));
     }
     else
     {
-      stray->apply(signal, ConstBlock<double>(neighbourMean(signal, Scene)));
+      stray->mix<double>(signal, neighbourMean(signal, Scene));
     }
   }
 }

@@ -66,7 +66,7 @@ private:
   double Width = 0.0;
 };
 
-class SessionDrift : public BlockOperatorOf<SessionDrift>
+class SessionDrift
 {
 public:
   explicit SessionDrift(const BoundEffect& effect)
@@ -76,7 +76,7 @@ public:
   {
   }
   template <typename Scalar>
-  void run(Block<Scalar> signal, const ColumnContext& columns) const noexcept
+  void operator()(Block<Scalar> signal, const ColumnContext& columns) const noexcept
   {
     for (Eigen::Index j = 0; j < signal.cols(); ++j)
     {

@@ -1,32 +1,8 @@
 // Surface reflection that only one of the two instruments collects.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/MediumOperator.h"
 
 namespace msi
 {
-
-namespace
-{
-class SpecularComponent : public MediumOperator<SpecularComponent>
-{
-public:
-  explicit SpecularComponent(const BoundEffect& effect)
-    : MediumOperator(effect)
-    , Pedestal(effect.value("pedestal"))
-    , Scale(effect.form().name == "body" ? 1.0 - Pedestal : 1.0)
-  {
-  }
-  template <typename Scalar, typename Column>
-  void change(Column r) const noexcept
-  {
-    r = static_cast<Scalar>(Scale) * r + static_cast<Scalar>(Pedestal);
-  }
-
-private:
-  double Pedestal;
-  double Scale;
-};
-}
 
 Effect specularComponent()
 {
@@ -40,7 +16,13 @@ Effect specularComponent()
       { "body", "(1 - pedestal) r + pedestal: what the surface reflects does not reach the body",
         { pedestal } } },
     { "specular included and excluded measurement, black glossy tile" } };
-  effect.makeBlock = makeBlockOperator<SpecularComponent>;
+  effect.makeBlock = [](const BoundEffect& bound)
+  {
+    const double added = bound.value("pedestal");
+    return onMedium(
+      bound, [](auto r, auto body, auto surface) { r = body * r + surface; },
+      bound.form().name == "body" ? 1.0 - added : 1.0, added);
+  };
   return effect;
 }
 

@@ -1,36 +1,9 @@
 // Light that spreads sideways in the medium and leaves outside the measured spot.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/MediumOperator.h"
-
-#include <cmath>
+#include "Kernels/Camera/Effects/Passbands.h"
 
 namespace msi
 {
-
-namespace
-{
-constexpr double MiddleWavelength = 550.0;
-
-class Translucency : public MediumOperator<Translucency>
-{
-public:
-  explicit Translucency(const BoundEffect& effect)
-    : MediumOperator(effect)
-    , Loss(effect.value("loss") *
-        (effect.camera().wavelengths().vector().array() / MiddleWavelength)
-          .pow(effect.value("exponent")))
-  {
-  }
-  template <typename Scalar, typename Column>
-  void change(Column r) const noexcept
-  {
-    r = r / (Scalar(1) + Loss.as<Scalar>() * r);
-  }
-
-private:
-  ChannelValues Loss;
-};
-}
 
 Effect translucency()
 {
@@ -44,7 +17,14 @@ Effect translucency()
       { { "loss", "1", 0.0, -0.4, 2.0, 0.05, "loss at 550 nm for a reflectance of one" },
         { "exponent", "1", 2.0, 1.0, 10.0, 1.0, "growth with the wavelength", false, true } } } },
     { "layers over black and white backing" } };
-  effect.makeBlock = makeBlockOperator<Translucency>;
+  effect.makeBlock = [](const BoundEffect& bound)
+  {
+    const Eigen::ArrayXd wavelength = bound.camera().wavelengths().vector();
+    const ChannelValues losses(
+      bound.value("loss") * (wavelength / MiddleWavelength).pow(bound.value("exponent")));
+    return onMedium(
+      bound, [](auto r, const auto& loss) { r = r / (1 + loss * r); }, losses);
+  };
   return effect;
 }
 

@@ -23,7 +23,7 @@ enum Number : std::size_t
   Numbers
 };
 
-class UnmodelledResponse : public BlockOperatorOf<UnmodelledResponse>
+class UnmodelledResponse
 {
 public:
   explicit UnmodelledResponse(const BoundEffect& effect)
@@ -34,7 +34,7 @@ public:
     }
   }
   template <typename Scalar>
-  void run(Block<Scalar> signal, const ColumnContext& columns) const noexcept
+  void operator()(Block<Scalar> signal, const ColumnContext& columns) const noexcept
   {
     const auto at = [](const double* values, Eigen::Index j, double none)
     { return static_cast<Scalar>(values == nullptr ? none : values[j]); };

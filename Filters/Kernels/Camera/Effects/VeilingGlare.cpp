@@ -1,6 +1,5 @@
 // Light scattered in the lens over the whole field.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/StrayLight.h"
 
 namespace msi
 {
@@ -49,7 +48,8 @@ Effect veilingGlare()
     { { "common", { imageTerm(GlareOfImage::Added, glare(false)) } },
       { "conserving", { imageTerm(GlareOfImage::Conserving, glare(false)) } },
       { "per_channel", { imageTerm(GlareOfImage::Added, glare(true)) } } } };
-  effect.makeSurround = makeSurroundOperator<StrayLight>;
+  effect.makeStrayLight = [](const BoundEffect& bound)
+  { return StrayLight(bound.perChannel("fraction"), bound.form().name != "conserving"); };
   static const ImageStep step{ ImageStage::Light, { {}, {} }, GlareOfImage::cover };
   effect.onImage.step = &step;
   return effect;

@@ -1,8 +1,9 @@
 // A lens that passes less light off its axis.
 #include "Kernels/Camera/Effects/Effect.h"
-#include "Kernels/Camera/Effects/FieldOperator.h"
 
 #include <cmath>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace msi
@@ -10,49 +11,37 @@ namespace msi
 
 namespace
 {
-class Vignetting : public FieldOperator<Vignetting>
+std::unique_ptr<BlockOperator> makeVignetting(const BoundEffect& effect)
 {
-public:
-  explicit Vignetting(const BoundEffect& effect)
-    : FieldOperator(effect)
-    , CosineFourth(effect.form().name == "cos4")
-    , Polynomial(effect.form().name == "polynomial")
-    , Strength(CosineFourth ? effect.perChannel("tangent").square() : effect.perChannel("falloff"))
-    , Fourth(Polynomial ? effect.value("fourth") : 0.0)
-    , Sixth(Polynomial ? effect.value("sixth") : 0.0)
-    , CenterX(effect.value("center_x"))
-    , CenterY(effect.value("center_y"))
+  const std::string& form = effect.form().name;
+  const auto radius2 = [centerX = effect.value("center_x"), centerY = effect.value("center_y")](
+                         double x, double y)
+  { return (x - centerX) * (x - centerX) + (y - centerY) * (y - centerY); };
+  if (form == "cos4")
   {
+    const Eigen::ArrayXd tangent2 = effect.perChannel("tangent").square();
+    return onField(effect,
+      [=](Eigen::Index k, double x, double y)
+      {
+        const double secant2 = 1.0 + tangent2[k] * radius2(x, y);
+        return 1.0 / (secant2 * secant2);
+      });
   }
-  double factor(Eigen::Index k, double x, double y) const noexcept
+  const Eigen::ArrayXd falloff = effect.perChannel("falloff");
+  if (form == "polynomial")
   {
-    const double radius2 = (x - CenterX) * (x - CenterX) + (y - CenterY) * (y - CenterY);
-    if (CosineFourth)
-    {
-      const double secant2 = 1.0 + Strength[k] * radius2;
-      return 1.0 / (secant2 * secant2);
-    }
-    if (Polynomial)
-    {
-      const double factor = 1.0 - radius2 * (Strength[k] + radius2 * (Fourth + radius2 * Sixth));
-      return std::fmax(factor, 0.0);
-    }
-    return 1.0 - Strength[k] * radius2;
+    return onField(effect,
+      [=, fourth = effect.value("fourth"), sixth = effect.value("sixth")](
+        Eigen::Index k, double x, double y)
+      {
+        const double square = radius2(x, y);
+        return std::fmax(1.0 - square * (falloff[k] + square * (fourth + square * sixth)), 0.0);
+      });
   }
-
-private:
-  bool CosineFourth;
-  bool Polynomial;
-  Eigen::ArrayXd Strength;
-  double Fourth;
-  double Sixth;
-  double CenterX;
-  double CenterY;
-};
+  return onField(
+    effect, [=](Eigen::Index k, double x, double y) { return 1.0 - falloff[k] * radius2(x, y); });
 }
 
-namespace
-{
 // Its step on image pairs.
 struct VignettingOfImage
 {
@@ -152,7 +141,7 @@ Effect vignetting()
       { "polynomial", { steep, fourth, sixth } },
       { "polynomial", { steep, fourth, sixth, centerX, centerY } },
       { "per_channel", { imageTerm(VignettingOfImage::Falloff, falloff.ofLight()) } } } };
-  effect.makeBlock = makeBlockOperator<Vignetting>;
+  effect.makeBlock = makeVignetting;
   static const ImageStep step{ ImageStage::Lens,
     { { 0.0 }, { 0.0, ImageAxis::Position }, { 0.0 }, { 0.0, ImageAxis::None, ImagePull::Itself },
       { 0.0, ImageAxis::None, ImagePull::Itself } },

@@ -78,7 +78,7 @@ struct ImageSimulator::Implementation
   std::optional<SymmetricKernel> Blur;
   std::optional<ScatterTail> Tail;
   std::vector<OtherLight> Lights;
-  std::vector<std::unique_ptr<PixelOperator>> OnPixels;
+  std::vector<PixelOperator> OnPixels;
 
   Implementation(CameraModel camera, std::vector<CameraEffect> effects, const ImageExtent& extent,
     const ImageSimulatorOptions& options)
@@ -271,22 +271,22 @@ struct ImageSimulator::Implementation
     if (scattered != nullptr)
     {
       const Eigen::Map<const Eigen::MatrixXf> tail(scattered, channels(), count);
-      Chain.localStrayLight()->apply(block, tail);
+      Chain.localStrayLight()->mix<float>(block, tail);
     }
     if (Chain.veilingGlare() != nullptr)
     {
       work.surround.resize(static_cast<std::size_t>(block.size()));
       auto surround = blockOf(work.surround.data(), channels(), count);
       surround.colwise() = mean;
-      Chain.veilingGlare()->apply(block, surround);
+      Chain.veilingGlare()->mix<float>(block, surround);
     }
     if (!Lights.empty())
     {
       addLights(block, scene, x, y, work);
     }
-    for (const auto& step : OnPixels)
+    for (const PixelOperator& change : OnPixels)
     {
-      step->apply(block, x, y);
+      change(block, x, y);
     }
     Chain.detect<float>(block, placesOf(x, y, count, work));
     const auto firstPixel =

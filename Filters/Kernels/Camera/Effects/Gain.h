@@ -1,4 +1,4 @@
-// A factor on every channel.
+// A factor on every channel, whichever effect it is.
 #pragma once
 
 #include "Kernels/Camera/Effects/Effect.h"
@@ -6,22 +6,11 @@
 namespace msi
 {
 
-class GainOperator : public BlockOperatorOf<GainOperator>
+inline std::unique_ptr<BlockOperator> makeGain(const BoundEffect& effect)
 {
-public:
-  explicit GainOperator(const BoundEffect& effect)
-    : Gain(effect.perChannel("gain"))
-  {
-  }
-  template <typename Scalar>
-  void run(Block<Scalar> signal, const ColumnContext&) const noexcept
-  {
-    signal.array().colwise() *= Gain.as<Scalar>();
-  }
-
-private:
-  ChannelValues Gain;
-};
+  return onAll([](auto u, const auto& gain) { u.colwise() *= gain; },
+    ChannelValues(effect.perChannel("gain")));
+}
 
 inline double amplify(const double* numbers, const ImagePixel&, double& signal, double* by)
 {
@@ -38,7 +27,6 @@ inline void relativeToGain(int, const double* numbers, const double*, double* de
   derivatives[0] = 1.0 / numbers[0];
 }
 
-// One gain of each channel, whichever effect it is.
 inline const ImageStep& gainStep()
 {
   static const ImageStep step{ ImageStage::Detector,

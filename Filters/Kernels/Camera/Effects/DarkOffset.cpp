@@ -1,40 +1,34 @@
 // An offset that the dark frame did not take away.
 #include "Kernels/Camera/Effects/Effect.h"
 
-#include <optional>
+#include <memory>
 
 namespace msi
 {
 
 namespace
 {
-class DarkOffset
+std::unique_ptr<BlockOperator> makeOffset(const BoundEffect& effect)
 {
-public:
-  explicit DarkOffset(const BoundEffect& effect)
-    : Offset(effect.perChannel("offset"))
+  const ChannelValues offsets(effect.perChannel("offset"));
+  if (!effect.form().has(FormTrait::OfField))
   {
-    if (effect.form().has(FormTrait::OfField))
-    {
-      AlongX.emplace(effect.perChannel("along_x"));
-      AlongY.emplace(effect.perChannel("along_y"));
-    }
+    return onAll([](auto u, const auto& offset) { u.colwise() += offset; }, offsets);
   }
-  template <typename Scalar>
-  void operator()(Block<Scalar> response, const ColumnContext& columns) const noexcept
-  {
-    response.array().colwise() += Offset.as<Scalar>();
-    for (Eigen::Index j = 0; AlongX && j < response.cols(); ++j)
+  return blockOperator(
+    [offsets, alongX = ChannelValues(effect.perChannel("along_x")),
+      alongY = ChannelValues(effect.perChannel("along_y"))](
+      auto response, const ColumnContext& columns)
     {
-      response.col(j).array() += static_cast<Scalar>(columns.fieldX[j]) * AlongX->as<Scalar>() +
-        static_cast<Scalar>(columns.fieldY[j]) * AlongY->as<Scalar>();
-    }
-  }
-
-private:
-  ChannelValues Offset;
-  std::optional<ChannelValues> AlongX, AlongY;
-};
+      using Scalar = typename decltype(response)::Scalar;
+      response.array().colwise() += offsets.as<Scalar>();
+      for (Eigen::Index j = 0; j < response.cols(); ++j)
+      {
+        response.col(j).array() += static_cast<Scalar>(columns.fieldX[j]) * alongX.as<Scalar>() +
+          static_cast<Scalar>(columns.fieldY[j]) * alongY.as<Scalar>();
+      }
+    });
+}
 
 EffectParameter offset(bool perChannel)
 {
@@ -81,7 +75,7 @@ Effect darkOffset()
     { { "common", { imageTerm(0, offset(false)) } },
       { "per_channel", { imageTerm(0, offset(true)) } },
       { "plane", { imageTerm(0, everywhere), imageTerm(1, alongX), imageTerm(2, alongY) } } } };
-  effect.makeBlock = makeBlockOperator<DarkOffset>;
+  effect.makeBlock = makeOffset;
   static const ImageStep step{ ImageStage::Detector,
     { { 0.0, ImageAxis::Channel }, { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position } },
     DarkOfImage::add };

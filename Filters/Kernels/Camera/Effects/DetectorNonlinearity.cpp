@@ -1,109 +1,63 @@
 // A curve between light and response.
 #include "Kernels/Camera/Effects/DetectorKernel.h"
-#include "Kernels/Camera/Effects/DetectorRuns.h"
 #include "Kernels/Camera/Effects/Effect.h"
 
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
+#include <memory>
+#include <string>
 
 namespace msi
 {
 
 namespace
 {
-class DetectorNonlinearity
+struct Power
 {
-public:
-  explicit DetectorNonlinearity(const BoundEffect& effect)
-  {
-    const std::string& form = effect.form().name;
-    if (form == "gamma")
-    {
-      Kind = Gamma;
-      Linear = effect.value("exponent");
-    }
-    else if (form == "compressive")
-    {
-      Kind = Compressive;
-      Linear = effect.value("compression");
-    }
-    else if (form == "fitted")
-    {
-      Kind = Fitted;
-      const double square = effect.value("square");
-      Square = square;
-      LinearOf = ChannelValues(1.0 - square * effect.perChannel("slope"));
-      ConstantOf = ChannelValues(-square * effect.perChannel("constant"));
-    }
-    else if (form == "per_channel")
-    {
-      Kind = OfChannels;
-      SquareOf = ChannelValues(effect.perChannel("square"));
-    }
-    else
-    {
-      // linear u + square u^2 + cube u^3
-      Square = effect.value("square");
-      Linear = form == "anchored" ? 1.0 - Square : 1.0;
-      Cube = form == "cubic" ? effect.value("cube") : 0.0;
-    }
-  }
-  template <typename Scalar>
-  void operator()(Block<Scalar> signal, const ColumnContext&) const noexcept
-  {
-    auto u = signal.array();
-    const auto linear = static_cast<Scalar>(Linear);
-    switch (Kind)
-    {
-      case Polynomial:
-        u *= linear + u * (static_cast<Scalar>(Square) + static_cast<Scalar>(Cube) * u);
-        break;
-      case Compressive:
-        u /= Scalar(1) + linear * u;
-        break;
-      case OfChannels:
-        u += (u.square() - u).colwise() * SquareOf.as<Scalar>();
-        break;
-      case Fitted:
-        u = (u.colwise() * LinearOf.as<Scalar>() + static_cast<Scalar>(Square) * u.square())
-              .colwise() +
-          ConstantOf.as<Scalar>();
-        break;
-      case Gamma:
-        if constexpr (std::is_same_v<Scalar, double>)
-        {
-          forRuns(
-            signal, [this](double* values, std::size_t count) { raise(Linear, values, count); });
-        }
-        else
-        {
-          // One value at a time: packets of pow() and their remainders round differently.
-          signal = signal.unaryExpr(
-            [linear](Scalar value) { return value > Scalar(0) ? std::pow(value, linear) : value; });
-        }
-        break;
-    }
-  }
+  double exponent;
 
-private:
-  enum
+  void operator()(Block<double> signal, const ColumnContext&) const noexcept
   {
-    Polynomial,
-    Gamma,
-    Compressive,
-    OfChannels,
-    Fitted
-  } Kind = Polynomial;
-  double Linear = 1.0;
-  double Square = 0.0;
-  double Cube = 0.0;
-  ChannelValues SquareOf, LinearOf, ConstantOf;
+    forRuns(signal, [this](double* values, std::size_t count) { raise(exponent, values, count); });
+  }
+  void operator()(Block<float> signal, const ColumnContext&) const noexcept
+  {
+    // One value at a time: packets of pow() and their remainders round differently.
+    signal = signal.unaryExpr([power = static_cast<float>(exponent)](float u)
+      { return u > 0.0F ? std::pow(u, power) : u; });
+  }
 };
+
+std::unique_ptr<BlockOperator> makeCurve(const BoundEffect& effect)
+{
+  const std::string& form = effect.form().name;
+  if (form == "gamma")
+  {
+    return blockOperator(Power{ effect.value("exponent") });
+  }
+  if (form == "compressive")
+  {
+    return onAll(
+      [](auto u, auto compression) { u /= 1 + compression * u; }, effect.value("compression"));
+  }
+  if (form == "per_channel")
+  {
+    return onAll([](auto u, const auto& square) { u += (u.square() - u).colwise() * square; },
+      ChannelValues(effect.perChannel("square")));
+  }
+  const double square = effect.value("square");
+  if (form == "fitted")
+  {
+    return onAll([](auto u, const auto& linear, auto factor, const auto& constant)
+      { u = (u.colwise() * linear + factor * u.square()).colwise() + constant; },
+      ChannelValues(1.0 - square * effect.perChannel("slope")), square,
+      ChannelValues(-square * effect.perChannel("constant")));
+  }
+  return onAll([](auto u, auto linear, auto factor, auto cube)
+    { u *= linear + u * (factor + cube * u); },
+    form == "anchored" ? 1.0 - square : 1.0, square, form == "cubic" ? effect.value("cube") : 0.0);
 }
 
-namespace
-{
 // Its step on image pairs.
 struct CurveOfImage
 {
@@ -186,7 +140,7 @@ Effect detectorNonlinearity()
       { "compressive", { imageTerm(CurveOfImage::Compression, compression) } },
       { "cubic", { imageTerm(CurveOfImage::Square, square), imageTerm(CurveOfImage::Cube, cube) } },
       { "per_channel", { imageTerm(CurveOfImage::Anchored, square.ofLight()) } } } };
-  effect.makeBlock = makeBlockOperator<DetectorNonlinearity>;
+  effect.makeBlock = makeCurve;
   static const ImageStep step{ ImageStage::Detector,
     { { 0.0, ImageAxis::Level }, {}, {}, { 1.0 }, {} }, CurveOfImage::bend };
   effect.onImage.step = &step;

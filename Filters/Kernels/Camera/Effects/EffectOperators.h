@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -166,6 +167,21 @@ std::unique_ptr<BlockOperator> onField(const BoundEffect& effect, Factor factor)
         }
       }
     });
+}
+
+// Calls body(values, count) for all values of a block: together where they lie one after the other, else column by column.
+template <typename Scalar, typename Body>
+void forRuns(Block<Scalar> block, Body body) noexcept
+{
+  if (block.outerStride() == block.rows())
+  {
+    body(block.data(), static_cast<std::size_t>(block.size()));
+    return;
+  }
+  for (Eigen::Index j = 0; j < block.cols(); ++j)
+  {
+    body(block.col(j).data(), static_cast<std::size_t>(block.rows()));
+  }
 }
 
 // Mixes a signal with that of its surround, both K x P, in place: u + fraction surround, or + fraction (surround - u) where light

@@ -1,93 +1,91 @@
 // The end of the detector's range.
 #include "Kernels/Camera/Effects/DetectorKernel.h"
-#include "Kernels/Camera/Effects/DetectorRuns.h"
 #include "Kernels/Camera/Effects/Effect.h"
 
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
+#include <memory>
 
 namespace msi
 {
 
 namespace
 {
-// The lower branch of a hyperbola around the corner of min(u, level), or the p-norm of both.
-class Saturation
+// The lower branch of a hyperbola around the corner of min(u, level).
+double rounded(double u, double level, double softness) noexcept
 {
-public:
-  explicit Saturation(const BoundEffect& effect)
-    : Level(effect.value("level"))
-    , LevelOf(effect.form().name == "per_channel" ? effect.perChannel("level") : Eigen::ArrayXd())
-    , Gradual(effect.form().name == "gradual")
-    , Softness(Gradual ? 0.0 : effect.value("softness"))
-    , Sharpness(Gradual ? effect.value("sharpness") : 0.0)
+  const double beyond = u - level;
+  return 0.5 * (u + level - std::sqrt(beyond * beyond + softness * softness));
+}
+
+struct SoftSaturation
+{
+  double level;
+  double softness;
+
+  void operator()(Block<double> response, const ColumnContext&) const noexcept
   {
+    // One value at a time: Eigen's packets of sqrt() and their remainders round differently.
+    response = response.unaryExpr([this](double u) { return rounded(u, level, softness); });
   }
-  template <typename Scalar>
-  void operator()(Block<Scalar> response, const ColumnContext&) const noexcept
+  void operator()(Block<float> response, const ColumnContext&) const noexcept
   {
-    if (LevelOf.size() > 0)
+    forRuns(response,
+      [this](float* values, std::size_t count) {
+        saturate(static_cast<float>(level), static_cast<float>(softness * softness), values, count);
+      });
+  }
+};
+
+// The p-norm of both.
+struct GradualSaturation
+{
+  double level;
+  double sharpness;
+
+  void operator()(Block<double> response, const ColumnContext&) const noexcept
+  {
+    forRuns(response,
+      [this](double* values, std::size_t count)
+      { saturateGradually(level, sharpness, values, count); });
+  }
+  void operator()(Block<float> response, const ColumnContext&) const noexcept
+  {
+    response = response.unaryExpr(
+      [bend = static_cast<float>(level), p = static_cast<float>(sharpness)](float u)
+      {
+        const float over = u > 0.0F ? std::pow(u / bend, p) : 0.0F;
+        return u / std::pow(1.0F + over, 1.0F / p);
+      });
+  }
+};
+
+std::unique_ptr<BlockOperator> makeSaturation(const BoundEffect& effect)
+{
+  if (effect.form().name == "gradual")
+  {
+    return blockOperator(GradualSaturation{ effect.value("level"), effect.value("sharpness") });
+  }
+  const double softness = effect.value("softness");
+  if (effect.form().name == "soft")
+  {
+    return blockOperator(SoftSaturation{ effect.value("level"), softness });
+  }
+  return blockOperator(
+    [softness, levels = effect.perChannel("level")](auto response, const ColumnContext&)
     {
+      using Scalar = typename decltype(response)::Scalar;
       for (Eigen::Index j = 0; j < response.cols(); ++j)
       {
         for (Eigen::Index k = 0; k < response.rows(); ++k)
         {
-          response(k, j) =
-            static_cast<Scalar>(rounded(static_cast<double>(response(k, j)), LevelOf[k]));
+          const auto u = static_cast<double>(response(k, j));
+          response(k, j) = static_cast<Scalar>(rounded(u, levels[k], softness));
         }
       }
-      return;
-    }
-    if (Gradual)
-    {
-      if constexpr (std::is_same_v<Scalar, double>)
-      {
-        forRuns(response,
-          [this](double* values, std::size_t count)
-          { saturateGradually(Level, Sharpness, values, count); });
-        return;
-      }
-      response = response.unaryExpr(
-        [level = static_cast<Scalar>(Level), p = static_cast<Scalar>(Sharpness)](Scalar u)
-        {
-          const Scalar over = u > Scalar(0) ? std::pow(u / level, p) : Scalar(0);
-          return u / std::pow(Scalar(1) + over, Scalar(1) / p);
-        });
-      return;
-    }
-    if constexpr (std::is_same_v<Scalar, float>)
-    {
-      forRuns(response,
-        [this](float* values, std::size_t count) {
-          saturate(
-            static_cast<float>(Level), static_cast<float>(Softness * Softness), values, count);
-        });
-    }
-    else
-    {
-      // One value at a time: Eigen's packets of sqrt() and their remainders round differently.
-      response = response.unaryExpr([this](double u) { return rounded(u, Level); });
-    }
-  }
-
-private:
-  double rounded(double u, double level) const noexcept
-  {
-    const double beyond = u - level;
-    return 0.5 * (u + level - std::sqrt(beyond * beyond + Softness * Softness));
-  }
-
-  double Level;
-  Eigen::ArrayXd LevelOf; // of each channel; empty: one for all
-  bool Gradual;
-  double Softness;
-  double Sharpness;
-};
+    });
 }
 
-namespace
-{
 // Its step on image pairs.
 struct ClippingOfImage
 {
@@ -140,7 +138,7 @@ Effect saturation()
     { { "per_channel",
       { { ClippingOfImage::Clip, false, 0.0, 1.0, 0.3 },
         imageTerm(ClippingOfImage::ClipLevel, level.ofLight()) } } } };
-  effect.makeBlock = makeBlockOperator<Saturation>;
+  effect.makeBlock = makeSaturation;
   static const ImageStep step{ ImageStage::Detector,
     { { 0.0, ImageAxis::Level },
       { ClippingOfImage::NeutralLevel, ImageAxis::None, ImagePull::Found } },

@@ -2,7 +2,9 @@
 #include "Kernels/Camera/Effects/Effect.h"
 
 #include <cmath>
-#include <string>
+#include <functional>
+#include <memory>
+#include <vector>
 
 namespace msi
 {
@@ -10,94 +12,51 @@ namespace msi
 namespace
 {
 // The course of the drift over the capture time t = 0..1.
-class Course
+std::function<double(double)> courseOf(const BoundEffect& effect)
 {
-public:
-  explicit Course(const BoundEffect& effect)
-    : Name(effect.form().name)
+  const auto is = [&form = effect.form().name](const char* stem)
+  { return form.rfind(stem, 0) == 0; };
+  if (is("step") || is("offset_step"))
   {
-    const auto starts = [this](const char* stem) { return Name.rfind(stem, 0) == 0; };
-    if (starts("step") || starts("offset_step"))
+    return [place = effect.value("place"), width = effect.value("width")](double t)
     {
-      Kind = Step;
-      Place = effect.value("place");
-      Width = effect.value("width");
-    }
-    else if (starts("warm_up") || starts("settling"))
-    {
-      Kind = starts("warm_up") ? WarmUp : Settling;
-      Place = effect.value("constant");
-    }
-    else
-    {
-      Kind = Slope;
-      Place = effect.value("anchor");
-    }
+      const double s = std::fmin(std::fmax((t - place) / width + 0.5, 0.0), 1.0);
+      return s * s * (3.0 - 2.0 * s);
+    };
   }
-  double operator()(double t) const noexcept
+  if (is("warm_up"))
   {
-    switch (Kind)
-    {
-      case Step:
-      {
-        const double s = std::fmin(std::fmax((t - Place) / Width + 0.5, 0.0), 1.0);
-        return s * s * (3.0 - 2.0 * s);
-      }
-      case WarmUp:
-        return -std::expm1(-t / Place);
-      case Settling:
-        return std::exp(-t / Place);
-      case Slope:
-        break;
-    }
-    return t - Place;
+    return [constant = effect.value("constant")](double t) { return -std::expm1(-t / constant); };
   }
-
-private:
-  enum
+  if (is("settling"))
   {
-    Slope,
-    Step,
-    WarmUp,
-    Settling
-  } Kind = Slope;
-  std::string Name;
-  double Place = 0.0;
-  double Width = 0.0;
-};
+    return [constant = effect.value("constant")](double t) { return std::exp(-t / constant); };
+  }
+  return [anchor = effect.value("anchor")](double t) { return t - anchor; };
+}
 
-class SessionDrift
+std::unique_ptr<BlockOperator> makeDrift(const BoundEffect& effect)
 {
-public:
-  explicit SessionDrift(const BoundEffect& effect)
-    : Over(effect)
-    , Change(effect.perChannel("change"))
-    , Offset(effect.form().name.rfind("offset", 0) == 0)
-  {
-  }
-  template <typename Scalar>
-  void operator()(Block<Scalar> signal, const ColumnContext& columns) const noexcept
-  {
-    for (Eigen::Index j = 0; j < signal.cols(); ++j)
+  return blockOperator(
+    [courseAt = courseOf(effect), changes = ChannelValues(effect.perChannel("change")),
+      adds = effect.form().has(FormTrait::Adds)](auto signal, const ColumnContext& columns)
     {
-      const auto course = static_cast<Scalar>(Over(columns.time[j]));
-      auto u = signal.col(j).array();
-      if (Offset)
+      using Scalar = typename decltype(signal)::Scalar;
+      for (Eigen::Index j = 0; j < signal.cols(); ++j)
       {
-        u += course * Change.as<Scalar>();
+        const auto course = static_cast<Scalar>(courseAt(columns.time[j]));
+        auto u = signal.col(j).array();
+        if (adds)
+        {
+          u += course * changes.as<Scalar>();
+        }
+        else
+        {
+          u += course * changes.as<Scalar>() * u;
+        }
       }
-      else
-      {
-        u += course * Change.as<Scalar>() * u;
-      }
-    }
-  }
-
-private:
-  Course Over;
-  ChannelValues Change;
-  bool Offset;
-};
+    });
+}
 
 EffectParameter change(const char* unit)
 {
@@ -129,8 +88,7 @@ Effect sessionDrift()
   Effect effect;
   effect.definition = { "session_drift", "Session drift",
     "Lamp, detector or electronics change while samples are captured one after the other; time "
-    "runs "
-    "from 0 to 1 over the capture order.",
+    "runs from 0 to 1 over the capture order.",
     EffectStage::Detector, EffectNeed::Order,
     { { "slope", "u (1 + change (t - anchor))", { change("1"), anchor } },
       { "step", "u (1 + change) from `place` on", { change("1"), place, width }, places() },
@@ -149,7 +107,7 @@ Effect sessionDrift()
       { "offset_step", "u + change from `place` on", { change("white"), place, width }, places(),
         FormTrait::Adds } },
     Captures::InterleavedWhite };
-  effect.makeBlock = makeBlockOperator<SessionDrift>;
+  effect.makeBlock = makeDrift;
   return effect;
 }
 

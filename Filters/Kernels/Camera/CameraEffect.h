@@ -51,11 +51,18 @@ struct EffectParameter
   // channels.
   bool followsLight = false;
 
+  // The same with a number for each channel.
+  EffectParameter ofChannels() const
+  {
+    EffectParameter parameter = *this;
+    parameter.perChannel = true;
+    return parameter;
+  }
   // The same with a number for each channel, which the light makes differ.
   EffectParameter ofLight() const
   {
-    EffectParameter parameter = *this;
-    parameter.perChannel = parameter.followsLight = true;
+    EffectParameter parameter = ofChannels();
+    parameter.followsLight = true;
     return parameter;
   }
 };

@@ -61,43 +61,32 @@ private:
   ChannelValues After;
   double OfAll;
 };
-}
-
-namespace
-{
 // Its step on image pairs.
-struct CrosstalkOfImage
+double crosstalkStep(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
 {
-  static double exchange(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  const double before = pixel.previous != nullptr ? *pixel.previous - pixel.self : 0.0;
+  const double behind = pixel.next != nullptr ? *pixel.next - pixel.self : 0.0;
+  const double all = pixel.ofAll - pixel.self;
+  if (by != nullptr)
   {
-    const double before = pixel.previous != nullptr ? *pixel.previous - pixel.self : 0.0;
-    const double behind = pixel.next != nullptr ? *pixel.next - pixel.self : 0.0;
-    const double all = pixel.ofAll - pixel.self;
-    if (by != nullptr)
-    {
-      by[0] = before;
-      by[1] = behind;
-      by[2] = all;
-    }
-    signal += numbers[0] * before + numbers[1] * behind + numbers[2] * all;
-    return 1.0; // what changes the light here changes that of the neighbours much alike
+    by[0] = before;
+    by[1] = behind;
+    by[2] = all;
   }
-};
+  signal += numbers[0] * before + numbers[1] * behind + numbers[2] * all;
+  return 1.0; // what changes the light here changes that of the neighbours much alike
+}
 }
 
 Effect channelCrosstalk()
 {
-  const EffectParameter coupling{ "coupling", "1", 0.0, -0.2, 0.45, 0.01,
-    "share exchanged with each neighbour" };
-  EffectParameter previous = coupling;
-  previous.lower = 0.0;
-  previous.name = "from_previous";
-  previous.meaning = "share taken over from the channel before";
-  EffectParameter next = previous;
-  next.name = "from_next";
-  next.meaning = "share taken over from the channel behind";
-  EffectParameter all = coupling;
-  all.meaning = "share of what all channels have in common";
+  const auto share = [](const char* name, double least, const char* meaning) {
+    return EffectParameter{ name, "1", 0.0, least, 0.45, 0.01, meaning };
+  };
+  const EffectParameter previous =
+    share("from_previous", 0.0, "share taken over from the channel before");
+  const EffectParameter next = share("from_next", 0.0, "share taken over from the channel behind");
+  const EffectParameter all = share("coupling", -0.2, "share of what all channels have in common");
   Effect effect;
   effect.definition = { "channel_crosstalk", "Channel crosstalk",
     "A part of the neighbouring channels' signal: charge, lag between exposures, a mosaic's "
@@ -106,7 +95,7 @@ Effect channelCrosstalk()
     { { "symmetric",
         "u_k + c_k (u_k-1 - u_k) + c_k (u_k+1 - u_k), c_k = coupling (1 + growth x), x = -1..1 "
         "from the first channel to the last",
-        { coupling,
+        { share("coupling", -0.2, "share exchanged with each neighbour"),
           { "growth", "1", 0.0, -1.0, 1.0, 0.3, "relative growth of the coupling over the channels",
             false, true } } },
       { "one_sided", "u_k + from_previous (u_k-1 - u_k) + from_next (u_k+1 - u_k)",
@@ -119,7 +108,7 @@ Effect channelCrosstalk()
     { { "one_sided", { imageTerm(0, previous), imageTerm(1, next) } },
       { "shared", { imageTerm(2, all) } } } };
   effect.makeBlock = makeBlockOperator<ChannelCrosstalk>;
-  static const ImageStep step{ ImageStage::Exposure, { {}, {}, {} }, CrosstalkOfImage::exchange };
+  static const ImageStep step{ ImageStage::Exposure, { {}, {}, {} }, crosstalkStep };
   effect.onImage.step = &step;
   return effect;
 }

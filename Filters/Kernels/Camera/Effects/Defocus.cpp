@@ -9,14 +9,9 @@ namespace msi
 
 namespace
 {
-EffectParameter blur(bool perChannel)
+ImageTerm varianceOf(const EffectParameter& deviation)
 {
-  return { "blur", "pixels", 0.0, 0.0, 8.0, 0.5, "standard deviation", perChannel };
-}
-
-ImageTerm blurVariance(bool perChannel)
-{
-  ImageTerm term = imageTerm(0, blur(perChannel));
+  ImageTerm term = imageTerm(0, deviation);
   for (double* number : { &term.lower, &term.upper, &term.typical })
   {
     *number *= *number;
@@ -25,41 +20,37 @@ ImageTerm blurVariance(bool perChannel)
   return term;
 }
 
-// Its step on image pairs.
-struct DefocusOfImage
+// Its step on image pairs: the scene comes blurred.
+double blurStep(const double*, const ImagePixel& pixel, double&, double* by)
 {
-  // The scene comes blurred.
-  static double blurred(const double*, const ImagePixel& pixel, double&, double* by)
+  if (by != nullptr)
   {
-    if (by != nullptr)
-    {
-      by[0] = pixel.blur;
-    }
-    return 1.0;
+    by[0] = pixel.blur;
   }
+  return 1.0;
+}
 
-  static double varianceOf(const double* numbers) { return std::fmax(numbers[0], 0.0); }
-};
-
-SymmetricKernel makeBlur(const BoundEffect& effect)
+double blurVariance(const double* numbers)
 {
-  return gaussianKernel(effect.perChannel("blur"));
+  return std::fmax(numbers[0], 0.0);
 }
 }
 
 Effect defocus()
 {
+  const EffectParameter blur{ "blur", "pixels", 0.0, 0.0, 8.0, 0.5, "standard deviation" };
   Effect effect;
   effect.definition = { "defocus", "Defocus",
     "Each filter moves the focus: the channel's image is convolved with a Gaussian.",
     EffectStage::Image, EffectNeed::Nothing,
-    { { "common", "one blur for all channels", { blur(false) } },
-      { "per_channel", "a blur for each channel", { blur(true) } } },
+    { { "common", "one blur for all channels", { blur } },
+      { "per_channel", "a blur for each channel", { blur.ofChannels() } } },
     { "grid target for each filter" }, EffectTrait::ActsOnEdges,
-    { { "common", { blurVariance(false) } }, { "per_channel", { blurVariance(true) } } } };
-  effect.onImage.makeBlur = makeBlur;
-  static const ImageStep step{ ImageStage::Scene, { { 0.0, ImageAxis::Edges } },
-    DefocusOfImage::blurred, {}, nullptr, nullptr, DefocusOfImage::varianceOf };
+    { { "common", { varianceOf(blur) } }, { "per_channel", { varianceOf(blur.ofChannels()) } } } };
+  effect.onImage.makeBlur = [](const BoundEffect& bound)
+  { return gaussianKernel(bound.perChannel("blur")); };
+  static const ImageStep step{ ImageStage::Scene, { { 0.0, ImageAxis::Edges } }, blurStep, {},
+    nullptr, nullptr, blurVariance };
   effect.onImage.step = &step;
   return effect;
 }

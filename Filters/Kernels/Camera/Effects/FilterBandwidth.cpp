@@ -86,16 +86,13 @@ std::unique_ptr<ResponsivityOperator> makeBandwidth(const BoundEffect& effect)
 
 Effect filterBandwidth()
 {
-  const auto factor = [](bool perChannel)
-  {
-    return EffectParameter{ "factor", "1", 1.0, 0.3, 3.0, 0.1,
-      "real width of the passband over the nominal one", perChannel };
-  };
+  const EffectParameter factor{ "factor", "1", 1.0, 0.3, 3.0, 0.1,
+    "real width of the passband over the nominal one" };
   Effect effect;
   effect.definition = { "filter_bandwidth", "Filter bandwidth",
     "Passbands wider or narrower than the nominal ones, about their centroids.",
     EffectStage::Responsivity, EffectNeed::Nothing,
-    { { "common", "M(c + (wavelength - c) / factor), response to white kept", { factor(false) }, {},
+    { { "common", "M(c + (wavelength - c) / factor), response to white kept", { factor }, {},
         FormTrait::KeepsWhite },
       { "of_neighbours",
         "exp(added_variance / 2 D) M, D: the second derivative over the neighbouring channels, "
@@ -104,15 +101,15 @@ Effect filterBandwidth()
         { { "added_variance", "nm^2", 0.0, -200.0, 800.0, 15.0,
           "variance of the real passband beyond the nominal one" } },
         {}, FormTrait::KeepsWhite },
-      { "per_channel", "the same with a factor of its own for each channel", { factor(true) }, {},
-        FormTrait::KeepsWhite },
+      { "per_channel", "the same with a factor of its own for each channel",
+        { factor.ofChannels() }, {}, FormTrait::KeepsWhite },
       { "fixed_peak", "the same with the peak kept: the response to white grows with the width",
-        { factor(false) }, {}, FormTrait::Brightens },
+        { factor }, {}, FormTrait::Brightens },
       { OwnMiddles,
         "M(m + (wavelength - m) / factor) exp(level x added variance), m and level of each "
         "passband: a light with lines moves the centroid away from the middle, and a wider "
         "passband becomes brighter or darker in it",
-        { factor(false),
+        { factor,
           EffectParameter{ "middle", "nm", 0.0, -30.0, 30.0, 10.0,
             "from the centroid to the middle of the passband" }
             .ofLight(),

@@ -23,24 +23,21 @@ PixelOperator makeLag(const BoundEffect& effect)
 }
 
 // Its step on image pairs: a number for each form.
-struct LagOfImage
+double lagStep(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
 {
-  static double keep(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  if (pixel.previous == nullptr)
   {
-    if (pixel.previous == nullptr)
-    {
-      return 1.0;
-    }
-    const double more = *pixel.previous - pixel.self;
-    if (by != nullptr)
-    {
-      by[0] = *pixel.previous;
-      by[1] = more;
-    }
-    signal += numbers[0] * *pixel.previous + numbers[1] * more;
     return 1.0;
   }
-};
+  const double more = *pixel.previous - pixel.self;
+  if (by != nullptr)
+  {
+    by[0] = *pixel.previous;
+    by[1] = more;
+  }
+  signal += numbers[0] * *pixel.previous + numbers[1] * more;
+  return 1.0;
+}
 }
 
 Effect lag()
@@ -56,7 +53,7 @@ Effect lag()
     { "channels captured in another order" }, EffectTrait::None,
     { { "common", { imageTerm(0, retained) } }, { "conserving", { imageTerm(1, retained) } } } };
   effect.onImage.makePixels = makeLag;
-  static const ImageStep step{ ImageStage::Exposure, { {}, {} }, LagOfImage::keep };
+  static const ImageStep step{ ImageStage::Exposure, { {}, {} }, lagStep };
   effect.onImage.step = &step;
   return effect;
 }

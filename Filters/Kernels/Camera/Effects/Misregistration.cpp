@@ -53,21 +53,24 @@ struct MisregistrationOfImage
 
 Effect misregistration()
 {
-  const auto parameters = [](bool perChannel) -> std::vector<EffectParameter>
+  const std::vector<EffectParameter> common = { { "along_x", "pixels", 0.0, -20.0, 20.0, 0.5,
+                                                  "displacement in x" },
+    { "along_y", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y" },
+    { "magnification", "1", 0.0, -0.1, 0.1, 0.001, "relative growth of the image" },
+    { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
+      "turn from the axis x towards the axis y of the image" } };
+  std::vector<EffectParameter> ofChannels;
+  for (const EffectParameter& parameter : common)
   {
-    return { { "along_x", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in x", perChannel },
-      { "along_y", "pixels", 0.0, -20.0, 20.0, 0.5, "displacement in y", perChannel },
-      { "magnification", "1", 0.0, -0.1, 0.1, 0.001, "relative growth of the image", perChannel },
-      { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
-        "turn from the axis x towards the axis y of the image", perChannel } };
-  };
+    ofChannels.push_back(parameter.ofChannels());
+  }
   // The first so many numbers.
-  const auto form = [&](bool perChannel, std::size_t count) -> ImageForm
+  const auto form = [&](bool perChannel, std::size_t count)
   {
     ImageForm made{ perChannel ? "per_channel" : "common", {} };
     for (std::size_t number = 0; number < count; ++number)
     {
-      made.terms.push_back(imageTerm(number, parameters(perChannel)[number]));
+      made.terms.push_back(imageTerm(number, (perChannel ? ofChannels : common)[number]));
     }
     return made;
   };
@@ -79,8 +82,8 @@ Effect misregistration()
     EffectStage::Image, EffectNeed::Nothing,
     { { "per_channel",
         "every channel is turned and magnified about the middle of the field, then displaced",
-        parameters(true) },
-      { "common", "all channels alike", parameters(false) } },
+        ofChannels },
+      { "common", "all channels alike", common } },
     { "grid target for each filter" }, EffectTrait::ActsOnEdges,
     { form(false, 2), form(false, 4), form(true, 2), form(true, 3), form(true, 4) } };
   static const ImageStep step{ ImageStage::Scene,

@@ -3,7 +3,7 @@
 #include "Kernels/Camera/Effects/Effect.h"
 
 #include <algorithm>
-#include <cassert>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -35,13 +35,20 @@ template <typename Items>
   }
   throw std::invalid_argument(message.str());
 }
+
+// The first of that name; nullptr: there is none.
+template <typename Item>
+const Item* named(const std::vector<Item>& items, std::string_view name) noexcept
+{
+  const auto found = std::find_if(
+    items.begin(), items.end(), [name](const Item& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
 }
 
-namespace
-{
 struct Library
 {
   std::vector<Effect> effects;
+  std::vector<EffectDefinition> definitions; // of the effects
   std::vector<PlacedStep> steps;
 };
 
@@ -106,6 +113,7 @@ const Library& library()
     for (Effect& effect : made.effects)
     {
       place(effect, made.steps);
+      made.definitions.push_back(effect.definition);
     }
     return made;
   }();
@@ -125,47 +133,29 @@ const std::vector<PlacedStep>& imageSteps()
 
 const PlacedStep& stepOf(ImageParameter parameter)
 {
-  const auto& steps = imageSteps();
-  auto step = steps.begin();
-  while (step + 1 != steps.end() && (step + 1)->number <= parameter)
-  {
-    ++step;
-  }
-  return *step;
+  const auto next = std::find_if(imageSteps().begin(), imageSteps().end(),
+    [parameter](const PlacedStep& step) { return step.number > parameter; });
+  return *std::prev(next);
 }
 
 ImageParameter imageParameter(std::string_view effect, std::string_view name)
 {
+  std::vector<ImageTerm> terms;
   for (const ImageForm& form : requireEffect(effect).imageForms)
   {
-    for (const ImageTerm& term : form.terms)
-    {
-      if (term.name == name)
-      {
-        return term.parameter;
-      }
-    }
+    terms.insert(terms.end(), form.terms.begin(), form.terms.end());
   }
-  std::vector<ImageTerm> known;
-  for (const ImageForm& form : requireEffect(effect).imageForms)
+  const ImageTerm* term = named(terms, name);
+  if (term == nullptr)
   {
-    known.insert(known.end(), form.terms.begin(), form.terms.end());
+    rejectName("number of " + std::string(effect) + " in images", name, terms);
   }
-  rejectName("number of " + std::string(effect) + " in images", name, known);
+  return term->parameter;
 }
 
 const std::vector<EffectDefinition>& effectLibrary()
 {
-  static const std::vector<EffectDefinition> library = []
-  {
-    std::vector<EffectDefinition> all;
-    for (const Effect& effect : effectRegistry())
-    {
-      all.push_back(effect.definition);
-    }
-    return all;
-  }();
-  return library;
+  return library().definitions;
 }
 
 const Effect& registered(const EffectDefinition& definition)
@@ -176,21 +166,12 @@ const Effect& registered(const EffectDefinition& definition)
 
 const EffectDefinition* findEffect(std::string_view name)
 {
-  const auto& library = effectLibrary();
-  const auto found = std::find_if(library.begin(), library.end(),
-    [name](const EffectDefinition& effect) { return effect.name == name; });
-  return found == library.end() ? nullptr : &*found;
+  return named(effectLibrary(), name);
 }
 
 const EffectForm* findForm(const EffectDefinition& effect, std::string_view form) noexcept
 {
-  if (form.empty())
-  {
-    return &effect.forms.front();
-  }
-  const auto found = std::find_if(effect.forms.begin(), effect.forms.end(),
-    [form](const EffectForm& candidate) { return candidate.name == form; });
-  return found == effect.forms.end() ? nullptr : &*found;
+  return form.empty() ? &effect.forms.front() : named(effect.forms, form);
 }
 
 const EffectDefinition& requireEffect(std::string_view name)
@@ -213,31 +194,21 @@ const EffectForm& requireForm(const EffectDefinition& effect, std::string_view n
   return *form;
 }
 
-namespace
-{
-template <typename Condition>
-const EffectDefinition& firstEffect(Condition condition)
-{
-  const auto& library = effectLibrary();
-  const auto found = std::find_if(library.begin(), library.end(), condition);
-  assert(found != library.end());
-  return *found;
-}
-}
-
 const EffectDefinition& effectWith(EffectTrait::Bit trait)
 {
-  return firstEffect([trait](const EffectDefinition& effect) { return effect.has(trait); });
+  return *std::find_if(effectLibrary().begin(), effectLibrary().end(),
+    [trait](const EffectDefinition& effect) { return effect.has(trait); });
 }
 
 const EffectDefinition& effectOf(EffectStage stage)
 {
-  return firstEffect([stage](const EffectDefinition& effect) { return effect.stage == stage; });
+  return *std::find_if(effectLibrary().begin(), effectLibrary().end(),
+    [stage](const EffectDefinition& effect) { return effect.stage == stage; });
 }
 
 ImageStep stepOfLight()
 {
-  ImageStep step{ ImageStage::Light, { { 0.0, ImageAxis::Position } },
+  return { ImageStage::Light, { { 0.0, ImageAxis::Position } },
     [](const double* numbers, const ImagePixel& pixel, double& signal, double* by)
     {
       if (by != nullptr)
@@ -247,7 +218,6 @@ ImageStep stepOfLight()
       signal += numbers[0] * pixel.elsewhere;
       return 1.0;
     } };
-  return step;
 }
 
 ImageTerm imageTerm(std::size_t number, const EffectParameter& of)

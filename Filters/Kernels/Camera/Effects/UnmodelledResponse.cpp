@@ -64,24 +64,21 @@ private:
 };
 
 // Its step on image pairs: without neighbouring channels and time.
-struct RestOfImage
+double restStep(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
 {
-  static double add(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
+  const double u = signal;
+  if (by != nullptr)
   {
-    const double u = signal;
-    if (by != nullptr)
-    {
-      by[Constant] = 1.0;
-      by[Slope] = u;
-      by[Square] = u * u;
-      by[Right] = u * pixel.x;
-      by[Down] = u * pixel.y;
-    }
-    const double factor = 1.0 + numbers[Slope] + numbers[Right] * pixel.x + numbers[Down] * pixel.y;
-    signal = numbers[Constant] + u * (factor + numbers[Square] * u);
-    return factor + 2.0 * numbers[Square] * u;
+    by[Constant] = 1.0;
+    by[Slope] = u;
+    by[Square] = u * u;
+    by[Right] = u * pixel.x;
+    by[Down] = u * pixel.y;
   }
-};
+  const double factor = 1.0 + numbers[Slope] + numbers[Right] * pixel.x + numbers[Down] * pixel.y;
+  signal = numbers[Constant] + u * (factor + numbers[Square] * u);
+  return factor + 2.0 * numbers[Square] * u;
+}
 }
 
 Effect unmodelledResponse()
@@ -114,8 +111,7 @@ Effect unmodelledResponse()
       parameters } },
     { "chart with other samples" }, EffectTrait::Remainder, { ofImage } };
   effect.makeBlock = makeBlockOperator<UnmodelledResponse>;
-  static const ImageStep step{ ImageStage::Detector, std::vector<ImageNumber>(Down + 1),
-    RestOfImage::add };
+  static const ImageStep step{ ImageStage::Detector, std::vector<ImageNumber>(Down + 1), restStep };
   effect.onImage.step = &step;
   effect.afterDark = true;
   return effect;

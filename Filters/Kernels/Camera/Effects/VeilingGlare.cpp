@@ -6,11 +6,6 @@ namespace msi
 
 namespace
 {
-EffectParameter glare(bool perChannel)
-{
-  return { "fraction", "1", 0.0, 0.0, 0.5, 0.01, "share of the scene's mean signal", perChannel };
-}
-
 // Its step on image pairs.
 struct GlareOfImage
 {
@@ -36,18 +31,20 @@ struct GlareOfImage
 
 Effect veilingGlare()
 {
+  const EffectParameter fraction{ "fraction", "1", 0.0, 0.0, 0.5, 0.01,
+    "share of the scene's mean signal" };
   Effect effect;
   effect.definition = { "veiling_glare", "Veiling glare",
     "Light scattered in the lens covers the whole field in proportion to the scene's mean.",
     EffectStage::Irradiance, EffectNeed::Nothing,
-    { { "common", "u + fraction (mean of the scene)", { glare(false) } },
-      { "conserving", "u + fraction (mean of the scene - u)", { glare(false) } },
+    { { "common", "u + fraction (mean of the scene)", { fraction } },
+      { "conserving", "u + fraction (mean of the scene - u)", { fraction } },
       { "per_channel", "u + fraction (mean of the scene), a fraction for each channel",
-        { glare(true) } } },
+        { fraction.ofChannels() } } },
     Captures::BlackTrap, EffectTrait::None,
-    { { "common", { imageTerm(GlareOfImage::Added, glare(false)) } },
-      { "conserving", { imageTerm(GlareOfImage::Conserving, glare(false)) } },
-      { "per_channel", { imageTerm(GlareOfImage::Added, glare(true)) } } } };
+    { { "common", { imageTerm(GlareOfImage::Added, fraction) } },
+      { "conserving", { imageTerm(GlareOfImage::Conserving, fraction) } },
+      { "per_channel", { imageTerm(GlareOfImage::Added, fraction.ofChannels()) } } } };
   effect.makeStrayLight = [](const BoundEffect& bound)
   { return StrayLight(bound.perChannel("fraction"), bound.form().name != "conserving"); };
   static const ImageStep step{ ImageStage::Light, { {}, {} }, GlareOfImage::cover };

@@ -12,7 +12,7 @@
 #include "Formats/EffectList.h"
 #include "Formats/GapReportText.h"
 #include "Kernels/Camera/CameraEffect.h"
-#include "Kernels/Camera/CameraResponse.h"
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Gap/GapProfile.h"
 #include "Kernels/Spectra/Interpolation.h"
 

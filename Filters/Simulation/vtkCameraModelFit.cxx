@@ -9,8 +9,8 @@
 #include "vtkTable.h"
 
 #include "Formats/EffectList.h"
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/CameraModelFit.h"
-#include "Kernels/Camera/CameraResampling.h"
 
 #include <cstdint>
 #include <stdexcept>

@@ -22,7 +22,7 @@
 
 #include "Formats/EffectList.h"
 
-#include "Kernels/Camera/CameraResampling.h"
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/CameraSimulator.h"
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 #include "Kernels/Spectra/PossibleValues.h"

@@ -7,7 +7,7 @@
 #include "Support/vtk/Tables.h"
 
 #include "Kernels/Camera/CameraDesign.h"
-#include "Kernels/Camera/CameraResponse.h"
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
 #include <cmath>

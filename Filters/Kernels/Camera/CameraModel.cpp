@@ -1,5 +1,6 @@
 #include "Kernels/Camera/CameraModel.h"
 
+#include "Kernels/Spectra/Interpolation.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <cmath>
@@ -80,6 +81,28 @@ CameraModel CameraModel::with(Eigen::MatrixXd responsivity, Eigen::VectorXd dark
 Eigen::VectorXd CameraModel::centroids() const
 {
   return (Responsivity * Grid.vector()).cwiseQuotient(whiteResponse());
+}
+
+CameraModel resampled(const CameraModel& camera, const WavelengthGrid& wavelengths)
+{
+  if (wavelengths == camera.wavelengths())
+  {
+    return camera;
+  }
+  return { wavelengths, camera.responsivity() * resamplingMatrix(wavelengths, camera.wavelengths()),
+    camera.dark(), camera.channels() };
+}
+
+AffineTransform cameraResponse(const Eigen::MatrixXd& responsivity, const Eigen::VectorXd& dark)
+{
+  Eigen::MatrixXd coefficients(responsivity.rows(), responsivity.cols() + 1);
+  coefficients << responsivity, dark;
+  return AffineTransform(std::move(coefficients));
+}
+
+AffineTransform cameraResponse(const CameraModel& camera)
+{
+  return cameraResponse(camera.responsivity(), camera.dark());
 }
 
 } // namespace msi

@@ -1,6 +1,7 @@
 // A multispectral camera as numbers: spectral responsivity, dark response, channel names.
 #pragma once
 
+#include "Kernels/Numerics/AffineTransform.h"
 #include "Kernels/Spectra/WavelengthGrid.h"
 
 #include <Eigen/Core>
@@ -52,5 +53,15 @@ private:
   Eigen::VectorXd Dark;
   std::vector<std::string> Channels;
 };
+
+// The camera M T with T = resamplingMatrix(wavelengths, camera's grid): it answers to a spectrum on `wavelengths` as
+// the given camera answers to that spectrum interpolated to its own grid. The response to white is kept.
+// Errors: as resamplingMatrix.
+CameraModel resampled(const CameraModel& camera, const WavelengthGrid& wavelengths);
+
+// The ideal response u = M r + b, no noise and no unmodelled effect, from N reflectances to K responses a column.
+// A response's bytes depend on its own reflectance alone; accuracy and cost as stated for AffineTransform.
+AffineTransform cameraResponse(const Eigen::MatrixXd& responsivity, const Eigen::VectorXd& dark);
+AffineTransform cameraResponse(const CameraModel& camera);
 
 } // namespace msi

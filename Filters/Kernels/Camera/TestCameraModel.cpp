@@ -1,5 +1,4 @@
 #include "Kernels/Camera/CameraModel.h"
-#include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Camera/CameraTestData.h"
 
 #include <gtest/gtest.h>
@@ -82,6 +81,31 @@ TEST(CameraModel, CentroidIsTheWeightedMeanWavelength)
 {
   EXPECT_NEAR(camera().centroids()[0], (400.0 + 2.0 * 500.0) / 3.0, 1e-12);
   EXPECT_NEAR(camera().centroids()[1], (0.5 * 500.0 + 0.25 * 600.0) / 0.75, 1e-12);
+}
+
+TEST(CameraModel, ResampledOnItsOwnGridItIsTheSame)
+{
+  const msi::CameraModel seven = msi::test::sevenChannels();
+  EXPECT_EQ(resampled(seven, msi::test::visibleGrid()).responsivity(), seven.responsivity());
+}
+
+// Sprague's interpolation is exact for straight lines, and beyond the ends no line is asked for here.
+TEST(CameraModel, ResampledItAnswersToAStraightLineAsBefore)
+{
+  const msi::CameraModel seven = msi::test::sevenChannels();
+  for (const double step : { 5.0, 20.0 })
+  {
+    const auto grid = msi::WavelengthGrid::uniform(400.0, 700.0, step);
+    const msi::CameraModel other = resampled(seven, grid);
+    ASSERT_EQ(other.wavelengths(), grid);
+    const auto line = [](const msi::WavelengthGrid& at)
+    { return Eigen::VectorXd((at.vector().array() - 300.0) / 500.0); };
+    const Eigen::VectorXd expected = seven.responsivity() * line(seven.wavelengths());
+    EXPECT_LT((other.responsivity() * line(grid) - expected).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((other.whiteResponse() - seven.whiteResponse()).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_EQ(other.dark(), seven.dark());
+    EXPECT_EQ(other.channels(), seven.channels());
+  }
 }
 
 TEST(CameraResponse, IsTheSumOverWavelengthsPlusDark)

@@ -1,5 +1,5 @@
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/CameraModelFit.h"
-#include "Kernels/Camera/CameraResponse.h"
 #include "Kernels/Camera/CameraTestData.h"
 
 #include <gtest/gtest.h>

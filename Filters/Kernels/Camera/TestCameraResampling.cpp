@@ -1,4 +1,4 @@
-#include "Kernels/Camera/CameraResampling.h"
+#include "Kernels/Camera/CameraModel.h"
 
 #include "Kernels/Camera/CameraTestData.h"
 

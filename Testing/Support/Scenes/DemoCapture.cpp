@@ -4,7 +4,7 @@
 #include "Kernels/Scenes/Measuring.h"
 #include "Kernels/Scenes/Samples.h"
 
-#include "Kernels/Camera/CameraResponse.h"
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
 #include <algorithm>

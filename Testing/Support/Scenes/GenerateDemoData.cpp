@@ -8,8 +8,8 @@
 #include "Kernels/Scenes/SampleBook.h"
 #include "Kernels/Scenes/Samples.h"
 
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/CameraNoise.h"
-#include "Kernels/Camera/CameraResponse.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "Kernels/Camera/Effects/EffectChain.h"
 
-#include "Kernels/Camera/CameraResponse.h"
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Spectra/Reject.h"
 

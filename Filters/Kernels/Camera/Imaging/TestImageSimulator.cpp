@@ -1,4 +1,4 @@
-#include "Kernels/Camera/CameraResponse.h"
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/CameraTestData.h"
 #include "Kernels/Camera/Imaging/ImageSimulator.h"
 

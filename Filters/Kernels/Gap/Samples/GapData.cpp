@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Samples/GapData.h"
 
-#include "Kernels/Camera/CameraResponse.h"
+#include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Numerics/CounterRandom.h"

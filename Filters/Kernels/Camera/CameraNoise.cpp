@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace msi
@@ -25,12 +24,10 @@ constexpr Eigen::Index ChunkValues = 4096;
 
 // The nearest whole number, halves to even: what std::nearbyint does, without a call. Larger values than a
 // mantissa holds are whole already.
-template <typename Scalar>
-Scalar nearest(Scalar value) noexcept
+double nearest(double value) noexcept
 {
-  constexpr Scalar Shift =
-    Scalar(3) * (Scalar(1) / std::numeric_limits<Scalar>::epsilon()) / Scalar(2);
-  return std::abs(value) < Shift / Scalar(4) ? (value + Shift) - Shift : value;
+  constexpr double Shift = 0x1.8p52;
+  return std::abs(value) < Shift / 4.0 ? (value + Shift) - Shift : value;
 }
 
 void requireNotNegative(const char* name, double value)
@@ -59,9 +56,9 @@ CameraNoise fittedNoise(
 }
 
 // Value number i of the chunk is number firstIndex + i of its streams.
-template <>
-void NoiseGenerator::addToChunk<Eigen::MatrixXf>(Eigen::Ref<Eigen::MatrixXf> response,
-  Eigen::Index firstChannel, std::uint64_t firstIndex, std::uint32_t exposure) const noexcept
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref that is written through
+void NoiseGenerator::addToChunk(Eigen::Ref<Eigen::MatrixXf> response, Eigen::Index firstChannel,
+  std::uint64_t firstIndex, std::uint32_t exposure) const noexcept
 {
   using Chunk = std::array<float, ChunkValues>;
   Chunk gain;
@@ -116,50 +113,43 @@ void NoiseGenerator::addToChunk<Eigen::MatrixXf>(Eigen::Ref<Eigen::MatrixXf> res
   }
 }
 
-template <typename Matrix>
-void NoiseGenerator::addToChunk(Eigen::Ref<Matrix> response, Eigen::Index firstChannel,
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref that is written through
+void NoiseGenerator::addToChunk(Eigen::Ref<Eigen::MatrixXd> response, Eigen::Index firstChannel,
   std::uint64_t firstIndex, std::uint32_t exposure) const noexcept
 {
-  using Scalar = typename Matrix::Scalar;
-  using Deviates = Eigen::Map<Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic>>;
   std::array<float, ChunkValues> memory;
   const auto count = static_cast<std::size_t>(response.size());
   const auto draw = [&](std::uint32_t stream)
   {
     CounterRandom(Seed, stream).normals(firstIndex, memory.data(), count);
-    return Deviates(memory.data(), response.rows(), response.cols()).template cast<Scalar>();
+    return Eigen::Map<Eigen::ArrayXXf>(memory.data(), response.rows(), response.cols())
+      .cast<double>();
   };
   if (Noise.fixedPatternGain > 0.0)
   {
-    const auto gain = static_cast<Scalar>(Noise.fixedPatternGain);
-    response.array() *= Scalar(1) + gain * draw(GainPatternStream);
+    response.array() *= 1.0 + Noise.fixedPatternGain * draw(GainPatternStream);
   }
   if (Noise.fixedPatternOffset > 0.0)
   {
-    response.array() += static_cast<Scalar>(Noise.fixedPatternOffset) * draw(OffsetPatternStream);
+    response.array() += Noise.fixedPatternOffset * draw(OffsetPatternStream);
   }
   if (Noise.read > 0.0 || Noise.shot > 0.0)
   {
     const auto deviates = draw(FirstExposureStream + exposure);
-    const auto read2 = static_cast<Scalar>(Noise.read * Noise.read);
-    const auto shot2 = static_cast<Scalar>(Noise.shot * Noise.shot);
     for (Eigen::Index j = 0; j < response.cols(); ++j)
     {
       for (Eigen::Index k = 0; k < response.rows(); ++k)
       {
-        const Scalar u = response(k, j);
-        const Scalar deviation = std::sqrt(read2 + shot2 * (u > Scalar(0) ? u : Scalar(0)));
-        const Scalar factor = DeviationFactor.size() == 0
-          ? Scalar(1)
-          : static_cast<Scalar>(DeviationFactor[firstChannel + k]);
-        response(k, j) = u + factor * deviation * deviates(k, j);
+        const double u = response(k, j);
+        const double factor = DeviationFactor.size() == 0 ? 1.0 : DeviationFactor[firstChannel + k];
+        response(k, j) = u + factor * std::sqrt(noiseVariance(Noise, u)) * deviates(k, j);
       }
     }
   }
   if (Noise.quantisationStep > 0.0)
   {
-    const auto step = static_cast<Scalar>(Noise.quantisationStep);
-    response = response.unaryExpr([step](Scalar u) { return step * nearest(u / step); });
+    const double step = Noise.quantisationStep;
+    response = response.unaryExpr([step](double u) { return step * nearest(u / step); });
   }
 }
 
@@ -178,8 +168,8 @@ void NoiseGenerator::add(
       const std::uint64_t index =
         (firstColumn + static_cast<std::uint64_t>(j)) * static_cast<std::uint64_t>(channels) +
         static_cast<std::uint64_t>(k);
-      addToChunk<Matrix>(
-        response.block(k, j, std::min(rows, channels - k), std::min(columns, response.cols() - j)),
+      addToChunk(Eigen::Ref<Matrix>(response.block(
+                   k, j, std::min(rows, channels - k), std::min(columns, response.cols() - j))),
         k, index, exposure);
     }
   }

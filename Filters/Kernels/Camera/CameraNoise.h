@@ -46,7 +46,6 @@ public:
   void operator()(Eigen::Ref<Eigen::MatrixXf> response, std::uint64_t firstColumn,
     std::uint32_t exposure = 0) const noexcept;
 
-  const CameraNoise& noise() const noexcept { return Noise; }
   // Temporal variance of one exposure.
   double variance(Eigen::Index channel, double response) const noexcept;
 
@@ -54,9 +53,10 @@ private:
   template <typename Matrix>
   void add(
     Eigen::Ref<Matrix> response, std::uint64_t firstColumn, std::uint32_t exposure) const noexcept;
-  template <typename Matrix>
-  void addToChunk(Eigen::Ref<Matrix> response, Eigen::Index firstChannel, std::uint64_t firstIndex,
-    std::uint32_t exposure) const noexcept;
+  void addToChunk(Eigen::Ref<Eigen::MatrixXd> response, Eigen::Index firstChannel,
+    std::uint64_t firstIndex, std::uint32_t exposure) const noexcept;
+  void addToChunk(Eigen::Ref<Eigen::MatrixXf> response, Eigen::Index firstChannel,
+    std::uint64_t firstIndex, std::uint32_t exposure) const noexcept;
 
   CameraNoise Noise;
   std::uint64_t Seed;

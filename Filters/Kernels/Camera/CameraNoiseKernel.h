@@ -20,7 +20,7 @@ struct NoiseTerms
   float step = 0.0F;
 };
 
-// In place. SIMD chosen at run time (Highway); the bytes of the generic code in CameraNoise.cpp.
+// In place. SIMD chosen at run time (Highway); what CameraNoise.cpp does in double precision.
 void addNoise(const NoiseTerms& terms, float* values, std::size_t count) noexcept;
 
 } // namespace msi

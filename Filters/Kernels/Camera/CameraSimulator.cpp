@@ -24,16 +24,6 @@ CameraSimulator::~CameraSimulator() = default;
 CameraSimulator::CameraSimulator(CameraSimulator&&) noexcept = default;
 CameraSimulator& CameraSimulator::operator=(CameraSimulator&&) noexcept = default;
 
-const CameraModel& CameraSimulator::camera() const noexcept
-{
-  return Self->Chain.camera();
-}
-
-const std::vector<CameraEffect>& CameraSimulator::effects() const noexcept
-{
-  return Self->Chain.effects();
-}
-
 const Eigen::MatrixXd& CameraSimulator::effectiveResponsivity() const noexcept
 {
   return Self->Chain.responsivity();
@@ -52,21 +42,6 @@ Eigen::MatrixXd CameraSimulator::respond(const SampleScene& scene) const
 NoiseGenerator CameraSimulator::noiseGenerator(const CameraNoise& noise, std::uint64_t seed) const
 {
   return Self->Chain.noiseGenerator(noise, seed);
-}
-
-Eigen::MatrixXd CameraSimulator::variance(
-  const CameraNoise& noise, const Eigen::MatrixXd& response) const
-{
-  const NoiseGenerator generator = noiseGenerator(noise, 0);
-  Eigen::MatrixXd variance(response.rows(), response.cols());
-  for (Eigen::Index j = 0; j < response.cols(); ++j)
-  {
-    for (Eigen::Index k = 0; k < response.rows(); ++k)
-    {
-      variance(k, j) = generator.variance(k, response(k, j));
-    }
-  }
-  return variance;
 }
 
 } // namespace msi

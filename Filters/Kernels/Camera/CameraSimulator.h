@@ -39,8 +39,6 @@ public:
   CameraSimulator(CameraSimulator&&) noexcept;
   CameraSimulator& operator=(CameraSimulator&&) noexcept;
 
-  const CameraModel& camera() const noexcept;
-  const std::vector<CameraEffect>& effects() const noexcept;
   // The responsivity with the lamp and filter effects in it, K x N.
   const Eigen::MatrixXd& effectiveResponsivity() const noexcept;
 
@@ -49,8 +47,6 @@ public:
 
   // The noise of this camera: `noise` with the effect excess_noise in it.
   NoiseGenerator noiseGenerator(const CameraNoise& noise, std::uint64_t seed) const;
-  // Variance of one exposure, K x S, at these noise-free responses.
-  Eigen::MatrixXd variance(const CameraNoise& noise, const Eigen::MatrixXd& response) const;
 
 private:
   struct Implementation;

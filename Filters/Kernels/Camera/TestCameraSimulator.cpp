@@ -295,14 +295,14 @@ TEST(CameraSimulator, ExcessNoiseChangesTheVarianceOnly)
   msi::CameraNoise noise;
   noise.read = 0.002;
   noise.shot = 0.01;
-  const Eigen::MatrixXd response = Eigen::MatrixXd::Constant(7, 2, 0.25);
-  const double plain = 0.002 * 0.002 + 0.01 * 0.01 * 0.25;
+  const double response = 0.25;
+  const double plain = 0.002 * 0.002 + 0.01 * 0.01 * response;
   const CameraSimulator ideal(sevenChannels(), {});
-  EXPECT_DOUBLE_EQ(ideal.variance(noise, response)(3, 1), plain);
+  EXPECT_DOUBLE_EQ(ideal.noiseGenerator(noise, 0).variance(3, response), plain);
   const CameraSimulator factor(sevenChannels(), { { "excess_noise", "", "", { 3.0 } } });
-  EXPECT_DOUBLE_EQ(factor.variance(noise, response)(3, 1), 9.0 * plain);
+  EXPECT_DOUBLE_EQ(factor.noiseGenerator(noise, 0).variance(3, response), 9.0 * plain);
   const CameraSimulator added(sevenChannels(), { { "excess_noise", "added", "", { 0.004 } } });
-  EXPECT_DOUBLE_EQ(added.variance(noise, response)(3, 1), plain + 0.004 * 0.004);
+  EXPECT_DOUBLE_EQ(added.noiseGenerator(noise, 0).variance(3, response), plain + 0.004 * 0.004);
 }
 
 }

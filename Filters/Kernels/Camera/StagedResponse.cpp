@@ -117,13 +117,12 @@ void StagedResponse::reflectAndIntegrate(const SceneRun& run, const StagedRespon
     return;
   }
   const std::vector<Eigen::Index> samples = samplesIn(media, *Chain, *Scene);
-  const SceneRun some(*Chain, *Scene, samples);
   if (alike)
   {
-    Integral = withColumns(related->Integral, samples, some.integral());
+    Integral = withColumns(related->Integral, samples, run.integral(run.reflected(samples)));
     return;
   }
-  Reflected = related->Reflected ? withColumns(related->Reflected, samples, some.reflected())
+  Reflected = related->Reflected ? withColumns(related->Reflected, samples, run.reflected(samples))
                                  : keep(run.reflected());
   Integral = keep(run.integral(*Reflected));
 }

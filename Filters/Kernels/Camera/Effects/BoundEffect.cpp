@@ -2,28 +2,22 @@
 
 #include "Kernels/Spectra/Reject.h"
 
-#include <cassert>
-#include <cmath>
-
 namespace msi
 {
 
 namespace
 {
 constexpr double BoundTolerance = 0.01;
-
 }
 
 BoundEffect::BoundEffect(const CameraEffect& effect, const CameraModel& camera, int medium)
-  : Definition(nullptr)
-  , Form(nullptr)
+  : Definition(&requireEffect(effect.name))
+  , Form(&requireForm(*Definition, effect.form))
   , Camera(&camera)
   , Values(effect.parameters)
   , Medium(medium)
   , Neutral(true)
 {
-  Definition = &requireEffect(effect.name);
-  Form = &requireForm(*Definition, effect.form);
   const bool needsMedium = Definition->need == EffectNeed::Medium;
   if (needsMedium && effect.medium.empty())
   {
@@ -66,36 +60,32 @@ std::size_t BoundEffect::countOf(const EffectParameter& parameter) const noexcep
   return parameter.perChannel ? Camera->channels().size() : 1;
 }
 
-std::size_t BoundEffect::offsetOf(std::string_view parameter, bool& perChannel) const
+Eigen::Map<const Eigen::ArrayXd> BoundEffect::valuesOf(std::string_view parameter) const
 {
   std::size_t offset = 0;
   for (const EffectParameter& candidate : Form->parameters)
   {
+    const std::size_t count = countOf(candidate);
     if (candidate.name == parameter)
     {
-      perChannel = candidate.perChannel;
-      return offset;
+      return { Values.data() + offset, static_cast<Eigen::Index>(count) };
     }
-    offset += countOf(candidate);
+    offset += count;
   }
   reject("the form ", Form->name, " of ", Definition->name, " has no parameter ", parameter);
 }
 
 double BoundEffect::value(std::string_view parameter) const
 {
-  bool spread = false;
-  return Values[offsetOf(parameter, spread)];
+  return valuesOf(parameter)[0];
 }
 
 Eigen::ArrayXd BoundEffect::perChannel(std::string_view parameter) const
 {
-  bool spread = false;
-  const std::size_t offset = offsetOf(parameter, spread);
-  if (!spread)
-  {
-    return Eigen::ArrayXd::Constant(Camera->channelCount(), Values[offset]);
-  }
-  return Eigen::Map<const Eigen::ArrayXd>(Values.data() + offset, Camera->channelCount());
+  const auto values = valuesOf(parameter);
+  return values.size() == 1
+    ? Eigen::ArrayXd(Eigen::ArrayXd::Constant(Camera->channelCount(), values[0]))
+    : Eigen::ArrayXd(values);
 }
 
 } // namespace msi

@@ -34,7 +34,7 @@ public:
 
 private:
   std::size_t countOf(const EffectParameter& parameter) const noexcept; // of its values
-  std::size_t offsetOf(std::string_view parameter, bool& perChannel) const;
+  Eigen::Map<const Eigen::ArrayXd> valuesOf(std::string_view parameter) const;
 
   const EffectDefinition* Definition;
   const EffectForm* Form;

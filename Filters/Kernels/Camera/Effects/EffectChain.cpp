@@ -11,15 +11,6 @@
 namespace msi
 {
 
-namespace
-{
-[[noreturn]] void rejectTwice(const CameraEffect& effect)
-{
-  reject("the camera effect ", effect.name, " is given twice",
-    effect.medium.empty() ? "" : " for medium '" + effect.medium + "'", "; give it once");
-}
-}
-
 EffectChain::EffectChain(
   CameraModel camera, std::vector<CameraEffect> effects, bool whiteAfterEffects)
   : Camera(std::make_shared<const CameraModel>(std::move(camera)))
@@ -53,19 +44,20 @@ void EffectChain::build(const EffectChain* related)
   std::stable_sort(Steps.begin(), Steps.end(),
     [](const Step& a, const Step& b)
     {
-      return std::make_pair(a.definition, !a.form->has(FormTrait::BesideLine)) <
-        std::make_pair(b.definition, !b.form->has(FormTrait::BesideLine));
+      return std::make_pair(&a.bound.definition(), !a.bound.form().has(FormTrait::BesideLine)) <
+        std::make_pair(&b.bound.definition(), !b.bound.form().has(FormTrait::BesideLine));
     });
   requireOnce();
   for (const Step& step : Steps)
   {
-    if (!step.neutral)
+    if (!step.bound.isNeutral())
     {
       place(step);
     }
   }
   const bool onImage = std::any_of(Steps.begin(), Steps.end(),
-    [](const Step& step) { return !step.neutral && step.definition->stage == EffectStage::Image; });
+    [](const Step& step)
+    { return !step.bound.isNeutral() && step.bound.definition().stage == EffectStage::Image; });
   DarkInIntegral =
     OnIrradiance.empty() && BeforeDark.empty() && !VeilingGlare && !LocalStrayLight && !onImage;
 
@@ -102,10 +94,8 @@ EffectChain::Step EffectChain::bind(std::size_t effect)
   const std::string& name = Effects[effect].medium;
   const bool newMedium = !name.empty() && mediumNumber(name) < 0;
   const int medium = newMedium ? static_cast<int>(Media.size()) : mediumNumber(name);
-  const BoundEffect bound(Effects[effect], *Camera, medium);
-  Step step{ effect, &bound.definition(), &bound.form(), bound.isNeutral(), medium, nullptr,
-    nullptr, nullptr };
-  if (step.neutral)
+  Step step{ effect, BoundEffect(Effects[effect], *Camera, medium), nullptr, nullptr, nullptr };
+  if (step.bound.isNeutral())
   {
     return step;
   }
@@ -113,18 +103,19 @@ EffectChain::Step EffectChain::bind(std::size_t effect)
   {
     Media.push_back(name);
   }
-  const Effect& effectOperators = registered(bound.definition());
+  const Effect& effectOperators = registered(step.bound.definition());
   if (effectOperators.makeResponsivity != nullptr)
   {
-    step.onResponsivity = effectOperators.makeResponsivity(bound);
+    step.onResponsivity = effectOperators.makeResponsivity(step.bound);
   }
   if (effectOperators.makeBlock != nullptr)
   {
-    step.onBlock = effectOperators.makeBlock(bound);
+    step.onBlock = effectOperators.makeBlock(step.bound);
   }
   if (effectOperators.makeStrayLight != nullptr)
   {
-    step.strayLight = std::make_shared<const StrayLight>(effectOperators.makeStrayLight(bound));
+    step.strayLight =
+      std::make_shared<const StrayLight>(effectOperators.makeStrayLight(step.bound));
   }
   return step;
 }
@@ -149,22 +140,24 @@ void EffectChain::requireOnce() const
     const bool twice = std::any_of(Steps.begin(), step,
       [&](const Step& other)
       {
-        return other.definition == step->definition &&
-          other.form->has(FormTrait::BesideLine) == step->form->has(FormTrait::BesideLine) &&
+        return &other.bound.definition() == &step->bound.definition() &&
+          other.bound.form().has(FormTrait::BesideLine) ==
+          step->bound.form().has(FormTrait::BesideLine) &&
           Effects[other.effect].medium == mine.medium;
       });
     if (twice)
     {
-      rejectTwice(mine);
+      reject("the camera effect ", mine.name, " is given twice",
+        mine.medium.empty() ? "" : " for medium '" + mine.medium + "'", "; give it once");
     }
   }
 }
 
 void EffectChain::place(const Step& step)
 {
-  const EffectDefinition& definition = *step.definition;
-  NeedsPosition =
-    NeedsPosition || definition.need == EffectNeed::Position || step.form->has(FormTrait::OfField);
+  const EffectDefinition& definition = step.bound.definition();
+  NeedsPosition = NeedsPosition || definition.need == EffectNeed::Position ||
+    step.bound.form().has(FormTrait::OfField);
   NeedsOrder = NeedsOrder || definition.need == EffectNeed::Order;
   if (step.onResponsivity)
   {
@@ -208,10 +201,10 @@ std::vector<int> EffectChain::mediaReflectedOtherwise(const EffectChain& related
     for (const Step& step : here.Steps)
     {
       const auto& others = there.OnReflectance;
-      if (step.definition->stage == EffectStage::Reflectance && step.onBlock &&
+      if (step.bound.definition().stage == EffectStage::Reflectance && step.onBlock &&
         std::find(others.begin(), others.end(), step.onBlock) == others.end())
       {
-        media.push_back(step.medium);
+        media.push_back(step.bound.medium());
       }
     }
   };
@@ -248,9 +241,9 @@ std::vector<BoundEffect> EffectChain::active() const
   std::vector<BoundEffect> bound;
   for (const Step& step : Steps)
   {
-    if (!step.neutral)
+    if (!step.bound.isNeutral())
     {
-      bound.emplace_back(Effects[step.effect], *Camera, step.medium);
+      bound.push_back(step.bound);
     }
   }
   return bound;

@@ -29,7 +29,6 @@ public:
     const EffectChain& related, std::vector<CameraEffect> effects, bool whiteAfterEffects);
 
   const CameraModel& camera() const noexcept { return *Camera; }
-  const std::vector<CameraEffect>& effects() const noexcept { return Effects; }
   const Eigen::MatrixXd& responsivity() const noexcept { return *Responsivity; }
 
   // The media that effects act on: ColumnContext::medium counts in this list.
@@ -100,10 +99,7 @@ private:
   struct Step
   {
     std::size_t effect; // in Effects
-    const EffectDefinition* definition;
-    const EffectForm* form;
-    bool neutral;
-    int medium; // -1: all
+    BoundEffect bound;
     Shared<ResponsivityOperator> onResponsivity;
     Shared<BlockOperator> onBlock;
     Shared<StrayLight> strayLight;

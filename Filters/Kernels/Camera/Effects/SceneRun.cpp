@@ -69,59 +69,24 @@ std::vector<char> finiteIn(const Eigen::MatrixXd& signal)
   }
   return finite;
 }
-
-// The chain's number of each medium of the scene.
-std::vector<int> mediaIn(const EffectChain& chain, const SampleScene& scene)
-{
-  std::vector<int> numbers;
-  for (const std::string& medium : scene.media())
-  {
-    numbers.push_back(chain.mediumNumber(medium));
-  }
-  return numbers;
-}
-
-// Those chosen of one value a sample; empty where not known.
-Eigen::VectorXd chosen(const Eigen::VectorXd& values, const std::vector<Eigen::Index>& samples)
-{
-  return values.size() > 0 ? Eigen::VectorXd(values(samples)) : Eigen::VectorXd();
-}
 }
 
 SceneRun::SceneRun(const EffectChain& chain, const SampleScene& scene)
   : Chain(chain)
   , Scene(scene)
-  , All(true)
 {
   require();
   if (chain.needsMedium())
   {
-    const std::vector<int> known = mediaIn(chain, scene);
-    Medium.reserve(scene.medium().size());
+    std::vector<int> known; // the chain's number of each medium of the scene
+    for (const std::string& medium : scene.media())
+    {
+      known.push_back(chain.mediumNumber(medium));
+    }
     for (const int medium : scene.medium())
     {
       Medium.push_back(known[static_cast<std::size_t>(medium)]);
     }
-  }
-}
-
-SceneRun::SceneRun(
-  const EffectChain& chain, const SampleScene& scene, std::vector<Eigen::Index> samples)
-  : Chain(chain)
-  , Scene(scene)
-  , All(false)
-  , Samples(std::move(samples))
-  , FieldX(chosen(scene.fieldX(), Samples))
-  , FieldY(chosen(scene.fieldY(), Samples))
-  , Time(chosen(scene.time(), Samples))
-{
-  require();
-  const std::vector<int> known = mediaIn(chain, scene);
-  Medium.reserve(Samples.size());
-  for (const Eigen::Index sample : Samples)
-  {
-    Medium.push_back(
-      known[static_cast<std::size_t>(scene.medium()[static_cast<std::size_t>(sample)])]);
   }
 }
 
@@ -153,14 +118,12 @@ void SceneRun::require() const
 
 ColumnContext SceneRun::columns() const noexcept
 {
-  return { Medium.data(), All ? Scene.fieldX().data() : FieldX.data(),
-    All ? Scene.fieldY().data() : FieldY.data(), All ? Scene.time().data() : Time.data() };
+  return { Medium.data(), Scene.fieldX().data(), Scene.fieldY().data(), Scene.time().data() };
 }
 
 Eigen::MatrixXd SceneRun::reflected() const
 {
-  Eigen::MatrixXd reflectance =
-    All ? Scene.reflectance() : Eigen::MatrixXd(Scene.reflectance()(Eigen::all, Samples));
+  Eigen::MatrixXd reflectance = Scene.reflectance();
   if (Chain.needsMedium())
   {
     Chain.reflect<double>(reflectance, columns());
@@ -168,9 +131,24 @@ Eigen::MatrixXd SceneRun::reflected() const
   return reflectance;
 }
 
+Eigen::MatrixXd SceneRun::reflected(const std::vector<Eigen::Index>& samples) const
+{
+  Eigen::MatrixXd reflectance = Scene.reflectance()(Eigen::all, samples);
+  if (Chain.needsMedium())
+  {
+    std::vector<int> medium;
+    for (const Eigen::Index sample : samples)
+    {
+      medium.push_back(Medium[static_cast<std::size_t>(sample)]);
+    }
+    Chain.reflect<double>(reflectance, { medium.data() }); // all that it asks for
+  }
+  return reflectance;
+}
+
 Eigen::MatrixXd SceneRun::integral() const
 {
-  return All && !Chain.needsMedium() ? integral(Scene.reflectance()) : integral(reflected());
+  return Chain.needsMedium() ? integral(reflected()) : integral(Scene.reflectance());
 }
 
 Eigen::MatrixXd SceneRun::integral(const Eigen::MatrixXd& reflected) const

@@ -13,19 +13,19 @@
 namespace msi
 {
 
-// Shapes: N wavelengths, K channels, P samples: those of the scene, or those chosen, in their order.
+// Shapes: N wavelengths, K channels, S samples of the scene, P of them.
 // Both are referred to, not copied.
 class SceneRun
 {
 public:
   // Errors: std::invalid_argument for a scene on another grid or without what an effect needs.
   SceneRun(const EffectChain& chain, const SampleScene& scene);
-  // Of these samples alone; illuminate() is not for them, stray light needs all.
-  SceneRun(const EffectChain& chain, const SampleScene& scene, std::vector<Eigen::Index> samples);
 
-  Eigen::MatrixXd reflected() const; // N x P
-  Eigen::MatrixXd integral() const;  // K x P
-  Eigen::MatrixXd integral(const Eigen::MatrixXd& reflected) const;
+  Eigen::MatrixXd reflected() const; // N x S
+  Eigen::MatrixXd reflected(
+    const std::vector<Eigen::Index>& samples) const;                // N x P, of these alone
+  Eigen::MatrixXd integral() const;                                 // K x S
+  Eigen::MatrixXd integral(const Eigen::MatrixXd& reflected) const; // K x P
   // With stray light and glare. tail: weights to use where they fit; those that were used.
   void illuminate(Eigen::MatrixXd& signal, std::shared_ptr<const TailWeights>& tail) const;
   void detect(Eigen::MatrixXd& signal) const;
@@ -36,10 +36,7 @@ private:
 
   const EffectChain& Chain;
   const SampleScene& Scene;
-  bool All;
-  std::vector<Eigen::Index> Samples; // where not All
-  std::vector<int> Medium;           // of the chain, where it asks for it
-  Eigen::VectorXd FieldX, FieldY, Time;
+  std::vector<int> Medium; // of the chain, where it asks for it
 };
 
 } // namespace msi

@@ -84,18 +84,10 @@ ChannelRegistration::ChannelRegistration(
 
 void ChannelRegistration::operator()(PixelBuffer& buffer, PixelBuffer& scratch) const
 {
-  const ImageWindow window = buffer.window;
   RegistrationRows rows;
-  rows.begin(*this, window);
-  scratch.resize(window, buffer.channels);
-  const auto count =
-    static_cast<std::size_t>(window.width) * static_cast<std::size_t>(buffer.channels);
-  int y = window.y;
-  for (int row = window.y; row < window.y + window.height; ++row)
-  {
-    rows.push(buffer.pixel(window.x, row),
-      [&](const float* out) { std::copy_n(out, count, scratch.pixel(window.x, y++)); });
-  }
+  rows.begin(*this, buffer.window);
+  scratch.resize(buffer.window, buffer.channels);
+  filterRows(rows, buffer, scratch);
   std::swap(buffer.values, scratch.values);
 }
 

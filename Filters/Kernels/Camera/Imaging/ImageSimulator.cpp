@@ -230,26 +230,16 @@ struct ImageSimulator::Implementation
     }
   }
 
-  // The effects that need rows in turn: each hands its complete rows on; use(row) gets the last one's.
-  template <typename Use>
-  void registerRow(const float* row, ImageWorkspace& work, const Use& use) const
+  // Hands a row to an effect that needs rows in turn, where it acts: use(row) gets those that are complete.
+  template <typename Rows, typename Use>
+  static void pass(bool acts, Rows& rows, const float* row, const Use& use)
   {
-    if (!Registration)
+    if (acts)
     {
-      use(row);
+      rows.push(row, use);
       return;
     }
-    work.registration.push(row, use);
-  }
-  template <typename Use>
-  void blurRow(const float* row, ImageWorkspace& work, const Use& use) const
-  {
-    if (!Blur)
-    {
-      use(row);
-      return;
-    }
-    work.blur.push(row, use);
+    use(row);
   }
 
   // Stray light, detector, noise: a row of the window, in place. tail: null where there is none.
@@ -356,8 +346,9 @@ struct ImageSimulator::Implementation
           const std::size_t place = static_cast<std::size_t>(x - region.x) * perPixel;
           irradiate(source, media, x, y, run, work.row.data() + place, work);
         });
-      registerRow(work.row.data(), work,
-        [&](const float* registered) { blurRow(registered, work, useFocused); });
+      pass(Registration.has_value(), work.registration, work.row.data(),
+        [&](const float* registered)
+        { pass(Blur.has_value(), work.blur, registered, useFocused); });
     }
   }
 };

@@ -1,6 +1,8 @@
 // Rows of an image that comes row by row.
 #pragma once
 
+#include "Kernels/Camera/Imaging/ImageWindow.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -20,9 +22,6 @@ public:
     Step = (count / Line + 1) * Line + (count / Line % 2 == 0 ? 0 : Line);
     Values.resize(static_cast<std::size_t>(rows) * Step);
   }
-  int rows() const noexcept { return Rows; }
-  std::size_t step() const noexcept { return Step; }
-  float* data() noexcept { return Values.data(); }
   float* row(int y) noexcept { return Values.data() + static_cast<std::size_t>(y % Rows) * Step; }
 
 private:
@@ -47,6 +46,21 @@ inline void padRow(const float* row, std::size_t pixels, std::size_t channels, s
   for (std::size_t i = 0; i < margin; ++i, out += channels)
   {
     std::copy_n(row + (pixels - 1) * channels, channels, out);
+  }
+}
+
+// Gives the rows of a buffer to a filter of rows (RowConvolution, ..); what comes out goes into `out`, which may be the buffer.
+template <typename Filter>
+void filterRows(Filter& filter, const PixelBuffer& buffer, PixelBuffer& out)
+{
+  const ImageWindow& window = buffer.window;
+  const auto count =
+    static_cast<std::size_t>(window.width) * static_cast<std::size_t>(buffer.channels);
+  int y = window.y;
+  for (int row = window.y; row < window.y + window.height; ++row)
+  {
+    filter.push(buffer.pixel(window.x, row),
+      [&](const float* done) { std::copy_n(done, count, out.pixel(window.x, y++)); });
   }
 }
 

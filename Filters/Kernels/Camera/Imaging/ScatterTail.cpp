@@ -73,14 +73,7 @@ void ScatterTail::operator()(const PixelBuffer& buffer, PixelBuffer& tail) const
   tail.resize(window, buffer.channels);
   ScatterRows rows;
   rows.begin(*this, buffer.channels, window.width, window.height);
-  const auto count =
-    static_cast<std::size_t>(window.width) * static_cast<std::size_t>(buffer.channels);
-  int y = window.y;
-  for (int row = window.y; row < window.y + window.height; ++row)
-  {
-    rows.push(buffer.pixel(window.x, row),
-      [&](const float* out) { std::copy_n(out, count, tail.pixel(window.x, y++)); });
-  }
+  filterRows(rows, buffer, tail);
 }
 
 std::vector<double> passWeights(double radius, std::size_t passes)

@@ -2,9 +2,7 @@
 
 #include "Kernels/Camera/Imaging/RowConvolution.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace msi
 {
@@ -40,17 +38,9 @@ SymmetricKernel gaussianKernel(const Eigen::ArrayXd& deviations)
 
 void convolve(const SymmetricKernel& kernel, PixelBuffer& buffer)
 {
-  const ImageWindow& window = buffer.window;
   RowConvolution filter;
-  filter.begin(kernel, window.width, window.height);
-  const auto count =
-    static_cast<std::size_t>(window.width) * static_cast<std::size_t>(buffer.channels);
-  int y = window.y;
-  for (int row = window.y; row < window.y + window.height; ++row)
-  {
-    filter.push(buffer.pixel(window.x, row),
-      [&](const float* out) { std::copy_n(out, count, buffer.pixel(window.x, y++)); });
-  }
+  filter.begin(kernel, buffer.window.width, buffer.window.height);
+  filterRows(filter, buffer, buffer);
 }
 
 } // namespace msi

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace msi
 {
@@ -60,6 +61,21 @@ struct GradualSaturation
   }
 };
 
+// The same for any p = 1 / softness.
+struct Bend
+{
+  Bend(double u, double level, double softness) noexcept
+    : over(std::fmin(std::log(std::fmax(u, 1e-300) / level) / softness, 700.0))
+  {
+    const double rest = std::log1p(std::exp(-std::fabs(over)));
+    value = std::fmin(u, level) * std::exp(-softness * rest);
+    free = std::exp(-rest - std::fmax(over, 0.0));
+  }
+  double over; // p log(u / level)
+  double free; // 1 / (1 + (u / level)^p)
+  double value;
+};
+
 std::unique_ptr<BlockOperator> makeSaturation(const BoundEffect& effect)
 {
   if (effect.form().name == "gradual")
@@ -80,7 +96,7 @@ std::unique_ptr<BlockOperator> makeSaturation(const BoundEffect& effect)
         for (Eigen::Index k = 0; k < response.rows(); ++k)
         {
           const auto u = static_cast<double>(response(k, j));
-          response(k, j) = static_cast<Scalar>(rounded(u, levels[k], softness));
+          response(k, j) = static_cast<Scalar>(Bend(u, levels[k], softness).value);
         }
       }
     });
@@ -91,26 +107,27 @@ struct ClippingOfImage
 {
   enum Number : std::size_t
   {
-    Clip, // 1: a rounded min(u, level); parts of it only on the way there
-    ClipLevel
+    Clip, // 1: Bend; parts of it only on the way there
+    ClipLevel,
+    Softness
   };
 
   static constexpr double NeutralLevel = 8.0;
-  static constexpr double ClipSoftness = 0.01;
+  static constexpr double Sharp = 0.005;
 
   static double clip(const double* numbers, const ImagePixel&, double& signal, double* by)
   {
-    const double beyond = signal - numbers[ClipLevel];
-    const double root = std::sqrt(beyond * beyond + ClipSoftness * ClipSoftness);
-    const double lost = 0.5 * (beyond + root);
-    const double byLevel = 0.5 * numbers[Clip] * (1.0 + beyond / root);
+    const Bend bend(signal, numbers[ClipLevel], numbers[Softness]);
+    const double part = numbers[Clip];
+    const double slope = signal > 0.0 ? bend.value / signal * bend.free : 1.0;
     if (by != nullptr)
     {
-      by[Clip] = -lost;
-      by[ClipLevel] = byLevel;
+      by[Clip] = bend.value - signal;
+      by[ClipLevel] = part * bend.value / numbers[ClipLevel] * (1.0 - bend.free);
+      by[Softness] = part * bend.value * (std::log(bend.free) + (1.0 - bend.free) * bend.over);
     }
-    signal -= numbers[Clip] * lost;
-    return 1.0 - byLevel;
+    signal += part * (bend.value - signal);
+    return 1.0 + part * (slope - 1.0);
   }
 };
 }
@@ -119,30 +136,37 @@ Effect saturation()
 {
   const EffectParameter level{ "level", "white", ClippingOfImage::NeutralLevel, 0.1, 8.0, 0.1,
     "largest response" };
-  const EffectParameter softness{ "softness", "white", ClippingOfImage::ClipSoftness, 0.001, 0.2,
-    0.02, "width of the rounded corner", false, true };
+  const EffectParameter corner{ "softness", "white", 0.01, 0.001, 0.2, 0.02,
+    "width of the rounded corner", false, true };
+  using Image = ClippingOfImage;
+  const EffectParameter softness{ "softness", "1", Image::Sharp, Image::Sharp, 0.5, 0.05,
+    "the larger, the softer is the bend; 1 / sharpness", false, true };
+  const std::vector<ImageTerm> sharp = { { Image::Clip, false, 0.0, 1.0, 0.3 },
+    imageTerm(Image::ClipLevel, level.ofLight()) };
+  std::vector<ImageTerm> soft = sharp;
+  soft.push_back(imageTerm(Image::Softness, softness));
+  soft.back().starts = { 0.03, 0.15 };
   Effect effect;
   effect.definition = { "saturation", "Saturation", "Full wells or the end of the converter.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "soft", "(u + level - sqrt((u - level)^2 + softness^2)) / 2, a rounded min(u, level)",
-        { level, softness }, { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } },
+        { level, corner }, { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 }, { 0.5, 0.01 } } },
       { "gradual", "u / (1 + (u / level)^sharpness)^(1 / sharpness)",
         { level,
           { "sharpness", "1", 10.0, 2.0, 60.0, 4.0, "the larger, the sharper is the bend", false,
             true } },
         { { 1.2, 10.0 }, { 0.9, 10.0 }, { 0.7, 10.0 } } },
       { "per_channel",
-        "as soft, with a level_k of each channel: channels that are exposed differently",
+        "u / (1 + (u / level_k)^(1 / softness))^softness, a level of each channel: channels that "
+        "are exposed differently",
         { level.ofLight(), softness }, { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 } } } },
     { "shorter exposure", 2.0 }, EffectTrait::LimitsResponse,
-    { { "per_channel",
-      { { ClippingOfImage::Clip, false, 0.0, 1.0, 0.3 },
-        imageTerm(ClippingOfImage::ClipLevel, level.ofLight()) } } } };
+    { { "per_channel", sharp }, { "per_channel", soft } } };
   effect.makeBlock = makeSaturation;
   static const ImageStep step{ ImageStage::Detector,
-    { { 0.0, ImageAxis::Level },
-      { ClippingOfImage::NeutralLevel, ImageAxis::None, ImagePull::Found } },
-    ClippingOfImage::clip };
+    { { 0.0, ImageAxis::Level }, { Image::NeutralLevel, ImageAxis::None, ImagePull::Found },
+      { Image::Sharp, ImageAxis::None, ImagePull::Kept } },
+    Image::clip };
   effect.onImage.step = &step;
   effect.afterDark = true;
   return effect;

@@ -148,6 +148,35 @@ double noiseCoherence(const FieldStatistics& statistics, Eigen::Index channel)
   return std::fmax(median / std::log(2.0), 1.0);
 }
 
+namespace
+{
+// Part of the differences, seen in blocks as multiples of the noise so far, that is there without a slope of the scene, too: what an
+// effect leaves on edges is no noise. 1 where it is not sure.
+double partWithoutSlope(const Eigen::ArrayXd& differences, const Eigen::ArrayXd& slopes)
+{
+  if (slopes.size() < 3)
+  {
+    return 1.0;
+  }
+  const auto count = static_cast<double>(slopes.size());
+  const Eigen::ArrayXd off = slopes - slopes.mean();
+  const double square = off.square().sum();
+  if (!(square > 0.0))
+  {
+    return 1.0;
+  }
+  const double rise = (off * differences).sum() / square;
+  const Eigen::ArrayXd left = differences - differences.mean() - rise * off;
+  if (rise * square < Decision::SureDeviations * (off * left).matrix().norm())
+  {
+    return 1.0;
+  }
+  const double part = differences.mean() - rise * slopes.mean();
+  const double error = (left * (1.0 / count - off * slopes.mean() / square)).matrix().norm();
+  return std::clamp(part, std::fmin(error, 1.0), 1.0);
+}
+}
+
 std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
 {
   std::vector<CameraNoise> noise;
@@ -189,6 +218,23 @@ std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
       variance[static_cast<Eigen::Index>(bin)] = trimmedMean(values);
     }
     noise.push_back(fittedNoise(level, variance, Eigen::ArrayXd::Ones(level.size())));
+    std::vector<double> differences;
+    std::vector<double> slopes;
+    for (const BlockSums* block : smooth)
+    {
+      const double seen = noiseVariance(noise.back(), block->level);
+      const double difference = 0.5 * (block->difference + block->differenceDown) / seen;
+      if (difference < Unusual)
+      {
+        differences.push_back(difference);
+        slopes.push_back(block->gradient / seen);
+      }
+    }
+    const double part = std::sqrt(partWithoutSlope(
+      Eigen::Map<const Eigen::ArrayXd>(differences.data(), Eigen::Index(differences.size())),
+      Eigen::Map<const Eigen::ArrayXd>(slopes.data(), Eigen::Index(slopes.size()))));
+    noise.back().read *= part;
+    noise.back().shot *= part;
     noise.back().read = std::hypot(noise.back().read, LeastNoise);
   }
   return noise;

@@ -16,6 +16,7 @@ struct Power
 {
   double exponent;
 
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref that is written through
   void operator()(Block<double> signal, const ColumnContext&) const noexcept
   {
     forRuns(signal, [this](double* values, std::size_t count) { raise(exponent, values, count); });

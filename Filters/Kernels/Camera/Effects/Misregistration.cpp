@@ -60,6 +60,7 @@ Effect misregistration()
     { "rotation", "degrees", 0.0, -5.0, 5.0, 0.1,
       "turn from the axis x towards the axis y of the image" } };
   std::vector<EffectParameter> ofChannels;
+  ofChannels.reserve(common.size());
   for (const EffectParameter& parameter : common)
   {
     ofChannels.push_back(parameter.ofChannels());

@@ -29,6 +29,7 @@ struct SoftSaturation
     // One value at a time: Eigen's packets of sqrt() and their remainders round differently.
     response = response.unaryExpr([this](double u) { return rounded(u, level, softness); });
   }
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref that is written through
   void operator()(Block<float> response, const ColumnContext&) const noexcept
   {
     forRuns(response,
@@ -44,6 +45,7 @@ struct GradualSaturation
   double level;
   double sharpness;
 
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref that is written through
   void operator()(Block<double> response, const ColumnContext&) const noexcept
   {
     forRuns(response,

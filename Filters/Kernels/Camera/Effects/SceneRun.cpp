@@ -137,6 +137,7 @@ Eigen::MatrixXd SceneRun::reflected(const std::vector<Eigen::Index>& samples) co
   if (Chain.needsMedium())
   {
     std::vector<int> medium;
+    medium.reserve(samples.size());
     for (const Eigen::Index sample : samples)
     {
       medium.push_back(Medium[static_cast<std::size_t>(sample)]);

@@ -2,9 +2,10 @@
 
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/Shrink.h"
+#include "Kernels/Numerics/CounterRandom.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -18,6 +19,8 @@ namespace
 constexpr std::size_t EquivalentNamed = 2;
 constexpr std::size_t CellsNamed = 5;
 constexpr double Alike = 1e-9; // shares
+constexpr int Resamplings = 400;
+constexpr std::uint32_t Stream = 72;
 
 // The first axis and its worst cell.
 std::string whereIs(const std::vector<GapAxis>& axes)
@@ -52,6 +55,75 @@ std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxi
     sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   return sorted;
 }
+}
+
+double shrinkOf(const GroupEnergies& energies)
+{
+  const Eigen::Array3d sum = energies.colwise().sum();
+  const double excess = sum[0] - sum[2];
+  return excess > 0.0 ? std::fmax(1.0 - std::sqrt(std::fmax(sum[1] - sum[2], 0.0) / excess), -1.0)
+                      : 0.0;
+}
+
+GapFigures figuresOf(const GroupEnergies& energies, double elements, std::uint64_t seed)
+{
+  const Eigen::Array3d rms = (energies.colwise().sum() / elements).sqrt();
+  const double shrink = shrinkOf(energies);
+  const auto [low, high] = shrinkInterval(energies, seed);
+  return { rms[0], rms[1], rms[2], shrink, { std::fmin(low, shrink), std::fmax(high, shrink) } };
+}
+
+std::array<double, 2> shrinkInterval(const GroupEnergies& energies, std::uint64_t seed)
+{
+  const Eigen::Index count = energies.rows();
+  if (count == 0)
+  {
+    return { 0.0, 0.0 };
+  }
+  const CounterRandom random(seed, Stream);
+  std::vector<double> shrinks;
+  GroupEnergies drawn(count, 3);
+  for (int draw = 0; draw < Resamplings; ++draw)
+  {
+    for (Eigen::Index i = 0; i < count; ++i)
+    {
+      const double part = random.uniform(static_cast<std::uint64_t>(draw * count + i));
+      const auto pick = static_cast<Eigen::Index>(part * static_cast<double>(count));
+      drawn.row(i) = energies.row(std::min(pick, count - 1));
+    }
+    shrinks.push_back(shrinkOf(drawn));
+  }
+  std::sort(shrinks.begin(), shrinks.end());
+  return { shrinks[Resamplings / 40], shrinks[Resamplings - 1 - Resamplings / 40] };
+}
+
+std::vector<double> shapleyValues(const std::vector<double>& value, std::size_t players)
+{
+  // (others)! (players - others - 1)! / players! for a coalition of so many others.
+  const auto weight = [players](std::size_t others)
+  {
+    double part = 1.0 / static_cast<double>(players);
+    for (std::size_t n = 1; n <= others; ++n)
+    {
+      part *= static_cast<double>(n) / static_cast<double>(players - n);
+    }
+    return part;
+  };
+  std::vector<double> share;
+  for (std::size_t p = 0; p < players; ++p)
+  {
+    double sum = 0.0;
+    for (std::size_t subset = 0; subset < value.size(); ++subset)
+    {
+      if ((subset >> p & 1U) == 0)
+      {
+        const std::size_t others = std::bitset<64>(subset).count();
+        sum += weight(others) * (value[subset | std::size_t(1) << p] - value[subset]);
+      }
+    }
+    share.push_back(sum);
+  }
+  return share;
 }
 
 std::vector<GapCell> GapCells::worst() const

@@ -1,9 +1,13 @@
-// What the reports on tables and on images have in common: axes along which a gap lies, verdicts, causes.
+// What the reports on tables and on images have in common: figures, shares, axes along which a gap lies, verdicts, causes.
 #pragma once
 
 #include "Kernels/Gap/GapReport.h"
 
+#include <Eigen/Core>
+
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <sstream>
 #include <string>
@@ -22,6 +26,22 @@ std::string textOf(int digits, const Parts&... parts)
   (text << ... << parts);
   return text.str();
 }
+
+// Energies of the gap before, after, and what noise allows of them, in plain response units: a row for each group of data that are held
+// out together (a sample, neighbouring blocks of an image).
+using GroupEnergies = Eigen::ArrayX3d;
+
+// 1 - sqrt(excess energy left / excess energy before) of all groups together, within [-1, 1]; 0 where there was none.
+double shrinkOf(const GroupEnergies& energies);
+// Over so many elements. seed: of the interval, which contains the shrink itself.
+GapFigures figuresOf(const GroupEnergies& energies, double elements, std::uint64_t seed);
+// 95 % interval of shrinkOf over bootstrap draws of the groups; {0, 0} without groups.
+std::array<double, 2> shrinkInterval(const GroupEnergies& energies, std::uint64_t seed);
+
+// Shapley values: value[subset] is what the players in the bits of `subset` achieve; 2^players values, of which
+// value[0] is what none achieves. The values of all players sum to value[all] - value[0].
+// Source: L. S. Shapley, "A value for n-person games", 1953, doi:10.1515/9781400881970-018.
+std::vector<double> shapleyValues(const std::vector<double>& value, std::size_t players);
 
 // Energies sorted into named cells.
 class GapCells

@@ -11,7 +11,6 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
 #include "Kernels/Gap/Samples/SampleObservation.h"
-#include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
 #include "Kernels/Gap/WithoutOddOnes.h"
 

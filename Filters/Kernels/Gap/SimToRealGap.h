@@ -60,7 +60,7 @@ struct GapOptions
 // Empty only where progress() asked to stop.
 //
 // Method: Documentation/Filters/SimToRealGap.md. Effects of effectLibrary() are fitted to the averaged
-//   readings by bounded robust Gauss-Newton; sets of effects compete by their posterior probability (Diagnosis/Criterion.h);
+//   readings by bounded robust Gauss-Newton; sets of effects compete by their posterior probability (Diagnosis/SetSearch.h);
 //   the figures in GapReport::gap come from samples of outer folds, in which everything, choice included, was done
 //   without them.
 // Errors: std::invalid_argument naming what disagrees: channel counts, samples without number, readings

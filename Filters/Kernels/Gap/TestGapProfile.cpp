@@ -1,5 +1,5 @@
 #include "Kernels/Gap/GapProfile.h"
-#include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/ReportParts.h"
 
 #include <gtest/gtest.h>
 
@@ -112,24 +112,17 @@ TEST(GapProfile, NoOrderNoTrend)
 TEST(ShrinkInterval, IsAPointWhereAllSamplesAreAlike)
 {
   // before 4, after 1, noise 0 in each sample: shrink 1 - sqrt(1 / 4).
-  const std::vector<double> four(20, 4.0);
-  const std::vector<double> one(20, 1.0);
-  const std::vector<double> none(20, 0.0);
-  const auto interval = msi::shrinkInterval({ four, one, none }, 1);
+  const msi::GroupEnergies energies = Eigen::RowVector3d(4.0, 1.0, 0.0).replicate(20, 1);
+  const auto interval = msi::shrinkInterval(energies, 1);
   EXPECT_DOUBLE_EQ(interval[0], 0.5);
   EXPECT_DOUBLE_EQ(interval[1], 0.5);
 }
 
 TEST(ShrinkInterval, WidensWithTheSpreadOfTheSamples)
 {
-  std::vector<double> after;
-  for (int i = 0; i < 40; ++i)
-  {
-    after.push_back(i % 2 == 0 ? 0.0 : 2.0);
-  }
-  const std::vector<double> four(40, 4.0);
-  const std::vector<double> none(40, 0.0);
-  const auto interval = msi::shrinkInterval({ four, after, none }, 1);
+  Eigen::Matrix<double, 2, 3> two;
+  two << 4.0, 0.0, 0.0, 4.0, 2.0, 0.0;
+  const auto interval = msi::shrinkInterval(two.replicate(20, 1), 1);
   // The mean of 40 draws of 0 or 2 has a standard deviation of 1 / sqrt(40).
   const double spread = 1.96 / std::sqrt(40.0);
   EXPECT_NEAR(interval[0], 1.0 - std::sqrt((1.0 + spread) / 4.0), 0.03);
@@ -138,6 +131,6 @@ TEST(ShrinkInterval, WidensWithTheSpreadOfTheSamples)
 
 TEST(ShrinkInterval, NothingFromNothing)
 {
-  EXPECT_EQ(msi::shrinkInterval({ {}, {}, {} }, 1), (std::array<double, 2>{ 0.0, 0.0 }));
+  EXPECT_EQ(msi::shrinkInterval(msi::GroupEnergies(0, 3), 1), (std::array<double, 2>{ 0.0, 0.0 }));
 }
 }

@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/ReportParts.h"
 
 #include <gtest/gtest.h>
 

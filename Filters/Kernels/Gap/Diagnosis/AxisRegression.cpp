@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Diagnosis/AxisRegression.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Numerics/LeastSquares.h"
 
 #include <Eigen/Cholesky>

@@ -40,7 +40,7 @@ struct PredictedEnergies
 
 // Ridge regressions on all subsets of the axes, on each split's training data, tried on its test data.
 //   axes: the first is the channel, with `gain` among its own columns, the second the level.
-// Source: Shapley values as in Shrink.h.
+// Source: Shapley values as in ReportParts.h.
 PredictedEnergies predictedEnergies(
   std::vector<AxisBasis> axes, std::vector<AxisSplit> splits, int gain);
 

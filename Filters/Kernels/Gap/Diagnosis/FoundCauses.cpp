@@ -1,9 +1,7 @@
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 
-#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/Shrink.h"
 
 #include <algorithm>
 #include <cmath>

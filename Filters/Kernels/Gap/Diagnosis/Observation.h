@@ -3,8 +3,7 @@
 
 #include "Kernels/Camera/CameraEffect.h"
 #include "Kernels/Gap/Diagnosis/LearnedPrior.h"
-#include "Kernels/Gap/GapReport.h"
-#include "Kernels/Gap/Shrink.h"
+#include "Kernels/Gap/ReportParts.h"
 
 #include <Eigen/Core>
 

@@ -1,5 +1,4 @@
 // The search and what is said of it, on data of which everything is known: columns of numbers and their sums.
-#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
 #include "Kernels/Gap/Diagnosis/SetSearch.h"
@@ -70,14 +69,8 @@ public:
   }
   msi::GroupEnergies energies(const msi::ObservedFit& fit) const override
   {
-    const Eigen::VectorXd left = leftOf(fit.set);
-    msi::GroupEnergies energies;
-    for (Eigen::Index i = 0; i < Y.size(); ++i)
-    {
-      energies.before.push_back(Y[i] * Y[i]);
-      energies.after.push_back(left[i] * left[i]);
-      energies.noise.push_back(1.0);
-    }
+    msi::GroupEnergies energies(Y.size(), 3);
+    energies << Y.cwiseAbs2(), leftOf(fit.set).cwiseAbs2(), Eigen::VectorXd::Ones(Y.size());
     return energies;
   }
   std::vector<std::vector<msi::GapParameter>> parameters(const msi::ObservedFit& fit) const override

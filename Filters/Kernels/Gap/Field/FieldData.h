@@ -90,6 +90,6 @@ void dealBlocks(
   const FieldPair& pair, std::vector<FieldBlock>& blocks, std::size_t most, std::uint64_t seed);
 
 // Sums of the blocks' numbers over groups: of the training blocks, or of the test blocks.
-std::vector<double> groupSums(const FieldData& data, const Eigen::VectorXd& ofBlock, bool training);
+Eigen::ArrayXd groupSums(const FieldData& data, const Eigen::VectorXd& ofBlock, bool training);
 
 } // namespace msi

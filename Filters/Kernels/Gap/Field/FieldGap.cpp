@@ -8,7 +8,6 @@
 #include "Kernels/Gap/Field/FieldOddPixels.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/Shrink.h"
 #include "Kernels/Gap/UnmodelledPart.h"
 #include "Kernels/Gap/WithoutOddOnes.h"
 
@@ -82,14 +81,17 @@ GapFigures figuresOn(const FieldData& data, bool all, const FieldStatistics& bef
 {
   const auto sums = [&](const FieldStatistics& statistics, double BlockSums::*number)
   {
-    std::vector<double> values = groupSums(data, statistics.ofBlocks(number), false);
-    const std::vector<double> others = groupSums(data, statistics.ofBlocks(number), true);
-    values.insert(values.end(), others.begin(), all ? others.end() : others.begin());
+    const Eigen::ArrayXd test = groupSums(data, statistics.ofBlocks(number), false);
+    const Eigen::ArrayXd others = groupSums(data, statistics.ofBlocks(number), true);
+    Eigen::ArrayXd values(test.size() + (all ? others.size() : 0));
+    values << test, others.tail(values.size() - test.size());
     return values;
   };
-  return figuresOf({ sums(before, &BlockSums::energy), sums(after, &BlockSums::energy),
-                     sums(after, &BlockSums::noise) },
-    std::fmax(sumOf(sums(after, &BlockSums::pixels)), 1.0), seed);
+  const Eigen::ArrayXd pixels = sums(after, &BlockSums::pixels);
+  GroupEnergies energies(pixels.size(), 3);
+  energies << sums(before, &BlockSums::energy), sums(after, &BlockSums::energy),
+    sums(after, &BlockSums::noise);
+  return figuresOf(energies, std::fmax(pixels.sum(), 1.0), seed);
 }
 
 // The regular part of what a model leaves.

@@ -108,7 +108,7 @@ void dealBlocks(
   }
 }
 
-std::vector<double> groupSums(const FieldData& data, const Eigen::VectorXd& ofBlock, bool training)
+Eigen::ArrayXd groupSums(const FieldData& data, const Eigen::VectorXd& ofBlock, bool training)
 {
   std::map<int, double> sums;
   for (std::size_t b = 0; b < data.blocks.size(); ++b)
@@ -118,12 +118,9 @@ std::vector<double> groupSums(const FieldData& data, const Eigen::VectorXd& ofBl
       sums[data.blocks[b].group] += ofBlock[static_cast<Eigen::Index>(b)];
     }
   }
-  std::vector<double> values;
-  values.reserve(sums.size());
-  for (const auto& [number, sum] : sums)
-  {
-    values.push_back(sum);
-  }
+  Eigen::ArrayXd values(static_cast<Eigen::Index>(sums.size()));
+  std::transform(
+    sums.begin(), sums.end(), values.begin(), [](const auto& group) { return group.second; });
   return values;
 }
 

@@ -93,13 +93,13 @@ FieldObservation::FieldObservation(const FieldData& data, const std::vector<Fiel
     fieldStatistics(data, FieldModel(data.channels()), &weights, loop));
   const FieldFitter fitter(data, *hypothesis.statistics);
   hypothesis.fit = fitter.fit({});
-  NoiseEnergy = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::chance), true));
+  NoiseEnergy = groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::chance), true).sum();
   for (const std::vector<Eigen::MatrixXd>& fold : fitter.folds())
   {
     InexactEnergy[0] += energiesBesideGain(fold, false).sum();
     InexactEnergy[1] += energiesBesideGain(fold, true).sum();
   }
-  Elements = sumOf(groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true));
+  Elements = groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::pixels), true).sum();
   Nominal = described(std::move(hypothesis));
 }
 
@@ -293,8 +293,10 @@ GroupEnergies FieldObservation::energies(const ObservedFit& fit) const
   const FieldStatistics& nominal = *hypothesisOf(*Nominal).statistics;
   const auto sums = [this](const FieldHypothesis& hypothesis)
   { return groupSums(Data, blockEnergies(Data, *hypothesis.statistics, hypothesis.fit), true); };
-  return { sums(hypothesisOf(*Nominal)), sums(hypothesisOf(fit)),
-    groupSums(Data, nominal.ofBlocks(&BlockSums::chance), true) };
+  const Eigen::ArrayXd noise = groupSums(Data, nominal.ofBlocks(&BlockSums::chance), true);
+  GroupEnergies energies(noise.size(), 3);
+  energies << sums(hypothesisOf(*Nominal)), sums(hypothesisOf(fit)), noise;
+  return energies;
 }
 
 std::vector<std::vector<GapParameter>> FieldObservation::parameters(const ObservedFit& fit) const

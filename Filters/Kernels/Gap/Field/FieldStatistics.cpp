@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
-#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/SetSearch.h"
 #include "Kernels/Numerics/LowerTriangle.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 

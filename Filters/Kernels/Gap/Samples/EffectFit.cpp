@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Samples/EffectFit.h"
 
-#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/SetSearch.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
 
 #include <algorithm>

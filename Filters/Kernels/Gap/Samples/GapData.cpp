@@ -1,8 +1,8 @@
 #include "Kernels/Gap/Samples/GapData.h"
 
 #include "Kernels/Camera/CameraModel.h"
-#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/SetSearch.h"
 #include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Spectra/Interpolation.h"
 #include "Kernels/Spectra/Reject.h"

@@ -43,15 +43,10 @@ double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, doubl
 GroupEnergies energiesOf(const GapData& data, const SampleList& samples,
   const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
 {
-  GroupEnergies energies;
-  const Eigen::MatrixXd noise = measuredOnly(data, data.variance);
-  for (const Eigen::Index i : samples)
-  {
-    energies.before.push_back(before.col(i).squaredNorm());
-    energies.after.push_back(after.col(i).squaredNorm());
-    energies.noise.push_back(noise.col(i).sum());
-  }
-  return energies;
+  GroupEnergies energies(data.samples(), 3);
+  energies << before.colwise().squaredNorm().transpose(), after.colwise().squaredNorm().transpose(),
+    measuredOnly(data, data.variance).colwise().sum().transpose();
+  return energies(samples, Eigen::all);
 }
 
 bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares)

@@ -4,7 +4,6 @@
 #include "Kernels/Gap/GapReport.h"
 #include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
-#include "Kernels/Gap/Shrink.h"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 
 #include "Kernels/Camera/StagedResponse.h"
-#include "Kernels/Gap/Diagnosis/Criterion.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
+#include "Kernels/Gap/Diagnosis/SetSearch.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
 #include "Kernels/Numerics/CounterRandom.h"
 
@@ -39,9 +39,8 @@ struct Predictor
     , precision(fit.linear.prior().after(fit.linear.information() / std::fmax(fit.dispersion, 1.0)))
     , factor(std::make_shared<SparseFactor>(precision))
   {
-    const GroupEnergies energies = data.energies(fit);
-    rest = (std::fmax(sumOf(energies.after) - sumOf(energies.noise), 0.0) +
-             Decision::FormPart * sumOf(energies.before)) /
+    const Eigen::Array3d energies = data.energies(fit).colwise().sum();
+    rest = (std::fmax(energies[1] - energies[2], 0.0) + Decision::FormPart * energies[0]) /
       std::fmax(data.elements(), 1.0);
   }
 };
@@ -153,8 +152,7 @@ struct Expectation
   // Of samples from `first` on: counts as so many numbers, but as no more than in the criterion.
   void addSystematic(const Eigen::MatrixXd& added, Eigen::Index first, double numbers)
   {
-    const double most = independentNumbers(
-      Decision::BeliefNumbers, static_cast<std::size_t>(added.size()), added.rows());
+    const double most = independentNumbers(Decision::BeliefNumbers, added.size(), added.rows());
     const double copies = static_cast<double>(added.size()) / std::fmin(numbers, most);
     variance.middleCols(first, added.cols()) += std::fmax(copies, 1.0) * added;
   }
@@ -490,7 +488,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   {
     return {};
   }
-  const double all = sumOf(probability);
+  const double all = std::accumulate(probability.begin(), probability.end(), 0.0);
   for (double& one : probability)
   {
     one /= all;

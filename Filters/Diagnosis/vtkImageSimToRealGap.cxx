@@ -19,6 +19,7 @@
 #include "vtkTable.h"
 
 #include "Kernels/Gap/Field/FieldCorrection.h"
+#include "Kernels/Gap/Field/FieldOddPixels.h"
 
 #include <algorithm>
 #include <array>

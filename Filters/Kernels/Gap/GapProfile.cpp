@@ -31,7 +31,7 @@ void addNamed(
     {
       found.push_back({ kind, names[i], {} });
     }
-    found[at->second].samples.push_back(static_cast<Eigen::Index>(i));
+    found[at->second].samples.push_back(i);
   }
   if (found.size() > 1)
   {
@@ -70,8 +70,7 @@ void addParts(std::vector<SampleGroup>& groups, const char* kind, const Eigen::V
     if (begin < end)
     {
       groups.push_back({ kind, rangeText(kind, values[order[begin]], values[order[end - 1]]),
-        { order.begin() + static_cast<std::ptrdiff_t>(begin),
-          order.begin() + static_cast<std::ptrdiff_t>(end) } });
+        { order.begin() + begin, order.begin() + end } });
     }
   }
 }
@@ -144,11 +143,11 @@ std::vector<SampleGroup> groupSamples(const SceneSamples& samples)
 
 GroupedGap groupGap(const Eigen::MatrixXd& gap, const std::vector<SampleGroup>& groups)
 {
-  const auto count = static_cast<Eigen::Index>(groups.size());
+  const Eigen::Index count = groups.size();
   GroupedGap result{ Eigen::MatrixXd(gap.rows(), count), Eigen::MatrixXd(gap.rows(), count) };
   for (Eigen::Index g = 0; g < count; ++g)
   {
-    const Eigen::ArrayXXd some = gap(Eigen::all, groups[static_cast<std::size_t>(g)].samples);
+    const Eigen::ArrayXXd some = gap(Eigen::all, groups[g].samples);
     const Eigen::ArrayXXd known = some.isFinite().select(some, 0.0);
     const Eigen::ArrayXd number = some.isFinite().cast<double>().rowwise().sum();
     result.mean.col(g) = known.rowwise().sum() / number;

@@ -87,7 +87,7 @@ std::array<double, 2> shrinkInterval(const GroupEnergies& energies, std::uint64_
   {
     for (Eigen::Index i = 0; i < count; ++i)
     {
-      const double part = random.uniform(static_cast<std::uint64_t>(draw * count + i));
+      const double part = random.uniform(draw * count + i);
       const auto pick = static_cast<Eigen::Index>(part * static_cast<double>(count));
       drawn.row(i) = energies.row(std::min(pick, count - 1));
     }

@@ -1,9 +1,10 @@
 #include "Kernels/Gap/SimToRealGap.h"
 
+#include "Kernels/Camera/Effects/Effect.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
+#include "Kernels/Gap/Diagnosis/GapRegression.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
 #include "Kernels/Gap/Samples/GapEvidence.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
@@ -11,7 +12,6 @@
 #include "Kernels/Gap/Samples/NextCapture.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
 #include "Kernels/Gap/Samples/SampleObservation.h"
-#include "Kernels/Gap/UnmodelledPart.h"
 #include "Kernels/Gap/WithoutOddOnes.h"
 
 #include <algorithm>
@@ -57,17 +57,63 @@ private:
   double Steps;
 };
 
+// What an effect of the trait Remainder makes of responses, K x S.
+Eigen::MatrixXd withRest(
+  const GapData& data, const CameraEffect& rest, const Eigen::MatrixXd& predicted)
+{
+  const BoundEffect bound(rest, data.camera, -1);
+  const SampleScene& scene = data.scene;
+  Eigen::MatrixXd response = predicted;
+  registered(bound.definition())
+    .makeBlock(bound)
+    ->apply(Block<double>(response),
+      { nullptr, scene.fieldX().data(), scene.fieldY().data(), scene.time().data() });
+  return response;
+}
+
+// The regular part of what is left of the training samples.
+CameraEffect regularPartOf(const GapData& data, const Eigen::MatrixXd& predicted,
+  const SampleList& training, std::uint64_t seed)
+{
+  const Eigen::Index count = effectWith(EffectTrait::Remainder).forms.front().parameters.size();
+  // It is linear in its parameters: a column is what the parameter 1 adds.
+  std::vector<Eigen::MatrixXd> columns;
+  for (Eigen::Index n = 0; n < count; ++n)
+  {
+    Eigen::MatrixXd one = Eigen::MatrixXd::Zero(data.channels(), count);
+    one.col(n).setOnes();
+    columns.push_back(
+      withRest(data, remainderEffect(one, data.camera.channels()), predicted) - predicted);
+  }
+  columns.push_back(data.observed - predicted);
+  std::vector<ChannelNormals> products;
+  for (const SampleList& fold : foldsOf(data, training, InnerFolds, seed))
+  {
+    products.emplace_back();
+    for (Eigen::Index k = 0; k < data.channels(); ++k)
+    {
+      Eigen::MatrixXd rows(fold.size(), columns.size());
+      for (std::size_t n = 0; n < columns.size(); ++n)
+      {
+        rows.col(n) = columns[n](k, fold).transpose();
+      }
+      products.back().emplace_back(rows.transpose() * data.weight(k, fold).asDiagonal() * rows);
+    }
+  }
+  return regularPart(products, data.camera.channels());
+}
+
 // Adds the regular part of what is left of samples held out. predicted: of each fold, and last by all samples.
 void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::MatrixXd>& predicted,
   const GapOptions& options, Eigen::MatrixXd& after)
 {
   Eigen::MatrixXd left = after;
-  for (int fold = 0; fold < data.folds; ++fold)
+  for (std::size_t f = 0; f < data.folds.size(); ++f)
   {
-    const SampleList heldOut = samplesOf(data, fold, true);
-    const Eigen::MatrixXd& here = predicted[static_cast<std::size_t>(fold)];
-    const CameraEffect rest = regularPart(data, here, samplesOf(data, fold, false), options.seed);
-    left(Eigen::all, heldOut) -= (withRegularPart(data, rest, here) - here)(Eigen::all, heldOut);
+    const Eigen::MatrixXd& here = predicted[f];
+    const CameraEffect rest = regularPartOf(data, here, samplesOutside(data, f), options.seed);
+    left(Eigen::all, data.folds[f]) -=
+      (withRest(data, rest, here) - here)(Eigen::all, data.folds[f]);
   }
   left = measuredOnly(data, left);
   const GapFigures figures = figuresOf(
@@ -80,7 +126,7 @@ void addRest(GapReport& report, const GapData& data, const std::vector<Eigen::Ma
   if (options.addRest)
   {
     after = left;
-    report.correction.push_back(regularPart(data, predicted.back(), data.usable, options.seed));
+    report.correction.push_back(regularPartOf(data, predicted.back(), data.usable, options.seed));
   }
 }
 
@@ -105,8 +151,8 @@ public:
     , Integration(integrationVariance(Data, capture.wavelengths))
     , Before(measuredOnly(Data, Data.observed - Data.simulated))
     , After(Before)
-    , Predicted(static_cast<std::size_t>(Data.folds) + 1)
-    , Steps(options, Data.folds + 4.0)
+    , Predicted(Data.folds.size() + 1)
+    , Steps(options, Data.folds.size() + 4.0)
   {
   }
 
@@ -117,7 +163,8 @@ public:
     Choices = choicesFor(Data.scene, Options.without);
     Observed.emplace(Data, Data.usable, Choices, Options.seed);
     const int first = unlessOdd ? 1 : 0;
-    Options.forAll(Data.folds + 1 - first, [&](int job) { search(first + job); });
+    Options.forAll(
+      static_cast<int>(Predicted.size()) - first, [&](int job) { search(first + job); });
     Odd = Steps.stopped() ? IndexList() : oddElements(Data, Before, After);
     if (unlessOdd && Odd.empty())
     {
@@ -155,7 +202,7 @@ private:
   }
 
   // Number 0: among all samples. Others: without one fold, for which the result predicts what is left.
-  void search(int number)
+  void search(std::size_t number)
   {
     const std::function<bool()> stop = [this] { return Steps("searching for effects"); };
     if (stop())
@@ -170,16 +217,15 @@ private:
       Steps("effects found", 2.0);
       return;
     }
-    const SampleList training = samplesOf(Data, number - 1, false);
-    const SampleList heldOut = samplesOf(Data, number - 1, true);
-    const SampleObservation fold(
-      Data, training, Choices, Options.seed + static_cast<std::uint64_t>(number));
+    const SampleList& heldOut = Data.folds[number - 1];
+    const SampleList training = samplesOutside(Data, number - 1);
+    const SampleObservation fold(Data, training, Choices, Options.seed + number);
     limits.beamWidth = 1;
     limits.optionsFitted = 5;
     limits.exchange = false;
     const FoundSets result = searchSets(fold, limits, stop);
     const EffectFit whole = fold.whole(*result.best);
-    Predicted[static_cast<std::size_t>(number - 1)] = whole.predicted;
+    Predicted[number - 1] = whole.predicted;
     const Eigen::MatrixXd left = leftOfHeldOut(Data, whole, training);
     After(Eigen::all, heldOut) = left(Eigen::all, heldOut);
     Steps("checked on samples left out", 1.0);

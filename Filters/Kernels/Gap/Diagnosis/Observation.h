@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Kernels/Camera/CameraEffect.h"
-#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
+#include "Kernels/Gap/Diagnosis/LinearFit.h"
 #include "Kernels/Gap/ReportParts.h"
 
 #include <Eigen/Core>

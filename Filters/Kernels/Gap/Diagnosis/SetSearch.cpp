@@ -267,8 +267,7 @@ private:
       std::vector<FitPointer> grown;
       for (const FitPointer& from : beam)
       {
-        const std::vector<FitPointer> more =
-          extend(*from, static_cast<std::size_t>(Limits.optionsFitted));
+        const std::vector<FitPointer> more = extend(*from, Limits.optionsFitted);
         grown.insert(grown.end(), more.begin(), more.end());
       }
       std::stable_sort(grown.begin(), grown.end(),
@@ -278,7 +277,7 @@ private:
       {
         const bool known = std::any_of(beam.begin(), beam.end(),
           [&](const FitPointer& other) { return sameCauses(*fit, *other); });
-        if (!known && beam.size() < static_cast<std::size_t>(Limits.beamWidth))
+        if (!known && beam.size() < Limits.beamWidth)
         {
           beam.push_back(fit);
         }
@@ -299,7 +298,7 @@ private:
     for (std::size_t first = 0; first < fit.set.size(); ++first)
     {
       const std::size_t rest = all & ~(std::size_t(1) << first);
-      extend(*consider(Data.reduced(fit, rest)), static_cast<std::size_t>(Limits.optionsFitted));
+      extend(*consider(Data.reduced(fit, rest)), Limits.optionsFitted);
       for (std::size_t second = first + 1; second < fit.set.size() && fit.set.size() > 2; ++second)
       {
         if (!Stop())

@@ -63,8 +63,8 @@ private:
 struct SetSearchLimits
 {
   int maximumEffects = 5;
-  int beamWidth = 3;      // sets of each size that are kept on the way
-  int optionsFitted = 10; // in full, for each of them
+  std::size_t beamWidth = 3;      // sets of each size that are kept on the way
+  std::size_t optionsFitted = 10; // in full, for each of them
   bool exchange = true;
 };
 

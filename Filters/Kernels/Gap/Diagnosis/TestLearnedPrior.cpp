@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
-#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
+#include "Kernels/Gap/Diagnosis/LinearFit.h"
 #include "Kernels/Gap/ReportParts.h"
 
 #include <gtest/gtest.h>

@@ -44,7 +44,7 @@ std::vector<int> FieldColumns::of(unsigned axis) const
   std::vector<int> columns;
   for (int c = 0; c < residual; ++c)
   {
-    if ((axes[static_cast<std::size_t>(c)] & axis) != 0)
+    if ((axes[c] & axis) != 0)
     {
       columns.push_back(c);
     }
@@ -176,7 +176,7 @@ struct Neighbourhood
     , y(displacement.y(), variance)
   {
     const ImageExtent& extent = data.pair.extent;
-    const auto K = static_cast<std::size_t>(data.channels());
+    const std::size_t K = data.channels();
     Eigen::MatrixXd scene(window.width + x.value.size() - 1, window.height + y.value.size() - 1);
     for (Eigen::Index j = 0; j < scene.cols(); ++j)
     {
@@ -184,8 +184,7 @@ struct Neighbourhood
       for (Eigen::Index i = 0; i < scene.rows(); ++i)
       {
         const int u = std::clamp(window.x + x.first + static_cast<int>(i), 0, extent.width - 1);
-        scene(i, j) = static_cast<double>(
-          data.scene()[data.pair.index(u, v) * K + static_cast<std::size_t>(channel)]);
+        scene(i, j) = static_cast<double>(data.scene()[data.pair.index(u, v) * K + channel]);
       }
     }
     const Eigen::MatrixXd along = band(x.value, window.width) * scene;
@@ -228,7 +227,7 @@ public:
     const FieldBlock& block, Eigen::Index channel, const AskedSteps& asked)
     : Data(data)
     , Block(block)
-    , Channel(static_cast<std::size_t>(channel))
+    , Channel(channel)
     , Steps(model.steps(ImageStage::Scene, ImageStage::Light, channel, asked))
     , Glare(glare[channel])
     , Place(channelPlace(channel, data.channels()))
@@ -267,8 +266,8 @@ public:
     pixel.right = Near.right(number);
     pixel.down = Near.down(number);
     pixel.blur = Near.blur(number);
-    pixel.surround = Block.tail.data() +
-      (static_cast<std::size_t>(number) * Data.pair.channels.size() + Channel) * TailPasses;
+    pixel.surround =
+      Block.tail.data() + (number * Data.pair.channels.size() + Channel) * TailPasses;
     pixel.tailWeights = Change.tailWeights.data();
     pixel.mean = Glare;
     pixel.channel = Place;
@@ -276,7 +275,7 @@ public:
   }
   const ChannelSteps& steps() const noexcept { return Steps; }
   // The light on the detector; with its derivatives also by the steps that are asked for.
-  const double& signal(int number) const { return Signal[static_cast<std::size_t>(number)]; }
+  const double& signal(int number) const { return Signal[number]; }
   // more: added to the scene.
   double signal(int number, ImagePixel& pixel, StepDerivatives& derivatives, double more) const
   {
@@ -294,7 +293,7 @@ private:
   }
   const double* others(int number) const
   {
-    return Others.data() + Others.size() / Block.window.pixels() * static_cast<std::size_t>(number);
+    return Others.data() + Others.size() / Block.window.pixels() * number;
   }
 
   const FieldData& Data;
@@ -316,10 +315,10 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
   const std::function<void(Eigen::Index, ChannelColumns&)>& act)
 {
   const ImageWindow& window = block.window;
-  const auto K = static_cast<std::size_t>(data.channels());
+  const Eigen::Index K = data.channels();
   std::vector<BlockLight> lights; // of each channel
   lights.reserve(K);
-  for (Eigen::Index channel = 0; channel < data.channels(); ++channel)
+  for (Eigen::Index channel = 0; channel < K; ++channel)
   {
     lights.emplace_back(data, model, glare, block, channel, asked);
   }
@@ -333,10 +332,9 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
   }
   ChannelColumns found;
   StepDerivatives by;
-  for (Eigen::Index channel = 0; channel < data.channels(); ++channel)
+  for (Eigen::Index channel = 0; channel < K; ++channel)
   {
-    const auto here = static_cast<std::size_t>(channel);
-    const BlockLight& light = lights[here];
+    const BlockLight& light = lights[channel];
     const float* real = block.real.data() + channel;
     found.pixel.clear();
     for (std::size_t i = 0; i < window.pixels(); ++i)
@@ -348,7 +346,7 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     }
     const FieldLines rows(model, true, channel, block.fold, window.y, window.height);
     const FieldLines columns(model, false, channel, block.fold, window.x, window.width);
-    const auto count = static_cast<Eigen::Index>(found.pixel.size());
+    const Eigen::Index count = found.pixel.size();
     const ChannelSteps behind =
       model.steps(ImageStage::Exposure, ImageStage::Detector, channel, asked);
     ChannelSteps steps = light.steps();
@@ -358,11 +356,11 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
     {
       for (std::size_t c = 0; c < step.placed->step->width(); ++c)
       {
-        found.there.push_back(static_cast<Eigen::Index>(step.placed->column + c));
+        found.there.push_back(step.placed->column + c);
       }
     }
     found.there.push_back(fieldColumns().residual);
-    found.columns.resize(count, static_cast<Eigen::Index>(found.there.size()));
+    found.columns.resize(count, found.there.size());
     found.level.resize(count);
     by = StepDerivatives();
     by.values.push_back(0.0); // the residual
@@ -374,24 +372,23 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
       pixel.right += more[1];
       pixel.down += more[2];
       pixel.blur += more[3];
-      pixel.previous = here > 0 ? &lights[here - 1].signal(i) : nullptr;
-      pixel.next = here + 1 < K ? &lights[here + 1].signal(i) : nullptr;
-      pixel.ofAll = ofAll[static_cast<std::size_t>(i)];
+      pixel.previous = channel > 0 ? &lights[channel - 1].signal(i) : nullptr;
+      pixel.next = channel + 1 < K ? &lights[channel + 1].signal(i) : nullptr;
+      pixel.ofAll = ofAll[i];
       pixel.row = rows[i / window.width];
       pixel.column = columns[i % window.width];
       pixel.self = light.signal(i, pixel, by, more[0]);
       answer = run(behind, pixel, nullptr, pixel.self, &by);
       by.chain(steps);
-      by.values.back() = static_cast<double>(real[static_cast<std::size_t>(i) * K]) - answer;
+      by.values.back() = static_cast<double>(real[i * K]) - answer;
       for (std::size_t c = 0; c < found.there.size(); ++c)
       {
-        row[static_cast<Eigen::Index>(c)] = by.values[static_cast<std::size_t>(found.there[c])];
+        row[c] = by.values[found.there[c]];
       }
     };
     for (Eigen::Index n = 0; n < count; ++n)
     {
-      columnsAt(
-        found.pixel[static_cast<std::size_t>(n)], Eigen::Vector4d::Zero(), found.columns.row(n));
+      columnsAt(found.pixel[n], Eigen::Vector4d::Zero(), found.columns.row(n));
       found.level[n] = answer;
     }
     found.ofNoise = [&](Eigen::Index column) -> Eigen::VectorXd
@@ -416,16 +413,16 @@ void forColumns(const FieldData& data, const FieldModel& model, const Eigen::Arr
 }
 
 std::vector<FieldResidual> fieldResiduals(
-  const FieldData& data, const FieldModel& model, const FieldLoop& loop, bool testToo)
+  const FieldData& data, const FieldModel& model, bool testToo)
 {
   const AskedSteps asked{ fieldColumns().step[fieldColumns().gain] };
   const Eigen::Index K = data.channels();
   const Eigen::ArrayXd glare = data.cells.mean(model);
-  std::vector<FieldResidual> residuals(data.blocks.size() * static_cast<std::size_t>(K));
-  loop(static_cast<int>(data.blocks.size()),
+  std::vector<FieldResidual> residuals(data.blocks.size() * K);
+  data.forBlocks(
     [&](int b)
     {
-      const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
+      const FieldBlock& block = data.blocks[b];
       if (block.fold < 0 && !testToo)
       {
         return;
@@ -435,8 +432,8 @@ std::vector<FieldResidual> fieldResiduals(
         {
           const auto gain = std::find(found.there.begin(), found.there.end(), fieldColumns().gain) -
             found.there.begin();
-          residuals[static_cast<std::size_t>(b * K + k)] = { found.pixel, found.level,
-            found.columns.col(gain), found.residual() };
+          residuals[b * K + k] = { found.pixel, found.level, found.columns.col(gain),
+            found.residual() };
         });
     });
   return residuals;

@@ -61,6 +61,6 @@ struct FieldResidual
 
 // Block after block, of each its channels; blocks of the test part have no pixels, unless they are asked for.
 std::vector<FieldResidual> fieldResiduals(
-  const FieldData& data, const FieldModel& model, const FieldLoop& loop, bool testToo = false);
+  const FieldData& data, const FieldModel& model, bool testToo = false);
 
 } // namespace msi

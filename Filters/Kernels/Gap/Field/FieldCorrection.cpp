@@ -19,7 +19,7 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
   , Glare(SceneCells(pair).mean(model))
   , Filled(filledScene(pair))
 {
-  const auto K = static_cast<Eigen::Index>(pair.channels.size());
+  const Eigen::Index K = pair.channels.size();
   std::vector<ImageDisplacement> displacements;
   Eigen::ArrayXd variance(K);
   for (Eigen::Index k = 0; k < K; ++k)
@@ -30,7 +30,7 @@ FieldCorrection::FieldCorrection(const FieldPair& pair, const FieldModel& model)
     Tail.push_back(change.tailWeights);
     for (int pass = Passes; pass < TailPasses; ++pass)
     {
-      Passes = Tail.back()[static_cast<std::size_t>(pass)] != 0.0 ? pass + 1 : Passes;
+      Passes = Tail.back()[pass] != 0.0 ? pass + 1 : Passes;
     }
   }
   if (std::any_of(imageSteps().begin(), imageSteps().end(),
@@ -85,19 +85,18 @@ void FieldCorrection::operator()(
     convolve(splineKernel(signal.channels, 1 << pass), wide);
     for (std::size_t i = 0; i < signal.values.size(); ++i)
     {
-      signal.values[i] += static_cast<float>(Tail[i % K][static_cast<std::size_t>(pass)]) *
-        (wide.values[i] - workspace.tail.values[i]);
+      signal.values[i] +=
+        static_cast<float>(Tail[i % K][pass]) * (wide.values[i] - workspace.tail.values[i]);
     }
   }
   std::vector<FieldLines> rows, columns;
   std::vector<ChannelSteps> lights, behind;
   for (std::size_t k = 0; k < K; ++k)
   {
-    const auto channel = static_cast<Eigen::Index>(k);
-    rows.emplace_back(Model, true, channel, -1, window.y, window.height);
-    columns.emplace_back(Model, false, channel, -1, window.x, window.width);
-    lights.push_back(Model.steps(ImageStage::Light, ImageStage::Light, channel));
-    behind.push_back(Model.steps(ImageStage::Exposure, ImageStage::Detector, channel));
+    rows.emplace_back(Model, true, k, -1, window.y, window.height);
+    columns.emplace_back(Model, false, k, -1, window.x, window.width);
+    lights.push_back(Model.steps(ImageStage::Light, ImageStage::Light, k));
+    behind.push_back(Model.steps(ImageStage::Exposure, ImageStage::Detector, k));
   }
   std::vector<double>& light = workspace.light;
   light.resize(K);
@@ -112,8 +111,7 @@ void FieldCorrection::operator()(
       pixel.y = Pair.fieldY(y);
       for (std::size_t k = 0; k < K; ++k)
       {
-        const auto channel = static_cast<Eigen::Index>(k);
-        pixel.mean = Glare[channel];
+        pixel.mean = Glare[k];
         workspace.others.clear();
         addElsewhere(Pair, scene, field, { x, y }, k, workspace.others);
         light[k] = run(lights[k], pixel, workspace.others.data(), static_cast<double>(self[k]));
@@ -122,8 +120,7 @@ void FieldCorrection::operator()(
       for (std::size_t k = 0; k < K; ++k)
       {
         pixel.self = light[k];
-        pixel.channel =
-          channelPlace(static_cast<std::ptrdiff_t>(k), static_cast<std::ptrdiff_t>(K));
+        pixel.channel = channelPlace(k, K);
         pixel.previous = k > 0 ? &light[k - 1] : nullptr;
         pixel.next = k + 1 < K ? &light[k + 1] : nullptr;
         pixel.row = rows[k][y - window.y];

@@ -2,12 +2,17 @@
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
 #include "Kernels/Doubts/PairSums.h"
+#include "Kernels/Gap/Field/FieldOddPixels.h"
+#include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 #include "Kernels/Spectra/Reject.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
 
 namespace msi
 {
@@ -20,7 +25,7 @@ constexpr int CellsPerSide = 64;
 // Gaps in a row of one channel become the mean of both sides, weighted by nearness; `other` where the whole row is one.
 void fillRow(float* row, int pixels, std::size_t step, float other)
 {
-  const auto at = [=](int x) -> float& { return row[static_cast<std::size_t>(x) * step]; };
+  const auto at = [=](int x) -> float& { return row[x * step]; };
   int last = -1;
   for (int x = 0; x <= pixels; ++x)
   {
@@ -42,12 +47,12 @@ void fillRow(float* row, int pixels, std::size_t step, float other)
 
 SceneCells::SceneCells(const FieldPair& pair)
 {
-  const auto K = static_cast<Eigen::Index>(pair.channels.size());
+  const Eigen::Index K = pair.channels.size();
   Part = X = Y = Eigen::ArrayXXd::Zero(Eigen::Index{ CellsPerSide } * CellsPerSide, K);
   Eigen::ArrayXd count = Eigen::ArrayXd::Zero(K);
   const auto visit = [&](int x, int y, Eigen::Index cell)
   {
-    const float* values = pair.simulated + pair.index(x, y) * static_cast<std::size_t>(K);
+    const float* values = pair.simulated + pair.index(x, y) * K;
     for (Eigen::Index k = 0; k < K; ++k)
     {
       if (std::isfinite(values[k]))
@@ -85,13 +90,13 @@ std::vector<float> filledScene(const FieldPair& pair)
     return {};
   }
   std::vector<float> filled(pair.simulated, pair.simulated + count);
-  const Eigen::ArrayXd mean = SceneCells(pair).mean(FieldModel(static_cast<Eigen::Index>(K)));
+  const Eigen::ArrayXd mean = SceneCells(pair).mean(FieldModel(K));
   for (int y = 0; y < pair.extent.height; ++y)
   {
     for (std::size_t k = 0; k < K; ++k)
     {
       fillRow(filled.data() + pair.index(0, y) * K + k, pair.extent.width, K,
-        static_cast<float>(mean[static_cast<Eigen::Index>(k)]));
+        static_cast<float>(mean[k]));
     }
   }
   return filled;
@@ -157,13 +162,13 @@ void requireRelativeToWhite(const std::vector<PairSums>& sums)
 // simulated one (a dead one) has that of the others.
 Eigen::ArrayXd fieldUnits(const std::vector<PairSums>& sums)
 {
-  const auto channels = static_cast<Eigen::Index>(sums.size());
+  const Eigen::Index channels = sums.size();
   Eigen::ArrayXd ratio(channels);
   std::vector<double> slopes; // of straight lines where the images go together
   std::vector<Eigen::Index> others;
   for (Eigen::Index k = 0; k < channels; ++k)
   {
-    const PairSums& sum = sums[static_cast<std::size_t>(k)];
+    const PairSums& sum = sums[k];
     if (!sum.isFlat() && !sum.isSteady() && sum.correlation() > Correlated)
     {
       ratio[k] = sum.ofBoth() / sum.ofSimulated();
@@ -177,8 +182,7 @@ Eigen::ArrayXd fieldUnits(const std::vector<PairSums>& sums)
   }
   if (!slopes.empty())
   {
-    ratio(others).setConstant(
-      orderStatistic(slopes, static_cast<std::ptrdiff_t>(slopes.size() / 2)));
+    ratio(others).setConstant(orderStatistic(slopes, slopes.size() / 2));
   }
   const auto alike = [](const Eigen::ArrayXd& values)
   { return (values >= 1.0 / OtherUnit).all() && (values <= OtherUnit).all(); };
@@ -273,8 +277,7 @@ std::size_t readBlock(const FieldData& data, FieldBlock& block)
         const float value = pair.real[pair.index(x, y) * K + k];
         if (std::isfinite(value) && (data.filled.empty() || surrounded(x, y, k)))
         {
-          out[k] = static_cast<float>(
-            static_cast<double>(value) / data.unit[static_cast<Eigen::Index>(k)]);
+          out[k] = static_cast<float>(static_cast<double>(value) / data.unit[k]);
           any = true;
         }
       }
@@ -321,8 +324,8 @@ void addTails(FieldData& data, const Region& region)
   buffer.resize(region.whole, static_cast<int>(K));
   for (int y = region.whole.y; y < region.whole.y + region.whole.height; ++y)
   {
-    std::copy_n(data.scene() + data.pair.index(region.whole.x, y) * K,
-      static_cast<std::size_t>(region.whole.width) * K, buffer.pixel(region.whole.x, y));
+    std::copy_n(data.scene() + data.pair.index(region.whole.x, y) * K, region.whole.width * K,
+      buffer.pixel(region.whole.x, y));
   }
   for (int pass = 0; pass < TailPasses; ++pass)
   {
@@ -339,7 +342,7 @@ void addTails(FieldData& data, const Region& region)
       for (int y = window.y; y < window.y + window.height; ++y)
       {
         const float* row = buffer.pixel(window.x, y);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(window.width) * K; ++i)
+        for (std::size_t i = 0; i < window.width * K; ++i)
         {
           *out = static_cast<double>(row[i]);
           out += TailPasses;
@@ -350,7 +353,7 @@ void addTails(FieldData& data, const Region& region)
 }
 }
 
-FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop)
+FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, FieldLoop loop)
 {
   if (pair.extent.width < 1 || pair.extent.height < 1 || pair.channels.empty())
   {
@@ -358,6 +361,7 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
       pair.channels.size(), " channels; expected at least one of each");
   }
   FieldData data;
+  data.loop = std::move(loop);
   data.pair = withoutFrame(pair);
   const std::vector<PairSums> sums = channelSums(data.pair);
   requireRelativeToWhite(sums);
@@ -382,11 +386,122 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const Fiel
   dealBlocks(data.pair, data.blocks,
     std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
   data.cells = SceneCells(data.pair);
-  loop(static_cast<int>(data.blocks.size()),
-    [&](int i) { readBlock(data, data.blocks[static_cast<std::size_t>(i)]); });
-  loop(static_cast<int>(regions.size()),
-    [&](int i) { addTails(data, regions[static_cast<std::size_t>(i)]); });
+  data.forBlocks([&](int b) { readBlock(data, data.blocks[b]); });
+  data.loop(static_cast<int>(regions.size()), [&](int i) { addTails(data, regions[i]); });
   return data;
+}
+
+namespace
+{
+constexpr double Cells = 96.0;
+constexpr std::size_t FewestGroups = 12;
+constexpr std::size_t LargestLabel = 8; // part of the blocks, 1 / this
+constexpr double TestPart = 1.0 / 3.0;
+
+using Group = std::pair<int, int>; // label, cell
+
+std::vector<std::size_t> shuffled(std::size_t count, const CounterRandom& random)
+{
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return random.uniform(a) < random.uniform(b); });
+  return order;
+}
+
+// Numbers the groups from 0; returns how many there are.
+std::size_t group(std::vector<FieldBlock>& blocks, const std::vector<Group>& keys)
+{
+  std::map<Group, int> number;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    blocks[b].group = number.emplace(keys[b], static_cast<int>(number.size())).first->second;
+  }
+  return number.size();
+}
+
+std::size_t findGroups(const FieldPair& pair, std::vector<FieldBlock>& blocks)
+{
+  const double side = std::sqrt(static_cast<double>(pair.pixels()) / Cells);
+  const int columns = static_cast<int>(pair.extent.width / side) + 1;
+  std::vector<Group> cells;
+  std::vector<Group> labels;
+  std::map<int, std::size_t> count;
+  for (const FieldBlock& block : blocks)
+  {
+    const int x = block.window.x + block.window.width / 2;
+    const int y = block.window.y + block.window.height / 2;
+    const int cell = static_cast<int>(y / side) * columns + static_cast<int>(x / side);
+    const int label = pair.labels == nullptr ? 0 : pair.labels[pair.index(x, y)];
+    cells.emplace_back(0, cell);
+    labels.emplace_back(label, cell);
+    ++count[label];
+  }
+  for (Group& key : labels)
+  {
+    if (key.first != 0 && count[key.first] * LargestLabel <= blocks.size())
+    {
+      key.second = -1;
+    }
+  }
+  const std::size_t found = group(blocks, labels);
+  return found >= FewestGroups ? found : group(blocks, cells);
+}
+}
+
+void dealBlocks(
+  const FieldPair& pair, std::vector<FieldBlock>& blocks, std::size_t most, std::uint64_t seed)
+{
+  std::vector<std::size_t> order = shuffled(blocks.size(), CounterRandom(seed, 81));
+  order.resize(std::min(order.size(), most));
+  std::vector<FieldBlock> drawn;
+  drawn.reserve(order.size());
+  for (const std::size_t b : order)
+  {
+    drawn.push_back(std::move(blocks[b]));
+  }
+  blocks = std::move(drawn);
+  const std::size_t groups = findGroups(pair, blocks);
+  std::vector<double> size(groups, 0.0);
+  for (const FieldBlock& block : blocks)
+  {
+    size[block.group] += 1.0;
+  }
+  // Each group goes where most is missing: to the test blocks or a fold.
+  using Parts = Eigen::Array<double, FieldFolds + 1, 1>;
+  Parts part = Parts::Constant((1.0 - TestPart) / FieldFolds);
+  part[FieldFolds] = TestPart;
+  Parts dealt = Parts::Zero();
+  std::vector<int> fold(groups, -1);
+  double all = 0.0;
+  for (const std::size_t g : shuffled(groups, CounterRandom(seed, 82)))
+  {
+    all += size[g];
+    Eigen::Index best = 0;
+    (part * all - dealt).maxCoeff(&best);
+    dealt[best] += size[g];
+    fold[g] = best == FieldFolds ? -1 : static_cast<int>(best);
+  }
+  for (FieldBlock& block : blocks)
+  {
+    block.fold = fold[block.group];
+  }
+}
+
+Eigen::ArrayXd groupSums(const FieldData& data, const Eigen::VectorXd& ofBlock, bool training)
+{
+  std::map<int, double> sums;
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    if ((data.blocks[b].fold >= 0) == training)
+    {
+      sums[data.blocks[b].group] += ofBlock[b];
+    }
+  }
+  Eigen::ArrayXd values(sums.size());
+  std::transform(
+    sums.begin(), sums.end(), values.begin(), [](const auto& group) { return group.second; });
+  return values;
 }
 
 } // namespace msi

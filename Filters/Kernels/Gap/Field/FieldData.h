@@ -33,6 +33,7 @@ private:
 
 inline constexpr int FieldFolds = 5;
 
+// Runs body(0) .. body(count - 1), in any order, on threads of the caller's.
 using FieldLoop = std::function<void(int count, const std::function<void(int)>& body)>;
 
 // From the middle of the image to that of a window, in pixels.
@@ -67,10 +68,16 @@ struct FieldData
   double usablePart = 0.0;          // of the image's pixels
   double defectPart = 0.0;          // of the blocks' values: leaveOutDefects()
   SceneCells cells;
+  FieldLoop loop;
 
-  Eigen::Index channels() const noexcept { return static_cast<Eigen::Index>(pair.channels.size()); }
+  Eigen::Index channels() const noexcept { return pair.channels.size(); }
   // The simulated image without gaps.
   const float* scene() const noexcept { return filled.empty() ? pair.simulated : filled.data(); }
+  // Runs body() for the number of every block.
+  void forBlocks(const std::function<void(int)>& body) const
+  {
+    loop(static_cast<int>(blocks.size()), body);
+  }
 };
 
 // Every pixel that is finite in both images, whose neighbours to two pixels are finite in the simulated one and
@@ -81,7 +88,7 @@ struct FieldData
 // 512 x 512 pixels, spread over the field, so that the cost is bounded.
 // Errors: std::invalid_argument for an empty image, no channel, or too few usable pixels.
 // Holds pointers to the images of the pair.
-FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, const FieldLoop& loop);
+FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, FieldLoop loop);
 
 // Draws at most `most` blocks and deals them to folds and test, whole groups at a time: what errs in one block (a material whose
 // color is simulated wrongly) errs in its neighbours, too, and may not vouch for itself.

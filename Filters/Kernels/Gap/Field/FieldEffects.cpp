@@ -27,7 +27,7 @@ std::string harmonicName(Eigen::Index n)
 std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const FieldModel& model,
   const std::vector<std::string>& channels, const Eigen::VectorXd& error, Eigen::Index& next)
 {
-  const auto K = static_cast<Eigen::Index>(channels.size());
+  const Eigen::Index K = channels.size();
   const BandingSines sines = bandingSines(choice, model);
   const bool profile = isProfile(choice);
   std::vector<GapParameter> parameters;
@@ -40,7 +40,7 @@ std::vector<GapParameter> bandingParameters(const FieldChoice& choice, const Fie
   }
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    const std::string& channel = channels[static_cast<std::size_t>(k)];
+    const std::string& channel = channels[k];
     for (Eigen::Index n = 0; n < sines.amplitude.cols(); ++n)
     {
       const double amplitude = sines.amplitude(k, n);
@@ -181,10 +181,8 @@ std::vector<GapParameter> fieldParameters(const FieldChoice& choice, const Field
     }
     if (!term.name.empty())
     {
-      parameters.push_back(
-        { term.perChannel ? withChannel(term.name, channels[static_cast<std::size_t>(k)])
-                          : term.name,
-          value, term.unit, deviation });
+      parameters.push_back({ term.perChannel ? withChannel(term.name, channels[k]) : term.name,
+        value, term.unit, deviation });
     }
   }
   return parameters;
@@ -199,7 +197,7 @@ std::vector<CameraEffect> fieldCorrection(
     CameraEffect effect = neutralEffect(choice->effect->name, channels, choice->form);
     const std::vector<EffectParameter> names = effectParameters(effect, channels);
     const std::size_t numbers = numbersOf({ choice }, model).size();
-    const Eigen::VectorXd exact = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers));
+    const Eigen::VectorXd exact = Eigen::VectorXd::Zero(numbers);
     Eigen::Index next = 0;
     for (const GapParameter& found : fieldParameters(*choice, model, channels, exact, next))
     {

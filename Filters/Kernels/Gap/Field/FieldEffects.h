@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Kernels/Camera/CameraEffect.h"
-#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
+#include "Kernels/Gap/Diagnosis/LinearFit.h"
 #include "Kernels/Gap/Field/FieldModel.h"
 #include "Kernels/Gap/GapReport.h"
 

@@ -55,24 +55,21 @@ FieldFitter::FieldFitter(const FieldData& data, const FieldStatistics& statistic
 std::vector<FieldFitter::Design> FieldFitter::designs(
   const std::vector<FieldNumber>& numbers, const FieldModel& about) const
 {
-  std::vector<Design> designs(static_cast<std::size_t>(Data.channels()));
-  for (std::size_t k = 0; k < designs.size(); ++k)
+  std::vector<Design> designs(Data.channels());
+  for (Eigen::Index k = 0; k < Data.channels(); ++k)
   {
-    const auto channel = static_cast<Eigen::Index>(k);
-    std::vector<Eigen::VectorXd> columns;
     for (std::size_t n = 0; n < numbers.size(); ++n)
     {
-      if (numbers[n].channel < 0 || numbers[n].channel == channel)
+      if (numbers[n].channel < 0 || numbers[n].channel == k)
       {
-        designs[k].numbers.push_back(static_cast<Eigen::Index>(n));
-        columns.push_back(
-          columnsChanged(numbers[n].term->parameter, Statistics.model, about, channel));
+        designs[k].numbers.push_back(n);
       }
     }
-    designs[k].columns.resize(fieldColumns().residual, static_cast<Eigen::Index>(columns.size()));
-    for (std::size_t c = 0; c < columns.size(); ++c)
+    designs[k].columns.resize(fieldColumns().residual, designs[k].numbers.size());
+    for (Eigen::Index c = 0; c < designs[k].columns.cols(); ++c)
     {
-      designs[k].columns.col(static_cast<Eigen::Index>(c)) = columns[c];
+      designs[k].columns.col(c) =
+        columnsChanged(numbers[designs[k].numbers[c]].term->parameter, Statistics.model, about, k);
     }
   }
   return designs;
@@ -130,7 +127,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
   std::vector<NormalEquations> folds;
   for (const std::vector<Eigen::MatrixXd>& normal : Fold)
   {
-    NormalEquationsSum sum(static_cast<Eigen::Index>(numbers.size()));
+    NormalEquationsSum sum(numbers.size());
     for (std::size_t k = 0; k < design.size(); ++k)
     {
       design[k].add(normal[k], known[k], sum);
@@ -142,7 +139,7 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
   for (std::size_t n = 0; n < numbers.size(); ++n)
   {
     const FieldNumber& number = numbers[n];
-    const double change = fit.increase[static_cast<Eigen::Index>(n)];
+    const double change = fit.increase[n];
     fit.step = std::fmax(fit.step, std::fabs(change) / number.typical);
     fit.next[number.term->parameter].segment(std::max<Eigen::Index>(number.channel, 0),
       number.channel < 0 ? Data.channels() : 1) += change;
@@ -163,14 +160,13 @@ FieldFit FieldFitter::fit(const FieldSet& set, const FieldShape& start) const
 Eigen::VectorXd blockEnergies(
   const FieldData& data, const FieldStatistics& statistics, const FieldFit& fit)
 {
-  Eigen::VectorXd energy = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(data.blocks.size()));
+  Eigen::VectorXd energy = Eigen::VectorXd::Zero(data.blocks.size());
   for (std::size_t b = 0; b < data.blocks.size(); ++b)
   {
     const int fold = data.blocks[b].fold;
     for (Eigen::Index k = 0; fold >= 0 && k < data.channels(); ++k)
     {
-      energy[static_cast<Eigen::Index>(b)] += energyLeft(statistics.at(b, k).normal(),
-        fit.change[static_cast<std::size_t>(fold)][static_cast<std::size_t>(k)]);
+      energy[b] += energyLeft(statistics.at(b, k).normal(), fit.change[fold][k]);
     }
   }
   return energy;
@@ -214,8 +210,8 @@ FieldFit FieldFitter::fitFromBestStart(const FieldSet& set) const
   return best;
 }
 
-FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
-  const FieldModel& start, const FieldLoop& loop)
+FieldHypothesis refitted(
+  const FieldData& data, const FieldWeights& weights, const FieldSet& set, const FieldModel& start)
 {
   const AskedSteps asked = stepsOf(set);
   FieldModel model = start;
@@ -224,7 +220,7 @@ FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, con
   for (int iteration = 0; iteration < Iterations; ++iteration)
   {
     const auto statistics =
-      std::make_shared<FieldStatistics>(fieldStatistics(data, model, &weights, loop, asked));
+      std::make_shared<FieldStatistics>(fieldStatistics(data, model, &weights, asked));
     const FieldFitter fitter(data, *statistics);
     if (best.statistics && !(fitter.energy() < least * Rising))
     {
@@ -246,7 +242,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set, const FieldFit&
 {
   const std::vector<FieldNumber> numbers = numbersOf(set, Statistics.model);
   const std::vector<Design> design = designs(numbers, Statistics.model);
-  const auto count = static_cast<Eigen::Index>(numbers.size());
+  const Eigen::Index count = numbers.size();
   std::map<int, Eigen::VectorXd> ofGroup;
   for (std::size_t b = 0; b < Data.blocks.size(); ++b)
   {
@@ -255,8 +251,7 @@ Eigen::VectorXd FieldFitter::standardErrors(const FieldSet& set, const FieldFit&
     {
       ofGroup.try_emplace(block.group, Eigen::VectorXd::Zero(count))
         .first->second(design[k].numbers) +=
-        design[k].gradient(Statistics.at(b, static_cast<Eigen::Index>(k)).normal(),
-          fit.change[static_cast<std::size_t>(block.fold)][k]);
+        design[k].gradient(Statistics.at(b, k).normal(), fit.change[block.fold][k]);
     }
   }
   Eigen::MatrixXd scores(count, 0);

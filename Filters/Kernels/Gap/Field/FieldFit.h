@@ -74,7 +74,7 @@ struct FieldHypothesis
 };
 
 // The model after Gauss-Newton from a start.
-FieldHypothesis refitted(const FieldData& data, const FieldWeights& weights, const FieldSet& set,
-  const FieldModel& start, const FieldLoop& loop);
+FieldHypothesis refitted(
+  const FieldData& data, const FieldWeights& weights, const FieldSet& set, const FieldModel& start);
 
 } // namespace msi

@@ -3,12 +3,12 @@
 #include "Kernels/Doubts/MixUps.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/FoundCauses.h"
+#include "Kernels/Gap/Diagnosis/GapRegression.h"
 #include "Kernels/Gap/Field/FieldEffects.h"
 #include "Kernels/Gap/Field/FieldObservation.h"
 #include "Kernels/Gap/Field/FieldOddPixels.h"
 #include "Kernels/Gap/Field/FieldStarts.h"
 #include "Kernels/Gap/ReportParts.h"
-#include "Kernels/Gap/UnmodelledPart.h"
 #include "Kernels/Gap/WithoutOddOnes.h"
 
 #include <algorithm>
@@ -47,20 +47,19 @@ struct FieldFinding
 
 // A first, quick search says what is left, which shows the noise.
 void search(FieldFinding& finding, const FieldData& data, const std::vector<FieldChoice>& choices,
-  const std::vector<ImageDisplacement>& start, int maximumEffects, const FieldLoop& loop,
+  const std::vector<ImageDisplacement>& start, int maximumEffects,
   const std::function<bool()>& stop)
 {
   const auto statisticsAt = [&](const FieldModel& model)
   {
-    return fieldStatistics(data, model, nullptr, loop,
+    return fieldStatistics(data, model, nullptr,
       AskedSteps{ fieldColumns().step[fieldColumns().gain],
         fieldColumns().step[fieldColumns().offset], fieldColumns().step[fieldColumns().blur] });
   };
   finding.weights = fieldWeights(statisticsAt(FieldModel(data.channels())));
   const auto observe = [&]
   {
-    finding.observation =
-      std::make_unique<FieldObservation>(data, choices, finding.weights, start, loop);
+    finding.observation = std::make_unique<FieldObservation>(data, choices, finding.weights, start);
   };
   observe();
   SetSearchLimits limits{ maximumEffects, 1, 1, false };
@@ -97,12 +96,12 @@ GapFigures figuresOn(const FieldData& data, bool all, const FieldStatistics& bef
 // The regular part of what a model leaves.
 CameraEffect regularPartOf(const FieldData& data, const FieldStatistics& left)
 {
-  const auto count = static_cast<Eigen::Index>(remainderStep().step->width());
-  std::vector<Eigen::Index> columns(static_cast<std::size_t>(count));
-  std::iota(columns.begin(), columns.end(), static_cast<Eigen::Index>(remainderStep().column));
+  const Eigen::Index count = remainderStep().step->width();
+  std::vector<Eigen::Index> columns(count);
+  std::iota(columns.begin(), columns.end(), remainderStep().column);
   columns.push_back(fieldColumns().residual);
-  std::vector<std::vector<Eigen::MatrixXd>> products = FieldFitter(data, left).folds();
-  for (std::vector<Eigen::MatrixXd>& fold : products)
+  std::vector<ChannelNormals> products = FieldFitter(data, left).folds();
+  for (ChannelNormals& fold : products)
   {
     for (Eigen::MatrixXd& channel : fold)
     {
@@ -113,20 +112,20 @@ CameraEffect regularPartOf(const FieldData& data, const FieldStatistics& left)
 }
 
 // Adds it, where it predicts test blocks.
-void addRest(FieldGap& gap, const FieldData& data, const FieldWeights& weights,
-  const GapOptions& options, const FieldLoop& loop)
+void addRest(
+  FieldGap& gap, const FieldData& data, const FieldWeights& weights, const GapOptions& options)
 {
   const PlacedStep& step = remainderStep();
-  const FieldStatistics left = fieldStatistics(data, gap.model, &weights, loop, { &step });
+  const FieldStatistics left = fieldStatistics(data, gap.model, &weights, { &step });
   const CameraEffect effect = regularPartOf(data, left);
   FieldModel model = gap.model;
   const Eigen::Map<const Eigen::ArrayXXd> numbers(effect.parameters.data(), data.channels(),
     static_cast<Eigen::Index>(effect.parameters.size()) / data.channels());
   for (std::size_t n = 0; n < step.step->numbers.size(); ++n)
   {
-    model[step.number + n] = numbers.col(static_cast<Eigen::Index>(n));
+    model[step.number + n] = numbers.col(n);
   }
-  const FieldStatistics less = fieldStatistics(data, model, &weights, loop, AskedSteps{});
+  const FieldStatistics less = fieldStatistics(data, model, &weights, AskedSteps{});
   const GapFigures figures = figuresOn(data, false, left, less, options.seed);
   if (!(figures.shrinkInterval[0] > 0.0))
   {
@@ -197,12 +196,12 @@ std::vector<std::string> indistinctEffects(
 // Means over a raster, K x cells, row after row; NaN where a cell has no value.
 Eigen::MatrixXd rasterOf(const FieldPair& pair, const float* image, int width, int height)
 {
-  const auto K = static_cast<Eigen::Index>(pair.channels.size());
+  const Eigen::Index K = pair.channels.size();
   Eigen::ArrayXXd sum = Eigen::ArrayXXd::Zero(K, Eigen::Index{ width } * height);
   Eigen::ArrayXXd count = sum;
   const auto visit = [&](int x, int y, Eigen::Index cell)
   {
-    const float* values = image + pair.index(x, y) * static_cast<std::size_t>(K);
+    const float* values = image + pair.index(x, y) * K;
     for (Eigen::Index k = 0; k < K; ++k)
     {
       const bool known = std::isfinite(values[k]);
@@ -327,8 +326,8 @@ std::vector<std::string> notesOn(
 // odd: the pixels that are, counted block after block; unchanged where it was stopped. unlessOdd: where some are goes no further than
 // to find them.
 std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldChoice>& choices,
-  const std::vector<ImageDisplacement>& start, const GapOptions& options, const FieldLoop& loop,
-  IndexList& odd, bool unlessOdd)
+  const std::vector<ImageDisplacement>& start, const GapOptions& options, IndexList& odd,
+  bool unlessOdd)
 {
   double done = 0.0;
   bool stopped = false;
@@ -343,13 +342,13 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     return std::nullopt;
   }
   FieldFinding finding;
-  search(finding, data, choices, start, options.maximumCauses, loop,
+  search(finding, data, choices, start, options.maximumCauses,
     [&] { return say(done + 0.25 * (0.9 - done), "searching for effects"); });
   if (stopped || say(0.9, "describing what was found"))
   {
     return std::nullopt;
   }
-  odd = oddPixels(data, finding.weights, finding.before().model, finding.after().model, loop);
+  odd = oddPixels(data, finding.weights, finding.before().model, finding.after().model);
   if (unlessOdd && !odd.empty())
   {
     return std::nullopt;
@@ -366,8 +365,8 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
   nominal.rows = gap->model.rows;
   nominal.columns = gap->model.columns;
   nominal.take(gap->model, isShape);
-  report.where = fieldAxes(
-    data, fieldStatistics(data, nominal, &finding.weights, loop), loop, &finding.after().model);
+  report.where =
+    fieldAxes(data, fieldStatistics(data, nominal, &finding.weights), &finding.after().model);
   const auto beyondNoise = [&](double rms, const FieldStatistics& statistics)
   {
     return rms > Decision::BeyondNoise * report.gap.noiseFloor ||
@@ -379,7 +378,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     evidence.credited = report.gap.shrink;
     evidence.explained =
       beyondNoise(report.gap.rmsAfter, finding.after()) ? report.gap.shrink : 1.0;
-    evidence.rest = fieldAxes(data, finding.after(), loop);
+    evidence.rest = fieldAxes(data, finding.after());
     report.correction = fieldCorrection(finding.set(), gap->model, data.pair.channels);
   }
   else
@@ -392,7 +391,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     conclude(report, *finding.observation, finding.found, evidence, options.seed);
   if (report.verdict != GapVerdict::NoGap)
   {
-    addRest(*gap, data, finding.weights, options, loop);
+    addRest(*gap, data, finding.weights, options);
   }
   report.nextCaptures = separatingCaptures(explanations, inQuestion(report.causes));
   report.notes = notesOn(data, finding, choices);
@@ -405,20 +404,19 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
 std::optional<FieldGap> diagnoseField(const FieldPair& pair, const GapOptions& options)
 {
   const std::vector<FieldChoice> choices = fieldChoices(options.without);
-  const FieldLoop loop = [&options](int count, const std::function<void(int)>& body)
-  { options.forAll(count, body); };
   if (options.progress && !options.progress(0.0, "reading the images"))
   {
     return std::nullopt;
   }
-  FieldData data = prepareFieldData(pair, options.seed, loop);
+  FieldData data = prepareFieldData(pair, options.seed,
+    [&options](int count, const std::function<void(int)>& body) { options.forAll(count, body); });
   leaveOutDefects(data);
-  const std::vector<ImageDisplacement> start = registrationStart(data.pair, loop);
+  const std::vector<ImageDisplacement> start = registrationStart(data);
   return diagnoseWithoutOdd(
     [&](IndexList& odd, bool unlessOdd)
     {
       leaveOut(data, std::exchange(odd, {}));
-      return diagnose(data, choices, start, options, loop, odd, unlessOdd);
+      return diagnose(data, choices, start, options, odd, unlessOdd);
     },
     [](FieldGap& gap) -> GapReport& { return gap.report; },
     [&] { return oddPixelsNote(data, ", without which there is no gap"); });

@@ -46,7 +46,7 @@ void StepDerivatives::chain(const ChannelSteps& steps) noexcept
 }
 
 FieldModel::FieldModel(Eigen::Index channels)
-  : Values(static_cast<Eigen::Index>(fieldParameterCount()), channels)
+  : Values(fieldParameterCount(), channels)
 {
   for (ImageParameter p = 0; p < fieldParameterCount(); ++p)
   {

@@ -24,7 +24,7 @@ struct FieldProfile
   // fold: -1 for blocks outside all folds.
   static const Eigen::ArrayXXd& without(int fold, const std::vector<Eigen::ArrayXXd>& folds)
   {
-    return fold < 0 ? folds.back() : folds[static_cast<std::size_t>(fold)];
+    return fold < 0 ? folds.back() : folds[fold];
   }
 };
 
@@ -77,22 +77,16 @@ struct FieldModel
 {
   explicit FieldModel(Eigen::Index channels = 0);
 
-  auto operator[](ImageParameter parameter)
-  {
-    return Values.row(static_cast<Eigen::Index>(parameter)).transpose();
-  }
-  auto operator[](ImageParameter parameter) const
-  {
-    return Values.row(static_cast<Eigen::Index>(parameter)).transpose();
-  }
+  auto operator[](ImageParameter parameter) { return Values.row(parameter).transpose(); }
+  auto operator[](ImageParameter parameter) const { return Values.row(parameter).transpose(); }
   double at(ImageParameter parameter, Eigen::Index channel) const
   {
-    return Values(static_cast<Eigen::Index>(parameter), channel);
+    return Values(parameter, channel);
   }
   Eigen::Index channels() const noexcept { return Values.cols(); }
   const double* numbers(const PlacedStep& step, Eigen::Index channel) const
   {
-    return &Values(static_cast<Eigen::Index>(step.number), channel);
+    return &Values(step.number, channel);
   }
   bool isNeutral(ImageParameter parameter) const;
   // But for numbers that change nothing alone.

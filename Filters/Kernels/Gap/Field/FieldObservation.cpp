@@ -25,9 +25,8 @@ std::vector<GapOption> fieldOptions(const std::vector<FieldChoice>& choices)
   std::vector<GapOption> options;
   for (std::size_t c = 0; c < choices.size(); ++c)
   {
-    const auto before =
-      std::count_if(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(c),
-        [&](const FieldChoice& other) { return other.effect == choices[c].effect; });
+    const auto before = std::count_if(choices.begin(), choices.begin() + c,
+      [&](const FieldChoice& other) { return other.effect == choices[c].effect; });
     const bool ofChannels = std::any_of(choices[c].terms.begin(), choices[c].terms.end(),
       [](const ImageTerm& term) { return term.perChannel && !term.followsLight; });
     options.push_back({ choices[c].effect, choices[c].form, "", ofChannels,
@@ -79,18 +78,17 @@ bool clips(const FieldChoice& choice)
 }
 
 FieldObservation::FieldObservation(const FieldData& data, const std::vector<FieldChoice>& choices,
-  const FieldWeights& weights, const std::vector<ImageDisplacement>& start, const FieldLoop& loop)
+  const FieldWeights& weights, const std::vector<ImageDisplacement>& start)
   : Data(data)
   , Choices(choices)
   , Weights(weights)
   , Start(start)
-  , Loop(loop)
 {
   Options = fieldOptions(choices);
   ChannelNumbers = numbersOfAChannel(choices) * data.channels();
   FieldHypothesis hypothesis;
-  hypothesis.statistics = std::make_shared<FieldStatistics>(
-    fieldStatistics(data, FieldModel(data.channels()), &weights, loop));
+  hypothesis.statistics =
+    std::make_shared<FieldStatistics>(fieldStatistics(data, FieldModel(data.channels()), &weights));
   const FieldFitter fitter(data, *hypothesis.statistics);
   hypothesis.fit = fitter.fit({});
   NoiseEnergy = groupSums(data, hypothesis.statistics->ofBlocks(&BlockSums::chance), true).sum();
@@ -122,12 +120,12 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   }
   FieldHypothesis hypothesis = hypothesisOf(fit);
   FieldModel model = hypothesis.statistics->model;
-  const std::vector<FieldResidual> residuals = fieldResiduals(Data, model, Loop);
+  const std::vector<FieldResidual> residuals = fieldResiduals(Data, model);
   for (const bool rows : { true, false })
   {
     if (!hasSine(hypothesis.set, rows))
     {
-      findPeriod(Data, residuals, rows, Loop, model.stripes(rows));
+      findPeriod(Data, residuals, rows, model.stripes(rows));
     }
   }
   findProfiles(model, residuals, hypothesis.set, false);
@@ -135,8 +133,7 @@ const FieldHypothesis& FieldObservation::started(const ObservedFit& fit) const
   {
     model[clippingTerms()[1].parameter] = findClipLevels(residuals, Data.channels());
   }
-  hypothesis.statistics =
-    std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Weights, Loop));
+  hypothesis.statistics = std::make_shared<FieldStatistics>(fieldStatistics(Data, model, &Weights));
   hypothesis.fit = FieldFitter(Data, *hypothesis.statistics).fit(hypothesis.set);
   return known.emplace(std::move(hypothesis));
 }
@@ -161,7 +158,7 @@ FieldModel FieldObservation::registered(const FieldModel& model, const FieldChoi
   std::vector<double> numbers(choice.step().step->numbers.size());
   for (Eigen::Index k = 0; k < model.channels(); ++k)
   {
-    choice.step().step->place(Start[static_cast<std::size_t>(k)], numbers.data());
+    choice.step().step->place(Start[k], numbers.data());
     for (const ImageTerm& term : choice.terms)
     {
       moved[term.parameter][k] = numbers[term.parameter - choice.step().number];
@@ -196,7 +193,7 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
     if (choice.step().step->place != nullptr && !Start.empty())
     {
       const FieldModel moved = registered(model, choice);
-      const FieldStatistics there = fieldStatistics(Data, moved, &Weights, Loop, stepsOf(set));
+      const FieldStatistics there = fieldStatistics(Data, moved, &Weights, stepsOf(set));
       FieldFit other = FieldFitter(Data, there).fit(set);
       if (other.energy < fit.energy)
       {
@@ -212,7 +209,7 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
 
 FieldHypothesis FieldObservation::refit(const FieldSet& set, const FieldModel& start) const
 {
-  return refitted(Data, Weights, set, start, Loop);
+  return refitted(Data, Weights, set, start);
 }
 
 FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview& with) const
@@ -234,7 +231,7 @@ FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview&
       others.erase(std::remove(others.begin(), others.end(), profile), others.end());
       FieldModel without = found;
       without[strength].setZero();
-      const std::vector<FieldResidual> residuals = fieldResiduals(Data, without, Loop);
+      const std::vector<FieldResidual> residuals = fieldResiduals(Data, without);
       for (const bool keepTrend : { false, true })
       {
         FieldModel model = found;
@@ -274,7 +271,7 @@ void FieldObservation::describe(
 {
   for (const FieldChoice* choice : set)
   {
-    described.set.push_back(static_cast<std::size_t>(choice - Choices.data()));
+    described.set.push_back(choice - Choices.data());
   }
   described.energy = fit.energy;
   fit.linear.describe(described, fit.increase);

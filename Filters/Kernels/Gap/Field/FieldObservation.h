@@ -31,8 +31,7 @@ class FieldObservation : public Observation
 public:
   // Hold references.
   FieldObservation(const FieldData& data, const std::vector<FieldChoice>& choices,
-    const FieldWeights& weights, const std::vector<ImageDisplacement>& start,
-    const FieldLoop& loop);
+    const FieldWeights& weights, const std::vector<ImageDisplacement>& start);
 
   std::vector<GapPreview> previews(const ObservedFit& from) const override;
   FitPointer extended(const ObservedFit& from, const GapPreview& with) const override;
@@ -57,7 +56,6 @@ private:
   const std::vector<FieldChoice>& Choices;
   const FieldWeights& Weights;
   const std::vector<ImageDisplacement>& Start; // of each channel; empty: none is moved far
-  const FieldLoop& Loop;
 };
 
 } // namespace msi

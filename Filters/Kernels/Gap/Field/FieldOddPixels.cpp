@@ -15,6 +15,84 @@ namespace msi
 
 namespace
 {
+constexpr double DarkFrame = 0.25; // of the mean of all
+
+using ImageValues = Eigen::Map<const Eigen::ArrayXXf>; // K x pixels
+
+// Numbers of the pixels that are 0 in all channels, from the border on.
+std::vector<Eigen::Index> zerosFromBorder(const ImageValues& image, const ImageExtent& extent)
+{
+  std::vector<char> known(image.cols(), 0);
+  std::vector<Eigen::Index> zeros;
+  const auto look = [&](Eigen::Index x, Eigen::Index y)
+  {
+    const Eigen::Index pixel = y * extent.width + x;
+    if (x >= 0 && y >= 0 && x < extent.width && y < extent.height && known[pixel] == 0 &&
+      (image.col(pixel) == 0.0F).all())
+    {
+      known[pixel] = 1;
+      zeros.push_back(pixel);
+    }
+  };
+  for (int i = 0; i < std::max(extent.width, extent.height); ++i)
+  {
+    look(i, 0);
+    look(i, extent.height - 1);
+    look(0, i);
+    look(extent.width - 1, i);
+  }
+  for (std::size_t next = 0; next < zeros.size();)
+  {
+    const Eigen::Index pixel = zeros[next++];
+    const Eigen::Index x = pixel % extent.width;
+    const Eigen::Index y = pixel / extent.width;
+    look(x - 1, y);
+    look(x + 1, y);
+    look(x, y - 1);
+    look(x, y + 1);
+  }
+  return zeros;
+}
+
+template <typename Values>
+double meanOf(const Values& values)
+{
+  const auto known = values.isFinite();
+  return known.select(values.template cast<double>(), 0.0).sum() /
+    std::fmax(static_cast<double>(known.count()), 1.0);
+}
+}
+
+FieldPair withoutFrame(FieldPair pair)
+{
+  const auto values = [&](const float* image) -> ImageValues
+  {
+    return { image, static_cast<Eigen::Index>(pair.channels.size()),
+      static_cast<Eigen::Index>(pair.pixels()) };
+  };
+  const std::size_t side = std::min(pair.extent.width, pair.extent.height);
+  const ImageValues simulated = values(pair.simulated);
+  const auto take = [&](const float*& image, const ImageValues& other)
+  {
+    const std::vector<Eigen::Index> frame = zerosFromBorder(values(image), pair.extent);
+    if (2 * frame.size() >= side && 2 * frame.size() <= pair.pixels() &&
+      meanOf(other(Eigen::all, frame)) >= DarkFrame * meanOf(other))
+    {
+      Eigen::MatrixXf inside = values(image);
+      inside(Eigen::all, frame).setConstant(std::numeric_limits<float>::quiet_NaN());
+      pair.own.push_back(std::make_shared<const Eigen::MatrixXf>(std::move(inside)));
+      image = pair.own.back()->data();
+      pair.framePart += static_cast<double>(frame.size()) / static_cast<double>(pair.pixels());
+    }
+  };
+  const ImageValues real = values(pair.real);
+  take(pair.real, simulated);
+  take(pair.simulated, real);
+  return pair;
+}
+
+namespace
+{
 // The gap of a pixel of a block, beside that of its neighbours.
 struct LonePixel
 {
@@ -27,7 +105,7 @@ std::vector<LonePixel> lonePixels(FieldData& data, std::size_t channel)
 {
   const FieldPair& pair = data.pair;
   const std::size_t K = pair.channels.size();
-  const double unit = data.unit[static_cast<Eigen::Index>(channel)];
+  const double unit = data.unit[channel];
   const auto gap = [&](int x, int y)
   {
     const std::size_t value = pair.index(x, y) * K + channel;
@@ -39,7 +117,7 @@ std::vector<LonePixel> lonePixels(FieldData& data, std::size_t channel)
   {
     for (int i = 0; i < static_cast<int>(block.window.pixels()); ++i)
     {
-      float& real = block.real[static_cast<std::size_t>(i) * K + channel];
+      float& real = block.real[i * K + channel];
       const ImagePlace place = block.place(i);
       const ImageWindow near = grown({ place.x, place.y, 1, 1 }, 1, pair.extent);
       others.clear();
@@ -103,7 +181,7 @@ void leaveOutDefects(FieldData& data)
 
 void leaveOut(FieldData& data, const IndexList& pixels)
 {
-  const auto size = static_cast<Eigen::Index>(data.blocks.front().window.pixels());
+  const Eigen::Index size = data.blocks.front().window.pixels();
   const std::size_t K = data.pair.channels.size();
   std::map<Eigen::Index, std::vector<int>> ofBlocks;
   for (const Eigen::Index pixel : pixels)
@@ -126,9 +204,7 @@ void leaveOut(FieldData& data, const IndexList& pixels)
     {
       const ImagePlace place = block->place(pixel);
       data.leftOut.push_back({ place.x, place.y, 1, 1 });
-      std::fill_n(
-        block->real.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(pixel) * K), K,
-        std::numeric_limits<float>::quiet_NaN());
+      std::fill_n(block->real.begin() + pixel * K, K, std::numeric_limits<float>::quiet_NaN());
     }
   }
 }
@@ -149,27 +225,27 @@ std::size_t leftOutPixels(const FieldData& data)
 Eigen::MatrixXi kindsOfPixels(const FieldData& data)
 {
   constexpr Eigen::Index Kinds = 8;
-  const auto rows = static_cast<Eigen::Index>(data.blocks.front().window.pixels());
+  const Eigen::Index rows = data.blocks.front().window.pixels();
   const Eigen::Index K = data.channels();
-  Eigen::ArrayXXd slope(rows, static_cast<Eigen::Index>(data.blocks.size()));
+  Eigen::ArrayXXd slope(rows, data.blocks.size());
   const ImageExtent& extent = data.pair.extent;
   const auto scene = [&](int x, int y)
   {
     const auto pixel =
       data.pair.index(std::clamp(x, 0, extent.width - 1), std::clamp(y, 0, extent.height - 1));
-    return Eigen::Map<const Eigen::ArrayXf>(data.scene() + pixel * static_cast<std::size_t>(K), K);
+    return Eigen::Map<const Eigen::ArrayXf>(data.scene() + pixel * K, K);
   };
   for (Eigen::Index b = 0; b < slope.cols(); ++b)
   {
     for (Eigen::Index p = 0; p < rows; ++p)
     {
-      const auto [x, y] = data.blocks[static_cast<std::size_t>(b)].place(static_cast<int>(p));
+      const auto [x, y] = data.blocks[b].place(static_cast<int>(p));
       slope(p, b) = static_cast<double>((
         (scene(x + 1, y) - scene(x - 1, y)).square() + (scene(x, y + 1) - scene(x, y - 1)).square())
                                           .sum());
     }
   }
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(slope.size()));
+  std::vector<Eigen::Index> order(slope.size());
   std::iota(order.begin(), order.end(), Eigen::Index(0));
   std::stable_sort(order.begin(), order.end(),
     [&slope](Eigen::Index a, Eigen::Index b) { return slope(a) < slope(b); });
@@ -183,12 +259,12 @@ Eigen::MatrixXi kindsOfPixels(const FieldData& data)
 }
 
 IndexList oddPixels(const FieldData& data, const FieldWeights& weights, const FieldModel& nominal,
-  const FieldModel& found, const FieldLoop& loop)
+  const FieldModel& found)
 {
-  const std::vector<FieldResidual> before = fieldResiduals(data, nominal, loop, true);
-  const std::vector<FieldResidual> after = fieldResiduals(data, found, loop, true);
-  const auto rows = static_cast<Eigen::Index>(data.blocks.front().window.pixels());
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(data.blocks.size()));
+  const std::vector<FieldResidual> before = fieldResiduals(data, nominal, true);
+  const std::vector<FieldResidual> after = fieldResiduals(data, found, true);
+  const Eigen::Index rows = data.blocks.front().window.pixels();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, data.blocks.size());
   Eigen::MatrixXd count = sum;
   for (std::size_t i = 0; i < before.size(); ++i)
   {
@@ -196,12 +272,11 @@ IndexList oddPixels(const FieldData& data, const FieldWeights& weights, const Fi
     const CameraNoise& noise = weights.noise[i % data.pair.channels.size()];
     for (Eigen::Index n = 0; n < before[i].residual.size(); ++n)
     {
-      const Eigen::Index pixel = before[i].pixel[static_cast<std::size_t>(n)];
+      const Eigen::Index pixel = before[i].pixel[n];
       const double left =
         std::fmin(std::fabs(before[i].residual[n]), std::fabs(after[i].residual[n]));
-      sum(pixel, static_cast<Eigen::Index>(block)) +=
-        left * left / noiseVariance(noise, after[i].level[n]);
-      count(pixel, static_cast<Eigen::Index>(block)) += 1.0;
+      sum(pixel, block) += left * left / noiseVariance(noise, after[i].level[n]);
+      count(pixel, block) += 1.0;
     }
   }
   return oddElements(

@@ -1,4 +1,4 @@
-// Pixels that take no part in the diagnosis of an image pair: hot and dead ones, and those that fit nothing.
+// Pixels that take no part in the diagnosis of an image pair: those of a frame, hot and dead ones, and those that fit nothing.
 #pragma once
 
 #include "Kernels/Doubts/OddOnes.h"
@@ -10,6 +10,10 @@
 namespace msi
 {
 
+// The pair with NaN where one image has a frame, as registration leaves it: pixels that are 0 in all channels, from the border on, where
+// the other image is not as dark. Keeps copies of images with a frame.
+FieldPair withoutFrame(FieldPair pair);
+
 // Values of the real image that differ from the simulated one unlike all of their neighbours but one, as those of hot and dead pixels
 // do: not usable from here on. Sets FieldData::defectPart.
 void leaveOutDefects(FieldData& data);
@@ -17,7 +21,7 @@ void leaveOutDefects(FieldData& data);
 // oddElements() by what is left of them with and without the effects found, mean over the channels, over noise; compared are pixels where
 // the simulated image is as steep. Counted block after block.
 IndexList oddPixels(const FieldData& data, const FieldWeights& weights, const FieldModel& nominal,
-  const FieldModel& found, const FieldLoop& loop);
+  const FieldModel& found);
 
 // Those take no part from here on, and are in FieldData::leftOut.
 void leaveOut(FieldData& data, const IndexList& pixels);

@@ -29,8 +29,7 @@ struct FieldPair
   std::size_t pixels() const noexcept { return wholeImage(extent).pixels(); }
   std::size_t index(int x, int y) const noexcept
   {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width) +
-      static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y) * extent.width + x;
   }
   // (x, y) from -1 to 1 over the longer side, from pixel center to pixel center: as ImageSimulator.
   double fieldX(double x) const noexcept { return offX(x) / half(); }
@@ -46,10 +45,6 @@ private:
   }
 };
 
-// The pair with NaN where one image has a frame, as registration leaves it: pixels that are 0 in all channels, from the border on, where
-// the other image is not as dark. Keeps copies of images with a frame.
-FieldPair withoutFrame(FieldPair pair);
-
 // Every pixel, or every few of an image of more than 2^20, with the cell in which it lies of a raster of width x height:
 // visit(x, y, cell), row after row.
 template <typename Visit>
@@ -57,7 +52,7 @@ void forPixels(const FieldPair& pair, int width, int height, const Visit& visit)
 {
   constexpr std::size_t Most = std::size_t(1) << 20;
   int step = 1;
-  while (pair.pixels() / static_cast<std::size_t>(step * step) > Most)
+  while (pair.pixels() / (step * step) > Most)
   {
     ++step;
   }

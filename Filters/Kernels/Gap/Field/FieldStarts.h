@@ -14,7 +14,7 @@ namespace msi
 // Where each channel of the real image lies by DisplacementSearch, where a fit by gradients starts. Nowhere else where that is next to
 // nothing or the images do not tell; empty where that is so of all channels, and for images smaller than
 // DisplacementSearch::LeastTileSide.
-std::vector<ImageDisplacement> registrationStart(const FieldPair& pair, const FieldLoop& loop);
+std::vector<ImageDisplacement> registrationStart(const FieldData& data);
 
 // Weight and level of the effect that limits the response.
 const std::vector<ImageTerm>& clippingTerms();
@@ -37,7 +37,7 @@ FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>
 //   of the same median power would reach it anywhere in the spectrum with a probability below 1e-3.
 // Range: 2 pixels to half the span. 0 where there is nothing beyond chance.
 void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residuals, bool alongRows,
-  const FieldLoop& loop, FieldStripes& stripes);
+  FieldStripes& stripes);
 
 inline constexpr Eigen::Index BandingHarmonics = 3;
 

@@ -100,10 +100,10 @@ Eigen::MatrixXd BlockSums::normal() const
 
 Eigen::VectorXd FieldStatistics::ofBlocks(double BlockSums::*number) const
 {
-  Eigen::VectorXd together = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(blocks()));
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(blocks());
   for (std::size_t i = 0; i < sums.size(); ++i)
   {
-    together[static_cast<Eigen::Index>(i) / channels] += sums[i].*number;
+    together[i / channels] += sums[i].*number;
   }
   return together;
 }
@@ -144,7 +144,7 @@ double noiseCoherence(const FieldStatistics& statistics, Eigen::Index channel)
     return 1.0;
   }
   // The mean of two squares of normal deviates has a median of log 2.
-  const double median = orderStatistic(ratios, static_cast<std::ptrdiff_t>(ratios.size() / 2));
+  const double median = orderStatistic(ratios, ratios.size() / 2);
   return std::fmax(median / std::log(2.0), 1.0);
 }
 
@@ -200,7 +200,7 @@ std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
     std::stable_sort(smooth.begin(), smooth.end(),
       [](const BlockSums* a, const BlockSums* b) { return a->level < b->level; });
     const std::size_t bins = std::min(LevelBins, smooth.size());
-    Eigen::ArrayXd level(static_cast<Eigen::Index>(bins));
+    Eigen::ArrayXd level(bins);
     Eigen::ArrayXd variance(level.size());
     for (std::size_t bin = 0; bin < bins; ++bin)
     {
@@ -214,8 +214,8 @@ std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
             : 0.5 * (smooth[i]->difference + smooth[i]->differenceDown));
         mean += smooth[i]->level;
       }
-      level[static_cast<Eigen::Index>(bin)] = mean / static_cast<double>(values.size());
-      variance[static_cast<Eigen::Index>(bin)] = trimmedMean(values);
+      level[bin] = mean / static_cast<double>(values.size());
+      variance[bin] = trimmedMean(values);
     }
     noise.push_back(fittedNoise(level, variance, Eigen::ArrayXd::Ones(level.size())));
     std::vector<double> differences;
@@ -253,13 +253,12 @@ double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
   };
   const std::array<int, 4> there{ fieldColumns().gain, fieldColumns().offset, fieldColumns().blur,
     fieldColumns().residual };
-  const auto blocks = static_cast<Eigen::Index>(statistics.blocks());
+  const Eigen::Index blocks = statistics.blocks();
   std::vector<Eigen::Matrix4d> normals;
   Eigen::Matrix4d all = Eigen::Matrix4d::Zero();
   for (Eigen::Index b = 0; b < blocks; ++b)
   {
-    normals.emplace_back(
-      statistics.at(static_cast<std::size_t>(b), channel).normal()(there, there));
+    normals.emplace_back(statistics.at(b, channel).normal()(there, there));
     all += normals.back();
   }
   const Eigen::Vector2d line = all.topLeftCorner<2, 2>().ldlt().solve(all.col(Residual).head<2>());
@@ -270,8 +269,8 @@ double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
   double added = 0.0;
   for (Eigen::Index b = 0; b < blocks; ++b)
   {
-    const BlockSums& sums = statistics.at(static_cast<std::size_t>(b), channel);
-    const Eigen::Matrix4d& normal = normals[static_cast<std::size_t>(b)];
+    const BlockSums& sums = statistics.at(b, channel);
+    const Eigen::Matrix4d& normal = normals[b];
     const double size = std::sqrt(normal(Blur, Blur));
     if (size > 0.0)
     {
@@ -305,7 +304,7 @@ Eigen::ArrayXd energiesBesideGain(const std::vector<Eigen::MatrixXd>& normals, b
 {
   const auto of = [&normals](int row, int column)
   {
-    Eigen::ArrayXd sums(static_cast<Eigen::Index>(normals.size()));
+    Eigen::ArrayXd sums(normals.size());
     std::transform(normals.begin(), normals.end(), sums.begin(),
       [row, column](const Eigen::MatrixXd& normal) { return normal(row, column); });
     return sums;
@@ -329,12 +328,10 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
     for (std::size_t b = 0; b < statistics.blocks(); ++b)
     {
       const BlockSums& sums = statistics.at(b, k);
-      noise[k] +=
-        sums.pixels * noiseVariance(weights.noise[static_cast<std::size_t>(k)], sums.level);
+      noise[k] += sums.pixels * noiseVariance(weights.noise[k], sums.level);
       pixels[k] += sums.pixels;
     }
-    energy[k] =
-      normals[static_cast<std::size_t>(k)](fieldColumns().residual, fieldColumns().residual);
+    energy[k] = normals[k](fieldColumns().residual, fieldColumns().residual);
   }
   pixels = pixels.max(1.0);
   weights.limit = Decision::OutlierDeviations * (energy / pixels).sqrt();
@@ -344,19 +341,17 @@ FieldWeights fieldWeights(const FieldStatistics& statistics)
 }
 
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
-  const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked)
+  const FieldWeights* weights, const AskedSteps& asked)
 {
   FieldStatistics statistics{ model, data.channels(), {} };
-  const auto K = static_cast<std::size_t>(data.channels());
-  statistics.sums.resize(data.blocks.size() * K);
+  statistics.sums.resize(data.blocks.size() * data.channels());
   const Eigen::ArrayXd glare = data.cells.mean(model);
   const auto measure = [&](int b)
   {
-    const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
+    const FieldBlock& block = data.blocks[b];
     const auto add = [&](Eigen::Index channel, ChannelColumns& found)
     {
-      const auto k = static_cast<std::size_t>(channel);
-      BlockSums& sums = statistics.sums[static_cast<std::size_t>(b) * K + k];
+      BlockSums& sums = statistics.sums[b * data.channels() + channel];
       const auto residual = found.residual();
       sums.pixels = static_cast<double>(found.pixel.size());
       sums.energy = residual.squaredNorm();
@@ -371,7 +366,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
       if (weights != nullptr)
       {
         const Eigen::ArrayXd variance = found.level.unaryExpr(
-          [&noise = weights->noise[k]](double level) { return noiseVariance(noise, level); });
+          [&noise = weights->noise[channel]](double level) { return noiseVariance(noise, level); });
         const double limit = weights->limit[channel];
         const Eigen::ArrayXd size = residual.array().abs();
         const Eigen::ArrayXd weight =
@@ -403,7 +398,7 @@ FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
     };
     forColumns(data, model, glare, block, asked, add);
   };
-  loop(static_cast<int>(data.blocks.size()), measure);
+  data.forBlocks(measure);
   return statistics;
 }
 

@@ -53,22 +53,22 @@ struct FieldStatistics
   Eigen::Index channels = 0;
   std::vector<BlockSums> sums; // block after block, all channels together
 
-  std::size_t blocks() const noexcept { return sums.size() / static_cast<std::size_t>(channels); }
+  std::size_t blocks() const noexcept { return sums.size() / channels; }
   const BlockSums& at(std::size_t block, Eigen::Index channel) const
   {
-    return sums[block * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)];
+    return sums[block * channels + channel];
   }
   // Sums of BlockSums::normal() over the blocks for which keep(block) is true, of each channel.
   template <typename Keep>
   std::vector<Eigen::MatrixXd> normals(const Keep& keep) const
   {
-    std::vector<Eigen::MatrixXd> kept(static_cast<std::size_t>(channels),
-      Eigen::MatrixXd::Zero(fieldColumns().count, fieldColumns().count));
+    std::vector<Eigen::MatrixXd> kept(
+      channels, Eigen::MatrixXd::Zero(fieldColumns().count, fieldColumns().count));
     for (std::size_t b = 0; b < blocks(); ++b)
     {
       for (Eigen::Index k = 0; keep(b) && k < channels; ++k)
       {
-        kept[static_cast<std::size_t>(k)] += at(b, k).normal();
+        kept[k] += at(b, k).normal();
       }
     }
     return kept;
@@ -81,7 +81,7 @@ struct FieldStatistics
 // are without it, and the squares of the residual have as much of it as if nothing were blurred.
 // weights: null: all pixels the same; the blur is asked for then. asked: for which steps, beside those that change something, there are columns.
 FieldStatistics fieldStatistics(const FieldData& data, const FieldModel& model,
-  const FieldWeights* weights, const FieldLoop& loop, const AskedSteps& asked = everyStep());
+  const FieldWeights* weights, const AskedSteps& asked = everyStep());
 
 // The same by normal matrices, of each channel, with a column of the gain.
 Eigen::ArrayXd energiesBesideGain(const std::vector<Eigen::MatrixXd>& normals, bool ofChannels);
@@ -114,7 +114,7 @@ double noiseCoherence(const FieldStatistics& statistics, Eigen::Index channel);
 // Fitted on the training blocks; the shares are Shapley values of the R^2 on the test blocks, of the energy beyond
 // noise. A common gain is level's.
 // after: null, or a model whose displacements and blurs are on the axis of edges as they are, however large.
-std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& statistics,
-  const FieldLoop& loop, const FieldModel* after = nullptr);
+std::vector<GapAxis> fieldAxes(
+  const FieldData& data, const FieldStatistics& statistics, const FieldModel* after = nullptr);
 
 } // namespace msi

@@ -1,6 +1,6 @@
 #include "Kernels/Gap/Field/FieldStatistics.h"
 
-#include "Kernels/Gap/Diagnosis/AxisRegression.h"
+#include "Kernels/Gap/Diagnosis/GapRegression.h"
 #include "Kernels/Gap/ReportParts.h"
 
 #include <algorithm>
@@ -34,10 +34,7 @@ std::vector<AxisBasis> fieldAxisBases(const FieldModel& model, bool gaps)
   }
   axes.push_back(basis("edges", ImageAxis::Edges));
   const auto ofSurround = [](int column)
-  {
-    return fieldColumns().step[static_cast<std::size_t>(column)]->step->stage ==
-      ImageStage::Surround;
-  };
+  { return fieldColumns().step[column]->step->stage == ImageStage::Surround; };
   if (gaps)
   {
     std::vector<int>& edges = axes.back().own;
@@ -59,7 +56,7 @@ std::vector<AxisSplit> splitOf(const FieldData& data, const FieldStatistics& sta
 
 // What the means of labels in the training blocks predict of the test blocks, and where.
 GapAxis sampleAxis(const FieldData& data, const FieldModel& model,
-  const std::vector<Eigen::VectorXd>& change, double beyond, const FieldLoop& loop)
+  const std::vector<Eigen::VectorXd>& change, double beyond)
 {
   // Of each label, a row a channel: sum of what the columns leave, pixels, squared residual.
   using LabelSums = std::map<int, Eigen::ArrayX3d>;
@@ -68,26 +65,26 @@ GapAxis sampleAxis(const FieldData& data, const FieldModel& model,
   std::vector<LabelSums> ofBlock(data.blocks.size());
   const auto measure = [&](int b)
   {
-    const FieldBlock& block = data.blocks[static_cast<std::size_t>(b)];
+    const FieldBlock& block = data.blocks[b];
     const auto sum = [&](Eigen::Index k, const ChannelColumns& found)
     {
       const Eigen::VectorXd residual = found.residual();
       Eigen::VectorXd weight = Eigen::VectorXd::Zero(fieldColumns().count);
-      weight.head(fieldColumns().residual) = change[static_cast<std::size_t>(k)];
+      weight.head(fieldColumns().residual) = change[k];
       const Eigen::VectorXd left = residual - found.columns * weight(found.there);
       for (Eigen::Index n = 0; n < left.size(); ++n)
       {
-        const ImagePlace place = block.place(found.pixel[static_cast<std::size_t>(n)]);
+        const ImagePlace place = block.place(found.pixel[n]);
         if (const int label = data.pair.labels[data.pair.index(place.x, place.y)]; label != 0)
         {
-          ofBlock[static_cast<std::size_t>(b)].try_emplace(label, none).first->second.row(k) +=
+          ofBlock[b].try_emplace(label, none).first->second.row(k) +=
             Eigen::Array3d(left[n], 1.0, residual[n] * residual[n]).transpose();
         }
       }
     };
     forColumns(data, model, glare, block, everyStep(), sum);
   };
-  loop(static_cast<int>(ofBlock.size()), measure);
+  data.forBlocks(measure);
   LabelSums training;
   LabelSums test;
   for (std::size_t b = 0; b < ofBlock.size(); ++b)
@@ -121,12 +118,11 @@ double regionEnergy(const FieldData& data, const FieldStatistics& statistics,
   {
     for (std::size_t k = 0; data.blocks[b].fold < 0 && k < change.size(); ++k)
     {
-      const auto channel = static_cast<Eigen::Index>(k);
-      const Eigen::MatrixXd normal = plain.at(b, channel).normal();
+      const Eigen::MatrixXd normal = plain.at(b, k).normal();
       const double pixels = normal(fieldColumns().offset, fieldColumns().offset);
       const double sum = normal(fieldColumns().offset, fieldColumns().residual) -
         normal.row(fieldColumns().offset).head(fieldColumns().residual).dot(change[k]);
-      energy += pixels > 0.0 ? sum * sum / pixels - statistics.at(b, channel).noise / pixels : 0.0;
+      energy += pixels > 0.0 ? sum * sum / pixels - statistics.at(b, k).noise / pixels : 0.0;
     }
   }
   return energy;
@@ -139,11 +135,11 @@ std::vector<GapCell> stripeCells(double period, const std::string& lines)
 }
 }
 
-std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& statistics,
-  const FieldLoop& loop, const FieldModel* after)
+std::vector<GapAxis> fieldAxes(
+  const FieldData& data, const FieldStatistics& statistics, const FieldModel* after)
 {
   // Plain energies, so that shares are of the gap in response units.
-  FieldStatistics plain = fieldStatistics(data, statistics.model, nullptr, loop);
+  FieldStatistics plain = fieldStatistics(data, statistics.model, nullptr);
   std::vector<AxisBasis> axes = fieldAxisBases(statistics.model, !data.filled.empty());
   const std::vector<AxisSplit> splits = splitOf(data, plain);
   FieldModel moved = statistics.model;
@@ -151,7 +147,7 @@ std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& sta
   { return stepOf(parameter).step->stage == ImageStage::Scene; };
   if (after != nullptr && moved.take(*after, isOfScene))
   {
-    plain = fieldStatistics(data, moved, nullptr, loop);
+    plain = fieldStatistics(data, moved, nullptr);
     axes.back().behind = splitOf(data, plain);
   }
   const PredictedEnergies energies = predictedEnergies(axes, splits, fieldColumns().gain);
@@ -169,7 +165,7 @@ std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& sta
       GapPart(x, -1.0, 1.0, 3).text("x", 2) + ", " + GapPart(y, -1.0, 1.0, 3).text("y", 2);
     for (std::size_t k = 0; k < data.pair.channels.size(); ++k)
     {
-      const BlockSums& sums = statistics.at(b, static_cast<Eigen::Index>(k));
+      const BlockSums& sums = statistics.at(b, k);
       const double excess = sums.energy - sums.noise;
       noise += data.blocks[b].fold < 0 ? sums.noise : 0.0;
       channel.add(data.pair.channels[k], excess);
@@ -197,7 +193,7 @@ std::vector<GapAxis> fieldAxes(const FieldData& data, const FieldStatistics& sta
   }
   // What goes with labels, or with blocks, of what is left.
   found.push_back(data.pair.labels != nullptr
-      ? sampleAxis(data, moved, change, beyond, loop)
+      ? sampleAxis(data, moved, change, beyond)
       : GapAxis{
           "region", regionEnergy(data, statistics, plain, change) / beyond, position.worst() });
   return worthNaming(std::move(found));

@@ -102,13 +102,13 @@ TEST(FieldFit, TheEnergyToldIsThatOfTheModelReached)
     const FieldPair images = pair.pair();
     const FieldData data = prepareFieldData(images, seed, inTurn);
     FieldModel start(data.channels());
-    const FieldWeights weights = fieldWeights(fieldStatistics(data, start, nullptr, inTurn));
+    const FieldWeights weights = fieldWeights(fieldStatistics(data, start, nullptr));
     start[imageParameter("vignetting", "falloff")].setConstant(-0.2);
     start[imageParameter("vignetting", "center_x")].setConstant(0.9);
     start[imageParameter("vignetting", "center_y")].setConstant(-0.6);
-    const FieldHypothesis found = refitted(data, weights, set, start, inTurn);
+    const FieldHypothesis found = refitted(data, weights, set, start);
     const double reached =
-      FieldFitter(data, fieldStatistics(data, found.fit.next, &weights, inTurn)).energy();
+      FieldFitter(data, fieldStatistics(data, found.fit.next, &weights)).energy();
     EXPECT_LT(reached, 1.02 * found.fit.energy) << "seed " << seed;
     EXPECT_LT(FieldFitter(data, *found.statistics).energy(), 1.02 * found.fit.energy)
       << "seed " << seed;

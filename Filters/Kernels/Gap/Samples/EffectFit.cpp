@@ -13,7 +13,6 @@ namespace msi
 
 namespace
 {
-constexpr std::size_t InnerFolds = 5;
 constexpr double Remaining = 10.0; // times the last gain: what further iterations may gain at most
 
 using Flat = Eigen::Map<const Eigen::ArrayXd>;
@@ -27,7 +26,7 @@ Flat flat(const Eigen::MatrixXd& matrix)
 Eigen::ArrayXd huber(const Eigen::ArrayXd& whitened, const Eigen::ArrayXd& weight)
 {
   std::vector<double> size;
-  size.reserve(static_cast<std::size_t>(whitened.size()));
+  size.reserve(whitened.size());
   for (Eigen::Index i = 0; i < whitened.size(); ++i)
   {
     if (weight[i] > 0.0)
@@ -58,34 +57,32 @@ std::vector<NormalEquations> normalEquations(const std::vector<Derivative>& deri
   {
     samples.insert(samples.end(), fold.begin(), fold.end());
   }
-  std::vector<std::vector<Eigen::Index>> acting(static_cast<std::size_t>(root.rows()));
+  std::vector<std::vector<Eigen::Index>> acting(root.rows());
   for (std::size_t p = 0; p < derivatives.size(); ++p)
   {
     const Eigen::Index end = derivatives[p].first + derivatives[p].changes.rows();
     for (Eigen::Index k = derivatives[p].first; k < end; ++k)
     {
-      acting[static_cast<std::size_t>(k)].push_back(static_cast<Eigen::Index>(p));
+      acting[k].push_back(p);
     }
   }
-  std::vector<NormalEquationsSum> sums(
-    folds.size(), NormalEquationsSum(static_cast<Eigen::Index>(derivatives.size())));
+  std::vector<NormalEquationsSum> sums(folds.size(), NormalEquationsSum(derivatives.size()));
   for (Eigen::Index k = 0; k < root.rows(); ++k)
   {
-    const std::vector<Eigen::Index>& parameters = acting[static_cast<std::size_t>(k)];
-    const auto count = static_cast<Eigen::Index>(parameters.size());
-    Eigen::ArrayXXd columns(static_cast<Eigen::Index>(samples.size()), count + 1);
+    const std::vector<Eigen::Index>& parameters = acting[k];
+    const Eigen::Index count = parameters.size();
+    Eigen::ArrayXXd columns(samples.size(), count + 1);
     columns.col(count) = residual.row(k)(samples);
     const Eigen::ArrayXd weight = root.row(k)(samples);
     for (Eigen::Index c = 0; c < count; ++c)
     {
-      const Derivative& one =
-        derivatives[static_cast<std::size_t>(parameters[static_cast<std::size_t>(c)])];
+      const Derivative& one = derivatives[parameters[c]];
       columns.col(c) = weight * one.changes.row(k - one.first)(samples).transpose().array();
     }
     Eigen::Index first = 0;
     for (std::size_t f = 0; f < folds.size(); ++f)
     {
-      const auto members = static_cast<Eigen::Index>(folds[f].size());
+      const Eigen::Index members = folds[f].size();
       const auto rows = columns.middleRows(first, members).matrix();
       const Eigen::MatrixXd products = rows.transpose().lazyProduct(rows);
       sums[f].add(
@@ -106,14 +103,9 @@ EffectFitter::EffectFitter(const GapData& data, SampleList training, std::uint64
   : Data(data)
   , Training(std::move(training))
   , Weight(Eigen::MatrixXd::Zero(data.channels(), data.samples()))
+  , Fold(foldsOf(data, Training, InnerFolds, seed))
 {
   Weight(Eigen::all, Training) = data.weight(Eigen::all, Training);
-  Fold.resize(std::min(InnerFolds, Training.size()));
-  const std::vector<int> fold = foldsOf(data, Training, static_cast<int>(Fold.size()), seed);
-  for (const Eigen::Index i : Training)
-  {
-    Fold[static_cast<std::size_t>(fold[static_cast<std::size_t>(i)])].push_back(i);
-  }
   Elements = static_cast<double>((Weight.array() > 0.0).count());
   NoiseEnergy = (Weight.array() * Data.variance.array()).sum();
 }
@@ -171,8 +163,8 @@ EffectFit EffectFitter::fit(EffectSet start, const FitEffort& effort) const
     {
       break;
     }
-    const double before = huberCost(residual, fit.root) +
-      fit.linear.penalty(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fit.free.size())));
+    const double before =
+      huberCost(residual, fit.root) + fit.linear.penalty(Eigen::VectorXd::Zero(fit.free.size()));
     bool better = false;
     double after = before;
     for (int attempt = 0; attempt < 6 && !better; ++attempt)
@@ -247,7 +239,7 @@ void EffectFitter::crossValidate(EffectFit& fit) const
       for (const Eigen::Index j : Fold[f])
       {
         fit.heldOut.col(j).segment(derivative.first, derivative.changes.rows()) -=
-          without[f][static_cast<Eigen::Index>(p)] * derivative.changes.col(j);
+          without[f][p] * derivative.changes.col(j);
       }
     }
   }
@@ -268,28 +260,18 @@ void EffectFitter::crossValidate(EffectFit& fit) const
 Eigen::MatrixXd EffectFitter::covariance(const EffectFit& fit) const
 {
   const Eigen::MatrixXd pull = Weight.cwiseProduct(fit.heldOut);
-  Eigen::MatrixXd scores(
-    static_cast<Eigen::Index>(fit.free.size()), static_cast<Eigen::Index>(Training.size()));
+  Eigen::MatrixXd scores(fit.free.size(), Training.size());
   for (std::size_t p = 0; p < fit.derivatives.size(); ++p)
   {
     const Derivative& derivative = fit.derivatives[p];
-    scores.row(static_cast<Eigen::Index>(p)) =
-      derivative.changes.cwiseProduct(derivative.of(pull)).colwise().sum()(Training);
+    scores.row(p) = derivative.changes.cwiseProduct(derivative.of(pull)).colwise().sum()(Training);
   }
   return fit.linear.covariance(scores);
 }
 
-namespace
-{
-Eigen::MatrixXd leftBy(const GapData& data, const Eigen::MatrixXd& predicted)
-{
-  return (data.count.array() > 0.0).select(data.observed - predicted, 0.0);
-}
-}
-
 Eigen::MatrixXd leftOfHeldOut(const GapData& data, const EffectFit& fit, const SampleList& training)
 {
-  Eigen::MatrixXd left = leftBy(data, fit.predicted);
+  Eigen::MatrixXd left = measuredOnly(data, data.observed - fit.predicted);
   const double none = std::numeric_limits<double>::infinity();
   for (std::size_t e = 0; e < fit.set.size(); ++e)
   {
@@ -317,7 +299,7 @@ Eigen::MatrixXd leftOfHeldOut(const GapData& data, const EffectFit& fit, const S
       {
         continue;
       }
-      const Eigen::MatrixXd other = leftBy(data, there->response());
+      const Eigen::MatrixXd other = measuredOnly(data, data.observed - there->response());
       for (Eigen::Index i = 0; i < data.samples(); ++i)
       {
         if (time[i] > before && time[i] < behind &&

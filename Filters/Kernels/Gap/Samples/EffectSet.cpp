@@ -97,8 +97,7 @@ void EffectSet::add(
     {
       const std::size_t count =
         choice.form->parameters[p].perChannel ? camera.channels().size() : 1;
-      std::fill_n(
-        effects.back().parameters.begin() + static_cast<std::ptrdiff_t>(at), count, start[p]);
+      std::fill_n(effects.back().parameters.begin() + at, count, start[p]);
       at += count;
     }
   }
@@ -106,10 +105,9 @@ void EffectSet::add(
 
 void EffectSet::remove(std::size_t position)
 {
-  const auto at = static_cast<std::ptrdiff_t>(position);
-  choices.erase(choices.begin() + at);
-  effects.erase(effects.begin() + at);
-  secondaryFree.erase(secondaryFree.begin() + at);
+  choices.erase(choices.begin() + position);
+  effects.erase(effects.begin() + position);
+  secondaryFree.erase(secondaryFree.begin() + position);
 }
 
 std::optional<StepPlace> EffectSet::placeOf(std::size_t position) const
@@ -157,7 +155,7 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
         if (isFree && parameter.perChannel)
         {
           add(parameter, e, index, k, hasCommonForm,
-            parameter.name + "[" + camera.channels()[static_cast<std::size_t>(k)] + "]");
+            parameter.name + "[" + camera.channels()[k] + "]");
         }
         else if (isFree)
         {
@@ -193,7 +191,7 @@ EffectSet changed(
   {
     const EffectParameter& bounds = *free[p].definition;
     double& value = set.value(free[p]);
-    value = std::clamp(value + change[static_cast<Eigen::Index>(p)], bounds.lower, bounds.upper);
+    value = std::clamp(value + change[p], bounds.lower, bounds.upper);
   }
   return set;
 }

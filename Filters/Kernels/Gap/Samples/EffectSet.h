@@ -5,7 +5,7 @@
 #include "Kernels/Camera/CameraModel.h"
 #include "Kernels/Camera/SampleScene.h"
 #include "Kernels/Camera/StagedResponse.h"
-#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
+#include "Kernels/Gap/Diagnosis/LinearFit.h"
 
 #include <Eigen/Core>
 

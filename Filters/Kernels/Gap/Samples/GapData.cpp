@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -93,7 +94,7 @@ void averageReadings(const GapCapture& capture, GapData& data)
   data.step = Eigen::VectorXd::Zero(channels);
   for (Eigen::Index k = 0; k < channels; ++k)
   {
-    std::vector<double> values(static_cast<std::size_t>(capture.readings.cols()));
+    std::vector<double> values(capture.readings.cols());
     const auto row = capture.readings.row(k);
     values.erase(std::copy_if(row.begin(), row.end(), values.begin(),
                    [](double v) { return std::isfinite(v); }),
@@ -102,7 +103,7 @@ void averageReadings(const GapCapture& capture, GapData& data)
   }
   for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
   {
-    const Eigen::Index sample = capture.sampleOf[static_cast<std::size_t>(j)];
+    const Eigen::Index sample = capture.sampleOf[j];
     for (Eigen::Index k = 0; k < channels; ++k)
     {
       const double value = capture.readings(k, j);
@@ -204,7 +205,7 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options, Ind
 {
   validate(capture);
   GapData data{ capture.camera, alignedScene(capture), sampleNames(capture), {}, {}, {}, {}, {}, {},
-    {}, {}, std::move(leftOut), {}, 0, 0 };
+    {}, {}, std::move(leftOut), {}, 0 };
   averageReadings(capture, data);
   data.count.reshaped()(data.leftOut).setZero();
   data.simulated = cameraResponse(data.camera)(data.scene.reflectance());
@@ -227,9 +228,22 @@ GapData prepareGapData(const GapCapture& capture, const GapOptions& options, Ind
     reject("a diagnosis needs 2 samples or more with reading and reflectance; ", data.usable.size(),
       " of ", data.samples(), " have both");
   }
-  data.folds = std::min(std::max(options.folds, 2), static_cast<int>(data.usable.size()));
-  data.fold = foldsOf(data, data.usable, data.folds, options.seed);
+  data.folds = foldsOf(data, data.usable, std::max(options.folds, 2), options.seed);
   return data;
+}
+
+Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values)
+{
+  return data.measured().select(values, 0.0);
+}
+
+GroupEnergies energiesOf(const GapData& data, const SampleList& samples,
+  const Eigen::MatrixXd& before, const Eigen::MatrixXd& after)
+{
+  GroupEnergies energies(data.samples(), 3);
+  energies << before.colwise().squaredNorm().transpose(), after.colwise().squaredNorm().transpose(),
+    measuredOnly(data, data.variance).colwise().sum().transpose();
+  return energies(samples, Eigen::all);
 }
 
 double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight, bool ofChannels)
@@ -251,42 +265,43 @@ void setWeights(GapData& data)
   data.weight = data.measured().cast<double>() / (data.variance.array() + tolerance);
 }
 
-SampleList samplesOf(const GapData& data, int fold, bool inside)
+SampleList samplesOutside(const GapData& data, std::size_t fold)
 {
-  SampleList some;
-  for (const Eigen::Index i : data.usable)
-  {
-    if ((data.fold[static_cast<std::size_t>(i)] == fold) == inside)
-    {
-      some.push_back(i);
-    }
-  }
-  return some;
+  const SampleList& inside = data.folds[fold];
+  SampleList others;
+  std::set_difference(data.usable.begin(), data.usable.end(), inside.begin(), inside.end(),
+    std::back_inserter(others));
+  return others;
 }
 
-std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed)
+std::vector<SampleList> foldsOf(
+  const GapData& data, SampleList among, std::size_t folds, std::uint64_t seed)
 {
   const CounterRandom random(seed, 71);
   const auto byKey = [](const auto& keyOf)
   { return [keyOf](Eigen::Index a, Eigen::Index b) { return keyOf(a) < keyOf(b); }; };
   const Eigen::VectorXd level = data.simulated.colwise().maxCoeff();
   std::sort(among.begin(), among.end(),
-    byKey([&](Eigen::Index i)
-      { return std::make_tuple(data.scene.medium()[static_cast<std::size_t>(i)], level[i], i); }));
-  for (std::size_t first = 0; first < among.size(); first += static_cast<std::size_t>(folds))
+    byKey([&](Eigen::Index i) { return std::make_tuple(data.scene.medium()[i], level[i], i); }));
+  std::vector<SampleList> dealt(std::min(folds, among.size()));
+  // As many at a time as there are folds, one to each.
+  for (auto first = among.begin(); first != among.end();)
   {
-    const std::size_t last = std::min(first + static_cast<std::size_t>(folds), among.size());
-    std::sort(among.begin() + static_cast<std::ptrdiff_t>(first),
-      among.begin() + static_cast<std::ptrdiff_t>(last),
-      byKey([&](Eigen::Index i) { return random.uniform(static_cast<std::uint64_t>(i)); }));
+    const auto last = first + std::min<std::ptrdiff_t>(dealt.size(), among.end() - first);
+    std::sort(first, last, byKey([&](Eigen::Index i) { return random.uniform(i); }));
+    for (SampleList& fold : dealt)
+    {
+      if (first != last)
+      {
+        fold.push_back(*first++);
+      }
+    }
   }
-  std::vector<int> fold(static_cast<std::size_t>(data.samples()), -1);
-  for (std::size_t i = 0; i < among.size(); ++i)
+  for (SampleList& fold : dealt)
   {
-    fold[static_cast<std::size_t>(among[i])] =
-      static_cast<int>(i % static_cast<std::size_t>(folds));
+    std::sort(fold.begin(), fold.end());
   }
-  return fold;
+  return dealt;
 }
 
 } // namespace msi

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Kernels/Doubts/OddOnes.h"
+#include "Kernels/Gap/ReportParts.h"
 #include "Kernels/Gap/SimToRealGap.h"
 
 #include <Eigen/Core>
@@ -21,17 +22,16 @@ struct GapData
   SampleScene scene;              // on the camera's grid
   std::vector<std::string> names; // of the samples
   Eigen::MatrixXd observed;
-  Eigen::MatrixXd count;     // readings behind each element
-  Eigen::MatrixXd scatter;   // sum of squared deviations of the readings from their mean
-  Eigen::VectorXd step;      // K, to which the readings are rounded; 0 where no step shows
-  Eigen::MatrixXd simulated; // the nominal camera
-  Eigen::MatrixXd variance;  // of observed - simulated from noise alone
-  Eigen::MatrixXd weight;    // of a squared residual in a fit
-  SampleList usable;         // with a reflectance and a reading, and not left out
-  IndexList leftOut;         // elements, column by column, whose readings are not looked at
-  std::vector<int> fold;     // S: 0 .. folds - 1; -1: not usable
-  int folds = 0;
-  Eigen::Index elements = 0; // with weight
+  Eigen::MatrixXd count;         // readings behind each element
+  Eigen::MatrixXd scatter;       // sum of squared deviations of the readings from their mean
+  Eigen::VectorXd step;          // K, to which the readings are rounded; 0 where no step shows
+  Eigen::MatrixXd simulated;     // the nominal camera
+  Eigen::MatrixXd variance;      // of observed - simulated from noise alone
+  Eigen::MatrixXd weight;        // of a squared residual in a fit
+  SampleList usable;             // with a reflectance and a reading, and not left out
+  IndexList leftOut;             // elements, column by column, whose readings are not looked at
+  std::vector<SampleList> folds; // of the usable samples
+  Eigen::Index elements = 0;     // with weight
 
   auto measured() const { return count.array() > 0.0; }
   bool anyMeasured(Eigen::Index sample) const { return (count.col(sample).array() > 0.0).any(); }
@@ -54,18 +54,27 @@ std::vector<std::string> sampleNames(const GapCapture& capture);
 GapData prepareGapData(
   const GapCapture& capture, const GapOptions& options, IndexList leftOut = {});
 
+// K x S, where something was measured, 0 elsewhere.
+Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values);
+// Of some samples. before, after: real minus simulated, K x S, 0 where nothing was measured.
+GroupEnergies energiesOf(const GapData& data, const SampleList& samples,
+  const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
+
 // energiesBesideGain() together, weighted.
 double energyBesideGain(const GapData& data, const Eigen::MatrixXd& weight, bool ofChannels);
 // Weights 1 / (variance + Decision::FormPart x mean square of that): the library's forms are approximations of the
 // physics, and below that part of the gap no element is trusted more than another.
 void setWeights(GapData& data);
 
-// Balanced folds over some of the samples; the same for the same seed. Every fold has its part of each medium and, within it, of
-// the bright and the dark: what few bright samples show, as the end of the range, is seen without each fold. Of each sample, -1
-// for others.
-std::vector<int> foldsOf(const GapData& data, SampleList among, int folds, std::uint64_t seed);
+constexpr std::size_t InnerFolds = 5; // of training samples
 
-// The usable samples of a fold of the data, or all but those.
-SampleList samplesOf(const GapData& data, int fold, bool inside);
+// Balanced folds over some of the samples, as many as there are samples at most; the same for the same seed. Every fold has its part of
+// each medium and, within it, of the bright and the dark: what few bright samples show, as the end of the range, is seen without each
+// fold.
+std::vector<SampleList> foldsOf(
+  const GapData& data, SampleList among, std::size_t folds, std::uint64_t seed);
+
+// The usable samples but those of a fold of the data.
+SampleList samplesOutside(const GapData& data, std::size_t fold);
 
 } // namespace msi

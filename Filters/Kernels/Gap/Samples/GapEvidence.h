@@ -1,27 +1,45 @@
-// The numbers by which a diagnosis decides whether there is a gap, and whether its causes account for it.
+// Whether a table shows a gap, along which axes it lies, and whether causes account for it.
 #pragma once
 
 #include "Kernels/Gap/GapReport.h"
-#include "Kernels/Gap/Samples/AxisShares.h"
 #include "Kernels/Gap/Samples/GapData.h"
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace msi
 {
 
-// K x S throughout; `gap`, `before`, `after`: real minus simulated, 0 where nothing was measured.
+struct AxisShares
+{
+  std::vector<GapAxis> axes;       // sorted; those with nothing at all are left out
+  double predictable = 0.0;        // energy that all bases together predict on held-out samples
+  Eigen::MatrixXd heldOutResidual; // what they do not, K x S
+};
 
-// The values where something was measured, 0 elsewhere.
-Eigen::MatrixXd measuredOnly(const GapData& data, const Eigen::MatrixXd& values);
+// Ridge regression of `gap` over the folds on the bases of the axes that this capture has:
+//
+//   channel         an offset of each channel, and a gain of each channel apart from the common one
+//   level           u, u^2, u^3 and the part above the 90 % level, common to all channels, zero at u = 0
+//   medium, scene   of each: an offset in each channel, a gain, a curve
+//   position        u times a quadratic in x and y; the surround minus u
+//   order           u times a quadratic and four steps in time; time; a slope of its own for each channel
+//   spectral_shape  slope and curvature of the reflectance under each passband, its mean over wavelength,
+//                   the neighbouring channels' difference
+//
+// A common gain is level's, a common offset channel's. gap: 0 where nothing was measured. Where channel and level alone predict
+// nine tenths of what all axes predict, the other axes are asked only for contrasts: a gap that is the same in every medium is not
+// the medium's. Else they keep their common part: a gap in one of two media is the medium's, not half of it the level's.
+// The axes' shares are Shapley values of the held-out R^2, in parts of the energy beyond noise. `sample` is the rest that goes with single samples: what the
+// mean over one half of the channels tells about the other half.
+AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap);
+
+// K x S throughout; `gap`, `before`, `after`: real minus simulated, 0 where nothing was measured.
 
 // The error of the sums over wavelength is estimated from their steps and may be too large: where less is left than
 // it allows, only as much of it stays in data.variance as what is left shows. Returns the mean variance taken away.
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted);
-
-// Energies of some samples before and after, and what noise allows.
-GroupEnergies energiesOf(const GapData& data, const SampleList& samples,
-  const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
 
 // Whether the bases predict held-out samples: their gain in energy, sample by sample, against its own error.
 bool predictable(const GapData& data, const Eigen::MatrixXd& gap, const AxisShares& shares);

@@ -2,7 +2,7 @@
 
 #include "Kernels/Doubts/OddOnes.h"
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/Samples/AxisShares.h"
+#include "Kernels/Gap/Samples/GapEvidence.h"
 #include "Kernels/Numerics/Angle.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 #include "Kernels/Spectra/Interpolation.h"
@@ -122,14 +122,14 @@ void leaveOutFarthest(GapCapture& capture, const GapData& data, const OddReading
   std::vector<double*> readings;
   for (std::size_t r = 0; r < capture.sampleOf.size(); ++r)
   {
-    double& reading = capture.readings(odd.channel, static_cast<Eigen::Index>(r));
+    double& reading = capture.readings(odd.channel, r);
     if (capture.sampleOf[r] == odd.sample && std::isfinite(reading))
     {
       values.push_back(reading);
       readings.push_back(&reading);
     }
   }
-  const double median = orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2));
+  const double median = orderStatistic(values, values.size() / 2);
   **std::max_element(readings.begin(), readings.end(),
     [median](const double* a, const double* b) {
       return std::fabs(*a - median) < std::fabs(*b - median);
@@ -167,7 +167,7 @@ std::vector<OddReading> leaveOutOddReadings(GapCapture& capture, const GapOption
     }
     for (const Eigen::Index n : odd)
     {
-      all.push_back(repeated[static_cast<std::size_t>(n)]);
+      all.push_back(repeated[n]);
       leaveOutFarthest(capture, data, all.back());
     }
   }
@@ -287,7 +287,7 @@ double robustDeviation(std::vector<double> values)
 {
   std::transform(
     values.begin(), values.end(), values.begin(), [](double v) { return std::fabs(v); });
-  return orderStatistic(values, static_cast<std::ptrdiff_t>(values.size() / 2)) / MedianOfNormal;
+  return orderStatistic(values, values.size() / 2) / MedianOfNormal;
 }
 
 namespace

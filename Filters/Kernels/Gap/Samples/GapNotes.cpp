@@ -167,7 +167,7 @@ std::set<Eigen::Index> samplesLeftOut(const GapData& data)
 
 void noteSamples(std::vector<std::string>& notes, const GapData& data, const GapReport& report)
 {
-  const auto usable = static_cast<Eigen::Index>(data.usable.size());
+  const Eigen::Index usable = data.usable.size();
   const Eigen::Index unusable =
     data.samples() - usable - static_cast<Eigen::Index>(samplesLeftOut(data).size());
   if (unusable > 0)
@@ -353,8 +353,7 @@ namespace
 std::string elementName(const std::vector<std::string>& channels,
   const std::vector<std::string>& samples, Eigen::Index channel, Eigen::Index sample)
 {
-  return channels[static_cast<std::size_t>(channel)] + " of " +
-    samples[static_cast<std::size_t>(sample)];
+  return channels[channel] + " of " + samples[sample];
 }
 }
 
@@ -363,7 +362,7 @@ std::string oddElementsNote(const GapData& data, const std::string& consequence)
   std::vector<std::string> samples, values;
   for (const Eigen::Index sample : samplesLeftOut(data))
   {
-    samples.push_back(data.names[static_cast<std::size_t>(sample)]);
+    samples.push_back(data.names[sample]);
   }
   for (const Eigen::Index element : data.leftOut)
   {

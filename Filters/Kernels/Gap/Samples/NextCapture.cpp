@@ -56,7 +56,7 @@ SceneSamples selected(const SceneSamples& samples, const SampleList& which)
     {
       if (!all.empty())
       {
-        picked.push_back(all[static_cast<std::size_t>(i)]);
+        picked.push_back(all[i]);
       }
     }
     return picked;
@@ -75,12 +75,12 @@ SceneSamples selected(const SceneSamples& samples, const SampleList& which)
 SampleList chartOf(const GapData& data)
 {
   SampleList which;
-  const auto count = static_cast<Eigen::Index>(data.usable.size());
+  const Eigen::Index count = data.usable.size();
   const Eigen::Index kept =
     std::min(count, std::max<Eigen::Index>(MostElements / data.channels(), 12));
   for (Eigen::Index i = 0; i < kept; ++i)
   {
-    which.push_back(data.usable[static_cast<std::size_t>(i * count / kept)]);
+    which.push_back(data.usable[i * count / kept]);
   }
   return which;
 }
@@ -185,7 +185,7 @@ std::optional<Expectation> simulated(const GapData& data, const CaptureCandidate
           parameter.channel == other.channel;
       });
     expected.derivatives.push_back(same != free.end()
-        ? known[static_cast<std::size_t>(same - free.begin())]
+        ? known[same - free.begin()]
         : Derivative{ predictor.fit.derivatives[p].first, Eigen::MatrixXd(0, scene.size()) });
   }
   return expected;
@@ -195,7 +195,7 @@ std::optional<Expectation> simulated(const GapData& data, const CaptureCandidate
 void seeAgain(
   Expectation& expected, const GapData& data, const SampleList& again, const Predictor& predictor)
 {
-  const auto known = static_cast<Eigen::Index>(again.size());
+  const Eigen::Index known = again.size();
   auto mean = expected.mean.leftCols(known);
   mean -= predictor.fit.predicted(Eigen::all, again);
   const double error = Decision::FormPart * mean.squaredNorm() / static_cast<double>(mean.size());
@@ -237,7 +237,7 @@ public:
     {
       derivative.changes *= std::sqrt(Decision::Temperature);
     }
-    SampleList all(static_cast<std::size_t>(Expected.mean.cols()));
+    SampleList all(Expected.mean.cols());
     std::iota(all.begin(), all.end(), Eigen::Index(0));
     SparseMatrix told = normalEquations(Expected.derivatives, Expected.variance.array().rsqrt(),
       Eigen::ArrayXXd::Zero(Expected.mean.rows(), Expected.mean.cols()), { all })
@@ -257,8 +257,7 @@ public:
     for (std::size_t p = 0; p < Expected.derivatives.size(); ++p)
     {
       const Derivative& derivative = Expected.derivatives[p];
-      inner[static_cast<Eigen::Index>(p)] =
-        derivative.changes.cwiseProduct(derivative.of(pull)).sum();
+      inner[p] = derivative.changes.cwiseProduct(derivative.of(pull)).sum();
     }
     const double square = off.cwiseProduct(pull).sum() - inner.dot(Inner->solve(inner));
     return -0.5 * (square + LogDeterminant);
@@ -267,11 +266,10 @@ public:
   Eigen::MatrixXd draw(const CounterRandom& random, std::uint64_t number) const
   {
     const Eigen::Index elements = Expected.mean.size();
-    std::vector<float> normals(static_cast<std::size_t>(elements + By.precision.rows()));
+    std::vector<float> normals(elements + By.precision.rows());
     random.normals(number * normals.size(), normals.data(), normals.size());
     const Eigen::VectorXd z =
-      Eigen::Map<Eigen::VectorXf>(normals.data(), static_cast<Eigen::Index>(normals.size()))
-        .cast<double>();
+      Eigen::Map<Eigen::VectorXf>(normals.data(), normals.size()).cast<double>();
     Eigen::MatrixXd y = Expected.mean +
       Expected.variance.cwiseSqrt().cwiseProduct(
         z.head(elements).reshaped(Expected.mean.rows(), Expected.mean.cols()));
@@ -282,7 +280,7 @@ public:
     for (std::size_t p = 0; p < Expected.derivatives.size(); ++p)
     {
       const Derivative& derivative = Expected.derivatives[p];
-      derivative.of(y) += parameters[static_cast<Eigen::Index>(p)] * derivative.changes;
+      derivative.of(y) += parameters[p] * derivative.changes;
     }
     return y;
   }
@@ -357,10 +355,10 @@ double expectedBits(const std::vector<Prediction>& predicted,
 
 SceneSamples joined(SceneSamples first, const SceneSamples& next)
 {
-  const auto before = static_cast<std::size_t>(first.reflectance.cols());
+  const std::size_t before = first.reflectance.cols();
   const Eigen::Index added = next.reflectance.cols();
-  const std::size_t all = before + static_cast<std::size_t>(added);
-  Eigen::MatrixXd reflectance(first.reflectance.rows(), static_cast<Eigen::Index>(all));
+  const std::size_t all = before + added;
+  Eigen::MatrixXd reflectance(first.reflectance.rows(), all);
   reflectance << first.reflectance, next.reflectance;
   first.reflectance = std::move(reflectance);
   first.medium.resize(before);
@@ -393,8 +391,8 @@ std::vector<CaptureCandidate> captureCandidates(
   const auto flat = [N](const std::vector<double>& levels)
   {
     SceneSamples samples;
-    samples.reflectance = Eigen::VectorXd::Ones(N) *
-      Eigen::Map<const Eigen::RowVectorXd>(levels.data(), static_cast<Eigen::Index>(levels.size()));
+    samples.reflectance =
+      Eigen::VectorXd::Ones(N) * Eigen::Map<const Eigen::RowVectorXd>(levels.data(), levels.size());
     return samples;
   };
   std::vector<CaptureCandidate> candidates;

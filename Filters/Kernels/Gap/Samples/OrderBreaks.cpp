@@ -121,12 +121,12 @@ Series relativeGaps(
   const EffectFitter& fitter, const Eigen::MatrixXd& predicted, const SampleList& order)
 {
   const GapData& data = fitter.data();
-  const auto count = static_cast<Eigen::Index>(order.size());
+  const Eigen::Index count = order.size();
   Series series{ Eigen::ArrayXd::Zero(count), Eigen::ArrayXd::Zero(count),
     Eigen::ArrayXd::Zero(count) };
   for (Eigen::Index i = 0; i < count; ++i)
   {
-    const Eigen::Index j = order[static_cast<std::size_t>(i)];
+    const Eigen::Index j = order[i];
     const Eigen::ArrayXd w = fitter.weight().col(j).array();
     const Eigen::ArrayXd u = (w > 0.0).select(predicted.col(j).array(), 0.0);
     const Eigen::ArrayXd residual = (w > 0.0).select(data.observed.col(j).array() - u, 0.0);
@@ -219,7 +219,7 @@ std::vector<GapChangePoint> OrderBreaks::significant(
 {
   const SampleList order = inOrder(fitter);
   const Series series = relativeGaps(fitter, predicted, order);
-  const auto count = static_cast<Eigen::Index>(order.size());
+  const Eigen::Index count = order.size();
   std::vector<Eigen::Index> places{ 0, count };
   std::vector<std::pair<Eigen::Index, Eigen::Index>> open{ { 0, count } };
   while (!open.empty() && static_cast<int>(places.size()) < most + 2)
@@ -242,7 +242,7 @@ std::vector<GapChangePoint> OrderBreaks::significant(
   {
     const Stretch stretch(series, places[p - 1], places[p + 1]);
     const Stretch::Break one = stretch.at(places[p] - places[p - 1]);
-    const auto behind = static_cast<std::size_t>(places[p]);
+    const std::size_t behind = places[p];
     if (const double deviations = stretch.deviations(one); deviations >= Significant)
     {
       found.push_back(

@@ -1,8 +1,7 @@
 #include "Kernels/Gap/Samples/SampleObservation.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
-#include "Kernels/Gap/Diagnosis/LearnedPrior.h"
-#include "Kernels/Gap/Samples/GapEvidence.h"
+#include "Kernels/Gap/Diagnosis/LinearFit.h"
 #include "Kernels/Gap/Samples/OrderBreaks.h"
 
 #include <algorithm>
@@ -59,7 +58,7 @@ EffectFit withSecondary(const EffectFitter& fitter, EffectFit fit, std::size_t p
 std::vector<double> besideLine(const GapData& data)
 {
   const Eigen::Index channels = data.channels();
-  std::vector<double> start(static_cast<std::size_t>(1 + 2 * channels), 0.0);
+  std::vector<double> start(1 + 2 * channels, 0.0);
   for (Eigen::Index k = 0; k < channels; ++k)
   {
     double n = 0, x = 0, xx = 0, xxx = 0;
@@ -78,8 +77,8 @@ std::vector<double> besideLine(const GapData& data)
     if (spread > 1e-9 * n * xx)
     {
       const double slope = (n * xxx - x * xx) / spread;
-      start[static_cast<std::size_t>(1 + k)] = slope;
-      start[static_cast<std::size_t>(1 + channels + k)] = (xx - slope * x) / n;
+      start[1 + k] = slope;
+      start[1 + channels + k] = (xx - slope * x) / n;
     }
   }
   return start;
@@ -209,7 +208,7 @@ FitPointer SampleObservation::reduced(const ObservedFit& from, std::size_t posit
     if ((positions >> p & 1U) == 0)
     {
       effects.remove(p);
-      set.erase(set.begin() + static_cast<std::ptrdiff_t>(p));
+      set.erase(set.begin() + p);
     }
   }
   // The white stays as it was, also where the option that said so is gone.
@@ -221,7 +220,7 @@ FitPointer SampleObservation::reduced(const ObservedFit& from, std::size_t posit
     if (twin != Choices.end())
     {
       effects.choices[p] = *twin;
-      set[p] = static_cast<std::size_t>(twin - Choices.begin());
+      set[p] = twin - Choices.begin();
     }
   }
   return described(Fitter.fit(std::move(effects), SearchFit), std::move(set));
@@ -243,7 +242,7 @@ void SampleObservation::describe(
 FitPointer SampleObservation::described(EffectFit fit, std::vector<std::size_t> set) const
 {
   auto described = std::make_shared<SampleFit>();
-  describe(*described, fit, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fit.free.size())));
+  describe(*described, fit, Eigen::VectorXd::Zero(fit.free.size()));
   described->set = std::move(set);
   described->effects = std::move(fit.set);
   return described;
@@ -278,8 +277,8 @@ std::vector<std::vector<GapParameter>> SampleObservation::parameters(const Obser
       if (parameter.effect == e ||
         (parameter.effect == whole.set.size() && whole.set.choices[e].leveled))
       {
-        all[e].push_back({ parameter.name, whole.set.value(parameter), parameter.definition->unit,
-          error[static_cast<Eigen::Index>(p)] });
+        all[e].push_back(
+          { parameter.name, whole.set.value(parameter), parameter.definition->unit, error[p] });
       }
     }
     // The place of a step lies between two samples; the error is that of a uniform distribution there.

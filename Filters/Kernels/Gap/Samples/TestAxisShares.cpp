@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Samples/AxisShares.h"
+#include "Kernels/Gap/Samples/GapEvidence.h"
 
 #include "Kernels/Gap/Samples/GapTestData.h"
 #include "Kernels/Numerics/CounterRandom.h"

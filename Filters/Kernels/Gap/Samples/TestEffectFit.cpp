@@ -99,8 +99,16 @@ TEST(EffectFit, ResistsReadingsThatAreWrongAltogether)
 TEST(FoldsOf, EachHasItsPartOfTheBrightAndTheDarkOfAMedium)
 {
   const msi::GapData data = dataOf(captureWith({}));
-  const std::vector<int> fold = msi::foldsOf(data, data.usable, 5, 1);
-  EXPECT_NE(fold, msi::foldsOf(data, data.usable, 5, 2));
+  const std::vector<msi::SampleList> folds = msi::foldsOf(data, data.usable, 5, 1);
+  EXPECT_NE(folds, msi::foldsOf(data, data.usable, 5, 2));
+  std::vector<std::size_t> fold(data.usable.size());
+  for (std::size_t f = 0; f < folds.size(); ++f)
+  {
+    for (const Eigen::Index i : folds[f])
+    {
+      fold[static_cast<std::size_t>(i)] = f;
+    }
+  }
   for (int medium = 0; medium < static_cast<int>(data.scene.media().size()); ++medium)
   {
     msi::SampleList samples;
@@ -111,7 +119,7 @@ TEST(FoldsOf, EachHasItsPartOfTheBrightAndTheDarkOfAMedium)
       { return data.simulated.col(a).maxCoeff() > data.simulated.col(b).maxCoeff(); });
     for (auto fifth = samples.begin(); samples.end() - fifth >= 9; fifth += 9)
     {
-      std::set<int> there; // nine in a row hold five that were dealt together
+      std::set<std::size_t> there; // nine in a row hold five that were dealt together
       std::for_each(
         fifth, fifth + 9, [&](Eigen::Index i) { there.insert(fold[static_cast<std::size_t>(i)]); });
       EXPECT_EQ(there.size(), 5U);
@@ -128,22 +136,17 @@ TEST(EffectFit, CrossValidationOfALinearEffectIsThatOfFitsWithoutTheFold)
   msi::EffectSet set;
   set.add(choiceOf({ "exposure_gain", "", "", {} }), data.camera);
   const msi::EffectFit fit = fitter.fit(set, msi::FinalFit);
-  const std::vector<int> fold = msi::foldsOf(data, data.usable, 5, 1);
-  for (int left = 0; left < 5; ++left)
+  for (const msi::SampleList& left : msi::foldsOf(data, data.usable, 5, 1))
   {
-    msi::SampleList training = data.usable;
-    training.erase(std::remove_if(training.begin(), training.end(),
-                     [&](Eigen::Index i) { return fold[static_cast<std::size_t>(i)] == left; }),
-      training.end());
+    msi::SampleList training;
+    std::set_difference(data.usable.begin(), data.usable.end(), left.begin(), left.end(),
+      std::back_inserter(training));
     const msi::EffectFitter without(data, training, 1);
     const msi::EffectFit other = without.fit(set, msi::FinalFit);
-    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    for (const Eigen::Index i : left)
     {
-      if (fold[static_cast<std::size_t>(i)] == left)
-      {
-        EXPECT_NEAR(
-          (fit.heldOut.col(i) - (data.observed.col(i) - other.predicted.col(i))).norm(), 0.0, 1e-6);
-      }
+      EXPECT_NEAR(
+        (fit.heldOut.col(i) - (data.observed.col(i) - other.predicted.col(i))).norm(), 0.0, 1e-6);
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Diagnosis/AxisRegression.h"
+#include "Kernels/Gap/Diagnosis/GapRegression.h"
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/ReportParts.h"
@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
 
 namespace msi
 {
@@ -40,7 +41,7 @@ Coefficients regress(
   const ChannelNormals& normal, const std::vector<int>& common, const std::vector<int>& own)
 {
   const Eigen::Index gap = normal.front().cols() - 1;
-  const auto C = static_cast<Eigen::Index>(common.size());
+  const Eigen::Index C = common.size();
   std::vector<int> others = common;
   others.push_back(static_cast<int>(gap));
   Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(C + 1, C + 1);
@@ -210,6 +211,68 @@ PredictedEnergies predictedEnergies(
   }
   energies.axis = shapleyValues(value, axes.size());
   return energies;
+}
+
+CameraEffect remainderEffect(
+  const Eigen::MatrixXd& coefficients, const std::vector<std::string>& channels)
+{
+  const EffectDefinition& definition = effectWith(EffectTrait::Remainder);
+  CameraEffect effect = neutralEffect(definition.name, channels);
+  for (Eigen::Index n = 0; n < coefficients.cols(); ++n)
+  {
+    const EffectParameter& parameter = definition.forms.front().parameters[n];
+    for (Eigen::Index k = 0; k < coefficients.rows(); ++k)
+    {
+      effect.parameters[n * coefficients.rows() + k] =
+        std::clamp(coefficients(k, n), parameter.lower, parameter.upper);
+    }
+  }
+  return effect;
+}
+
+namespace
+{
+Eigen::VectorXd ridge(const Eigen::MatrixXd& products, const Eigen::VectorXd& scale, double penalty)
+{
+  const Eigen::Index count = scale.size();
+  Eigen::MatrixXd normal = products.topLeftCorner(count, count);
+  normal.diagonal() += penalty * scale + Eigen::VectorXd::Constant(count, 1e-12);
+  return normal.ldlt().solve(products.col(count).head(count));
+}
+}
+
+CameraEffect regularPart(
+  const std::vector<ChannelNormals>& products, const std::vector<std::string>& channels)
+{
+  const Eigen::Index K = channels.size();
+  const Eigen::Index count = products.front().front().cols() - 1;
+  Eigen::MatrixXd best = Eigen::MatrixXd::Zero(K, count);
+  double least = 0.0; // with nothing
+  for (double penalty = 1e-4; penalty < 200.0; penalty *= std::sqrt(10.0))
+  {
+    Eigen::MatrixXd coefficients(K, count);
+    double left = 0.0;
+    for (Eigen::Index k = 0; k < K; ++k)
+    {
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count + 1, count + 1);
+      for (const ChannelNormals& fold : products)
+      {
+        all += fold[k];
+      }
+      const Eigen::VectorXd scale = all.diagonal().head(count);
+      for (const ChannelNormals& fold : products)
+      {
+        left += energyLeft(fold[k], ridge(all - fold[k], scale, penalty)) - fold[k](count, count);
+      }
+      coefficients.row(k) = ridge(all, scale, penalty).transpose();
+    }
+    if (left < least)
+    {
+      least = left;
+      best = std::move(coefficients);
+    }
+  }
+  return remainderEffect(best, channels);
 }
 
 } // namespace msi

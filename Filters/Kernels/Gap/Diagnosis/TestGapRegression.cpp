@@ -1,4 +1,4 @@
-#include "Kernels/Gap/Diagnosis/AxisRegression.h"
+#include "Kernels/Gap/Diagnosis/GapRegression.h"
 
 #include <gtest/gtest.h>
 

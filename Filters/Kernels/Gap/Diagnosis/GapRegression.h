@@ -1,5 +1,8 @@
-// How much of a gap's energy each axis predicts of data that took no part: what tables and image pairs have in common.
+// Ridge regressions of a gap, fitted to some of the data and tried on the others: how much of it each axis predicts, and what of a rest
+// is regular.
 #pragma once
+
+#include "Kernels/Camera/CameraEffect.h"
 
 #include <Eigen/Core>
 
@@ -43,5 +46,16 @@ struct PredictedEnergies
 // Source: Shapley values as in ReportParts.h.
 PredictedEnergies predictedEnergies(
   std::vector<AxisBasis> axes, std::vector<AxisSplit> splits, int gain);
+
+// The effect of the trait Remainder, which can be added to the corrected simulator, with these coefficients of its first parameters, within
+// their bounds; K x p.
+CameraEffect remainderEffect(
+  const Eigen::MatrixXd& coefficients, const std::vector<std::string>& channels);
+
+// That effect by ridge regression of each channel's rest on its columns. products, of each fold: weighted, of p columns, one for each of
+// the effect's first parameters, and last the rest. The penalty, relative to each column's square and common to all, is the one that
+// predicts folds left out best; the effect is neutral where none predicts anything.
+CameraEffect regularPart(
+  const std::vector<ChannelNormals>& products, const std::vector<std::string>& channels);
 
 } // namespace msi

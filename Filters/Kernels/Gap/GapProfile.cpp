@@ -115,10 +115,7 @@ double median(const Eigen::VectorXd& values)
     ? Nothing
     : 0.5 * (orderStatistic(values, count / 2) + orderStatistic(values, (count - 1) / 2));
 }
-}
 
-namespace
-{
 // By the medians of the first and the last third, as J. W. Tukey (Exploratory Data Analysis, 1977): outliers do not pull it.
 Eigen::VectorXd resistantLine(const Eigen::VectorXd& x, const Eigen::VectorXd& y)
 {

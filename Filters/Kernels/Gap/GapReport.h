@@ -120,8 +120,7 @@ struct GapReport
   std::vector<GapChangePoint> changePoints;
   std::vector<GapCause> causes;        // in the order of sortCauses()
   std::vector<std::string> uncredited; // effects of the correction that help it but are no cause
-  bool unconfirmed =
-    false; // the causes show in so few samples that those left out cannot confirm them
+  bool unconfirmed = false; // the causes show in too few samples for those left out to confirm them
   std::vector<GapCandidate> candidates; // the largest shrink first
   GapRemainder unexplained;
   // Of "nothing" being the cause, of something "unknown" and of each effect being one; the largest first.

@@ -55,6 +55,26 @@ std::vector<std::pair<std::string, double>> dependences(const std::vector<GapAxi
     sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   return sorted;
 }
+
+// What a camera that was fitted as linear leaves of a detector's curve.
+bool isOfLinearFit(const std::string& effect, const std::string& form)
+{
+  const EffectDefinition* known = findEffect(effect);
+  const EffectForm* found = known == nullptr ? nullptr : findForm(*known, form);
+  return found != nullptr && found->has(FormTrait::BesideLine);
+}
+
+bool isOfLinearFit(const GapCause& cause)
+{
+  return isOfLinearFit(cause.effect, cause.form);
+}
+
+bool isSmallErrorOfChannels(const GapCause& cause, double share)
+{
+  const EffectDefinition* effect = findEffect(cause.effect);
+  return cause.perChannel && effect != nullptr && effect->stage != EffectStage::Image &&
+    share <= Decision::LeastPartPerChannel;
+}
 }
 
 double shrinkOf(const GroupEnergies& energies)
@@ -253,29 +273,6 @@ GapVerdict verdictOf(double explained) noexcept
   return explained >= Decision::ExplainedShrink ? GapVerdict::Explained
     : explained >= Decision::PartlyShrink       ? GapVerdict::PartlyExplained
                                                 : GapVerdict::Unexplained;
-}
-
-namespace
-{
-// What a camera that was fitted as linear leaves of a detector's curve.
-bool isOfLinearFit(const std::string& effect, const std::string& form)
-{
-  const EffectDefinition* known = findEffect(effect);
-  const EffectForm* found = known == nullptr ? nullptr : findForm(*known, form);
-  return found != nullptr && found->has(FormTrait::BesideLine);
-}
-
-bool isOfLinearFit(const GapCause& cause)
-{
-  return isOfLinearFit(cause.effect, cause.form);
-}
-
-bool isSmallErrorOfChannels(const GapCause& cause, double share)
-{
-  const EffectDefinition* effect = findEffect(cause.effect);
-  return cause.perChannel && effect != nullptr && effect->stage != EffectStage::Image &&
-    share <= Decision::LeastPartPerChannel;
-}
 }
 
 void sortCauses(std::vector<GapCause>& causes)

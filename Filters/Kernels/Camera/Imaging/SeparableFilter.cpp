@@ -7,11 +7,6 @@
 namespace msi
 {
 
-namespace
-{
-constexpr double GaussianCut = 4.0;
-}
-
 SymmetricKernel gaussianKernel(const Eigen::ArrayXd& deviations)
 {
   const double widest = deviations.size() > 0 ? deviations.maxCoeff() : 0.0;

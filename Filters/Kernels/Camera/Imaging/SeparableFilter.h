@@ -18,7 +18,9 @@ struct SymmetricKernel
   int radius() const noexcept { return (static_cast<int>(weights.cols()) - 1) * stride; }
 };
 
-// Gaussians of these standard deviations in pixels, cut at four of them and scaled to sum one. A deviation
+inline constexpr double GaussianCut = 4.0; // standard deviations
+
+// Gaussians of these standard deviations in pixels, cut at GaussianCut of them and scaled to sum one. A deviation
 // of zero gives the identity.
 SymmetricKernel gaussianKernel(const Eigen::ArrayXd& deviations);
 

@@ -107,49 +107,7 @@ std::vector<std::string> equivalentsAt(
   }
   return cheapestOf(std::move(rivals));
 }
-}
 
-std::vector<double> sharesUnderPrecedence(
-  const std::vector<double>& shrink, const std::vector<char>& later)
-{
-  const std::vector<double> plain = shapleyValues(shrink, later.size());
-  std::vector<double> share(later.size(), 0.0);
-  std::size_t present = 0;
-  for (const char turn : { 0, 1 })
-  {
-    std::vector<std::size_t> players;
-    for (std::size_t p = 0; p < later.size(); ++p)
-    {
-      if (later[p] == turn)
-      {
-        players.push_back(p);
-      }
-    }
-    std::vector<double> value;
-    std::size_t all = present;
-    for (std::size_t subset = 0; subset < std::size_t(1) << players.size(); ++subset)
-    {
-      all = present;
-      for (std::size_t p = 0; p < players.size(); ++p)
-      {
-        all |= (subset >> p & 1U) != 0 ? std::size_t(1) << players[p] : 0;
-      }
-      value.push_back(shrink[all]);
-    }
-    const std::vector<double> worth = shapleyValues(value, players.size());
-    for (std::size_t p = 0; p < players.size(); ++p)
-    {
-      const std::size_t player = players[p];
-      share[player] =
-        turn == 0 ? std::fmax(worth[p], plain[player]) : std::fmin(worth[p], plain[player]);
-    }
-    present = all;
-  }
-  return share;
-}
-
-namespace
-{
 // Whether a number for each channel is needed: the effect has no form with one for all, or most of what they are is not their mean.
 bool differByChannel(const GapOption& option, const std::vector<GapParameter>& numbers)
 {
@@ -173,46 +131,7 @@ bool differByChannel(const GapOption& option, const std::vector<GapParameter>& n
   }
   return option.perChannel && (!option.effect->hasCommonForm() || 2.0 * common <= all);
 }
-}
 
-std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink)
-{
-  const ObservedFit& best = *found.best;
-  const std::vector<double> reached = subsetShrinksOf(data, found);
-  const auto parameters = data.parameters(best);
-  std::vector<char> later;
-  for (std::size_t p = 0; p < best.set.size(); ++p)
-  {
-    later.push_back(differByChannel(data.options()[best.set[p]], parameters[p]) ? 1 : 0);
-  }
-  std::vector<double> share = sharesUnderPrecedence(reached, later);
-  double sum = 0.0;
-  for (double& one : share)
-  {
-    one = std::fmax(one, 0.0);
-    sum += one;
-  }
-  std::vector<GapCause> causes;
-  for (std::size_t p = 0; p < best.set.size(); ++p)
-  {
-    const GapOption& option = data.options()[best.set[p]];
-    GapCause cause;
-    cause.effect = option.effect->name;
-    cause.form = option.form;
-    cause.medium = option.medium;
-    cause.perChannel = option.perChannel;
-    cause.share = sum > 0.0 ? shrink * share[p] / sum : 0.0;
-    cause.shrink = reached[std::size_t(1) << p];
-    cause.equivalent = equivalentsAt(data, found, p);
-    cause.parameters = parameters[p];
-    causes.push_back(std::move(cause));
-  }
-  sortCauses(causes);
-  return causes;
-}
-
-namespace
-{
 // Single effects by what each alone would do.
 std::vector<GapCandidate> foundCandidates(
   const Observation& data, const FoundSets& found, std::uint64_t seed)
@@ -256,21 +175,7 @@ int standInsOf(const Observation& data, const ObservedFit& fit)
   }
   return count;
 }
-}
 
-double unknownProbability(double explained, double chanceOfCurve, int standIns)
-{
-  // Before the data speak as likely as an effect that is in the library, and never less.
-  const double chance =
-    std::clamp(chanceOfCurve, std::numeric_limits<double>::epsilon(), std::exp(-1.0));
-  const double odds = (1.0 - std::clamp(explained, 0.0, 1.0)) / Decision::UnknownRest +
-    std::exp(-1.0) * standIns +
-    std::exp(-Decision::EffectImprobability - 1.0) / (-chance * std::log(chance));
-  return odds / (1.0 + odds);
-}
-
-namespace
-{
 std::set<std::string> namesOf(const Observation& data, const ObservedFit& fit)
 {
   std::set<std::string> names;
@@ -308,6 +213,112 @@ void leaveOutSmall(std::vector<Explanation>& explanations, const std::set<std::s
     }
   }
 }
+
+std::map<std::string, double> chancesOf(const std::vector<Explanation>& explanations)
+{
+  std::map<std::string, double> effects;
+  for (const Explanation& explanation : explanations)
+  {
+    for (const std::string& name : explanation.effects)
+    {
+      effects[name] += explanation.probability;
+    }
+  }
+  return effects;
+}
+
+// Of the gap's size, what large gains do not take away.
+double inexactPart(const Observation& data, const FoundSets& found)
+{
+  const double inexact = std::fmax(found.inexactEnergy - data.noiseEnergy(), 0.0);
+  return std::sqrt(std::fmin(inexact / std::fmax(found.gapEnergy, 1e-300), 1.0));
+}
+}
+
+std::vector<double> sharesUnderPrecedence(
+  const std::vector<double>& shrink, const std::vector<char>& later)
+{
+  const std::vector<double> plain = shapleyValues(shrink, later.size());
+  std::vector<double> share(later.size(), 0.0);
+  std::size_t present = 0;
+  for (const char turn : { 0, 1 })
+  {
+    std::vector<std::size_t> players;
+    for (std::size_t p = 0; p < later.size(); ++p)
+    {
+      if (later[p] == turn)
+      {
+        players.push_back(p);
+      }
+    }
+    std::vector<double> value;
+    std::size_t all = present;
+    for (std::size_t subset = 0; subset < std::size_t(1) << players.size(); ++subset)
+    {
+      all = present;
+      for (std::size_t p = 0; p < players.size(); ++p)
+      {
+        all |= (subset >> p & 1U) != 0 ? std::size_t(1) << players[p] : 0;
+      }
+      value.push_back(shrink[all]);
+    }
+    const std::vector<double> worth = shapleyValues(value, players.size());
+    for (std::size_t p = 0; p < players.size(); ++p)
+    {
+      const std::size_t player = players[p];
+      share[player] =
+        turn == 0 ? std::fmax(worth[p], plain[player]) : std::fmin(worth[p], plain[player]);
+    }
+    present = all;
+  }
+  return share;
+}
+
+std::vector<GapCause> foundCauses(const Observation& data, const FoundSets& found, double shrink)
+{
+  const ObservedFit& best = *found.best;
+  const std::vector<double> reached = subsetShrinksOf(data, found);
+  const auto parameters = data.parameters(best);
+  std::vector<char> later;
+  for (std::size_t p = 0; p < best.set.size(); ++p)
+  {
+    later.push_back(differByChannel(data.options()[best.set[p]], parameters[p]) ? 1 : 0);
+  }
+  std::vector<double> share = sharesUnderPrecedence(reached, later);
+  double sum = 0.0;
+  for (double& one : share)
+  {
+    one = std::fmax(one, 0.0);
+    sum += one;
+  }
+  std::vector<GapCause> causes;
+  for (std::size_t p = 0; p < best.set.size(); ++p)
+  {
+    const GapOption& option = data.options()[best.set[p]];
+    GapCause cause;
+    cause.effect = option.effect->name;
+    cause.form = option.form;
+    cause.medium = option.medium;
+    cause.perChannel = option.perChannel;
+    cause.share = sum > 0.0 ? shrink * share[p] / sum : 0.0;
+    cause.shrink = reached[std::size_t(1) << p];
+    cause.equivalent = equivalentsAt(data, found, p);
+    cause.parameters = parameters[p];
+    causes.push_back(std::move(cause));
+  }
+  sortCauses(causes);
+  return causes;
+}
+
+double unknownProbability(double explained, double chanceOfCurve, int standIns)
+{
+  // Before the data speak as likely as an effect that is in the library, and never less.
+  const double chance =
+    std::clamp(chanceOfCurve, std::numeric_limits<double>::epsilon(), std::exp(-1.0));
+  const double odds = (1.0 - std::clamp(explained, 0.0, 1.0)) / Decision::UnknownRest +
+    std::exp(-1.0) * standIns +
+    std::exp(-Decision::EffectImprobability - 1.0) / (-chance * std::log(chance));
+  return odds / (1.0 + odds);
 }
 
 std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets& found)
@@ -336,22 +347,6 @@ std::vector<Explanation> explanationsOf(const Observation& data, const FoundSets
   std::stable_sort(explanations.begin(), explanations.end(),
     [](const Explanation& a, const Explanation& b) { return a.probability > b.probability; });
   return explanations;
-}
-
-namespace
-{
-std::map<std::string, double> chancesOf(const std::vector<Explanation>& explanations)
-{
-  std::map<std::string, double> effects;
-  for (const Explanation& explanation : explanations)
-  {
-    for (const std::string& name : explanation.effects)
-    {
-      effects[name] += explanation.probability;
-    }
-  }
-  return effects;
-}
 }
 
 std::vector<std::string> disputed(
@@ -440,19 +435,7 @@ std::vector<std::pair<std::string, double>> effectProbabilities(
   {
     probabilities.emplace_back(name, (1.0 - none) * chance);
   }
-  std::stable_sort(probabilities.begin(), probabilities.end(),
-    [](const auto& a, const auto& b) { return a.second > b.second; });
   return probabilities;
-}
-
-namespace
-{
-// Of the gap's size, what large gains do not take away.
-double inexactPart(const Observation& data, const FoundSets& found)
-{
-  const double inexact = std::fmax(found.inexactEnergy - data.noiseEnergy(), 0.0);
-  return std::sqrt(std::fmin(inexact / std::fmax(found.gapEnergy, 1e-300), 1.0));
-}
 }
 
 std::vector<Explanation> conclude(GapReport& report, const Observation& data,

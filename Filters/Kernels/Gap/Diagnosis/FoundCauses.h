@@ -64,7 +64,7 @@ void sortByWorth(std::vector<GapNextCapture>& captures);
 std::vector<GapNextCapture> separatingCaptures(
   const std::vector<Explanation>& explanations, const std::set<std::string>& inQuestion);
 
-// Of "nothing", of "unknown", and of each effect being a cause; the largest first.
+// Of "nothing", of "unknown", and of each effect being a cause.
 // gap: whether there is one beyond noise. none: probability that none of the explanations is true, but something unknown (a gap), or
 // nothing (no gap).
 std::vector<std::pair<std::string, double>> effectProbabilities(

@@ -148,6 +148,14 @@ double leftOf(const ChannelNormals& test, const Coefficients& coefficients)
   }
   return left;
 }
+
+Eigen::VectorXd ridge(const Eigen::MatrixXd& products, const Eigen::VectorXd& scale, double penalty)
+{
+  const Eigen::Index count = scale.size();
+  Eigen::MatrixXd normal = products.topLeftCorner(count, count);
+  normal.diagonal() += penalty * scale + Eigen::VectorXd::Constant(count, 1e-12);
+  return normal.ldlt().solve(products.col(count).head(count));
+}
 }
 
 PredictedEnergies predictedEnergies(
@@ -228,17 +236,6 @@ CameraEffect remainderEffect(
     }
   }
   return effect;
-}
-
-namespace
-{
-Eigen::VectorXd ridge(const Eigen::MatrixXd& products, const Eigen::VectorXd& scale, double penalty)
-{
-  const Eigen::Index count = scale.size();
-  Eigen::MatrixXd normal = products.topLeftCorner(count, count);
-  normal.diagonal() += penalty * scale + Eigen::VectorXd::Constant(count, 1e-12);
-  return normal.ldlt().solve(products.col(count).head(count));
-}
 }
 
 CameraEffect regularPart(

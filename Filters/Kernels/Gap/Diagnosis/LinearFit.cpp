@@ -18,54 +18,7 @@ namespace
 constexpr double LeastDeviation = 1e-6; // of the typical size
 constexpr double Jitter =
   1e-12; // so much more precise a number that does what others do keeps a pivot
-}
 
-namespace
-{
-Eigen::Index directionsOf(Eigen::Index channels)
-{
-  return std::clamp<Eigen::Index>(channels / 2, 1, 4);
-}
-}
-
-double chanceOfFraction(double fraction, Eigen::Index channels)
-{
-  if (channels < 2)
-  {
-    return 1.0;
-  }
-  const auto directions = static_cast<double>(directionsOf(channels));
-  return Eigen::numext::betainc(0.5 * (static_cast<double>(channels) - directions),
-    0.5 * directions, std::clamp(1.0 - fraction, 0.0, 1.0));
-}
-
-double commonFraction(const Eigen::VectorXd& deviations)
-{
-  const Eigen::Index channels = deviations.size();
-  const double energy = deviations.squaredNorm();
-  if (channels < 2 || !(energy > 0.0))
-  {
-    return 0.0;
-  }
-  const Eigen::Index directions = directionsOf(channels);
-  Eigen::MatrixXd basis(channels, directions);
-  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(channels, -1.0, 1.0);
-  for (Eigen::Index power = 0; power < directions; ++power)
-  {
-    basis.col(power) = x.pow(static_cast<double>(power)).matrix();
-  }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(channels, directions);
-  return std::min((q.transpose() * deviations).squaredNorm() / energy, 1.0);
-}
-
-double chanceOfCurve(const Eigen::VectorXd& deviations)
-{
-  return chanceOfFraction(commonFraction(deviations), deviations.size());
-}
-
-namespace
-{
 double squareOf(double value)
 {
   return value * value;
@@ -116,6 +69,54 @@ std::vector<Group> groupsOf(const std::vector<FreeNumber>& numbers)
   }
   return groups;
 }
+
+constexpr int Rounds = 3;         // of holding numbers at their bounds
+constexpr int Learnings = 3;      // of expectation and maximization
+constexpr double Rounding = 1e-9; // typical sizes
+
+bool anyPerChannel(const std::vector<FreeNumber>& numbers)
+{
+  return std::any_of(
+    numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.perChannel; });
+}
+
+// Leaves the equations with these unknowns 0.
+void hold(SparseMatrix& matrix, Eigen::VectorXd& right, const std::vector<char>& held)
+{
+  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
+  {
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
+    {
+      if (held[entry.row()] != 0 || held[column] != 0)
+      {
+        entry.valueRef() = entry.row() == column ? 1.0 : 0.0;
+      }
+    }
+    right[column] = held[column] != 0 ? 0.0 : right[column];
+  }
+}
+}
+
+double chanceOfCurve(const Eigen::VectorXd& deviations)
+{
+  const Eigen::Index channels = deviations.size();
+  const double energy = deviations.squaredNorm();
+  if (channels < 2 || !(energy > 0.0))
+  {
+    return 1.0;
+  }
+  const Eigen::Index directions = std::clamp<Eigen::Index>(channels / 2, 1, 4);
+  Eigen::MatrixXd basis(channels, directions);
+  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(channels, -1.0, 1.0);
+  for (Eigen::Index power = 0; power < directions; ++power)
+  {
+    basis.col(power) = x.pow(static_cast<double>(power)).matrix();
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(channels, directions);
+  const double beside = 1.0 - (q.transpose() * deviations).squaredNorm() / energy;
+  return Eigen::numext::betainc(0.5 * static_cast<double>(channels - directions),
+    0.5 * static_cast<double>(directions), std::fmax(beside, 0.0));
 }
 
 double wideVariance(double typical) noexcept
@@ -264,35 +265,6 @@ LearnedPrior::LearnedPrior(const std::vector<FreeNumber>& numbers)
     }
   }
   distribution = BlockPrior(std::move(blocks));
-}
-
-namespace
-{
-constexpr int Rounds = 3;         // of holding numbers at their bounds
-constexpr int Learnings = 3;      // of expectation and maximization
-constexpr double Rounding = 1e-9; // typical sizes
-
-bool anyPerChannel(const std::vector<FreeNumber>& numbers)
-{
-  return std::any_of(
-    numbers.begin(), numbers.end(), [](const FreeNumber& number) { return number.perChannel; });
-}
-
-// Leaves the equations with these unknowns 0.
-void hold(SparseMatrix& matrix, Eigen::VectorXd& right, const std::vector<char>& held)
-{
-  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
-  {
-    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
-    {
-      if (held[entry.row()] != 0 || held[column] != 0)
-      {
-        entry.valueRef() = entry.row() == column ? 1.0 : 0.0;
-      }
-    }
-    right[column] = held[column] != 0 ? 0.0 : right[column];
-  }
-}
 }
 
 void NormalEquationsSum::add(const std::vector<Eigen::Index>& numbers,

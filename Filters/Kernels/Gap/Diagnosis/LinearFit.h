@@ -14,23 +14,16 @@ namespace msi
 
 class ObservedFit;
 
-// Probability that fixed directions, half as many as there are channels and at most four, hold the part `fraction` or more of the
-// energy of independent normal deviations of the channels: the upper tail of a Beta distribution. 1 for one channel.
-double chanceOfFraction(double fraction, Eigen::Index channels);
-
-// The part of the deviations' energy in a polynomial over the channels with so many coefficients: a cubic, or a line or one number for
-// all where channels are few. What a smooth change of the light does to them.
-double commonFraction(const Eigen::VectorXd& deviations);
-
-// Probability that independent normal deviations have that part there, or more.
+// Probability that independent normal deviations of the channels have as large a part of their energy, or a larger one, in a polynomial
+// over the channels with half as many coefficients as there are channels, at most four: a cubic, or a line or one number for all where
+// channels are few. What a smooth change of the light does to them. The upper tail of a Beta distribution; 1 for one channel.
 double chanceOfCurve(const Eigen::VectorXd& deviations);
 
 struct FreeNumber
 {
   std::size_t group = 0; // numbers of one group stand together and differ in the channel only
   bool perChannel = false;
-  bool ownMean =
-    false; // of numbers of channels: the effect also has a form with one number for all of them
+  bool ownMean = false;   // of channels: the effect also has a form with one number for all
   double deviation = 0.0; // from neutral
   double typical = 1.0;   // size
   double variance = 0.0;  // of the deviation, once the data have spoken
@@ -38,8 +31,7 @@ struct FreeNumber
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double wanted = 0.0;
-  bool normal =
-    false; // of a common number: known to be near neutral, its prior is normal and not Cauchy
+  bool normal = false; // of a common number known to be near neutral: its prior is not Cauchy
   // Of numbers of channels: they tell the effect also where they follow a curve over the channels. A pattern in the image does, or
   // the light makes them what they are.
   bool mayFollowCurve = false;

@@ -42,12 +42,11 @@ public:
 
   std::vector<std::size_t> set; // numbers of options
   double energy = 0.0;          // weighted sum of squares, cross-validated by groups
-  double coherence =
-    1.0;            // independent residuals would scatter by that much less in the sum over a group
-  BlockPrior prior; // of its numbers, by which it is judged
-  SparseMatrix information; // their normal matrix without prior; unit dispersion
-  double surprise =
-    0.0; // half the sum of squares of the parameters over their learned prior deviations
+  // Independent residuals would scatter by that much less in the sum over a group.
+  double coherence = 1.0;
+  BlockPrior prior;           // of its numbers, by which it is judged
+  SparseMatrix information;   // their normal matrix without prior; unit dispersion
+  double surprise = 0.0;      // LearnedPrior::surprise
   double chanceOfCurve = 1.0; // LearnedPrior::chanceOfCurve
   bool atBound = false;       // a parameter lies at the end of its range
 };

@@ -142,35 +142,49 @@ TEST(Verdict, FollowsTheShrink)
   EXPECT_EQ(msi::verdictOf(0.1), msi::GapVerdict::Unexplained);
 }
 
+// Of so many channels: this part of the energy in one number for all, the rest in a difference that no curve has.
+Eigen::VectorXd partlyAlike(double part, Eigen::Index channels, const Eigen::VectorXd& difference)
+{
+  Eigen::VectorXd deviations =
+    Eigen::VectorXd::Constant(channels, std::sqrt(part / static_cast<double>(channels)));
+  deviations.head(difference.size()) += std::sqrt(1.0 - part) * difference.normalized();
+  return deviations;
+}
+
 // Densities: of Beta(2, 2) 6 x (1 - x), of Beta(2, 6) 42 x (1 - x)^5, of Beta(1, 1) 1, of Beta(1/2, 1) 1 / (2 sqrt(x)).
 TEST(ChannelStructure, ChanceIsTheTailOfItsDensity)
 {
-  EXPECT_NEAR(msi::chanceOfFraction(0.7, 8), 1.0 - 3.0 * 0.49 + 2.0 * 0.343, 1e-12);
-  EXPECT_NEAR(msi::chanceOfFraction(0.9, 16), 7.0 * 1e-6 - 6.0 * 1e-7, 1e-15);
-  EXPECT_NEAR(msi::chanceOfFraction(0.9, 4), 0.1, 1e-12);
-  EXPECT_NEAR(msi::chanceOfFraction(0.81, 3), 1.0 - 0.9, 1e-12);
-  EXPECT_EQ(msi::chanceOfFraction(0.0, 8), 1.0);
-  EXPECT_EQ(msi::chanceOfFraction(0.9, 1), 1.0);
+  Eigen::VectorXd fourth(5);
+  fourth << 1, -4, 6, -4, 1;
+  const Eigen::Vector3d second(1, -2, 1);
+  const Eigen::Vector2d first(1, -1);
+  EXPECT_NEAR(
+    msi::chanceOfCurve(partlyAlike(0.7, 8, fourth)), 1.0 - 3.0 * 0.49 + 2.0 * 0.343, 1e-12);
+  EXPECT_NEAR(msi::chanceOfCurve(partlyAlike(0.9, 16, fourth)), 7.0 * 1e-6 - 6.0 * 1e-7, 1e-15);
+  EXPECT_NEAR(msi::chanceOfCurve(partlyAlike(0.9, 4, second)), 0.1, 1e-12);
+  EXPECT_NEAR(msi::chanceOfCurve(partlyAlike(0.81, 3, first)), 1.0 - 0.9, 1e-12);
+  EXPECT_NEAR(msi::chanceOfCurve(partlyAlike(0.0, 8, fourth)), 1.0, 1e-12);
+  EXPECT_EQ(msi::chanceOfCurve(Eigen::VectorXd::Ones(1)), 1.0);
+  EXPECT_EQ(msi::chanceOfCurve(Eigen::VectorXd::Zero(12)), 1.0);
 }
 
 // Three and four independent gains are hardly ever the same, or on a line.
 TEST(ChannelStructure, FewChannelsMayHaveOneNumberOrALine)
 {
-  EXPECT_NEAR(msi::commonFraction(Eigen::Vector3d(0.05, 0.05, 0.05)), 1.0, 1e-12);
-  EXPECT_NEAR(msi::commonFraction(Eigen::Vector3d(1.0, 0.0, 0.0)), 1.0 / 3.0, 1e-12);
-  EXPECT_NEAR(msi::commonFraction(Eigen::Vector4d(0.01, 0.03, 0.05, 0.07)), 1.0, 1e-12);
+  EXPECT_NEAR(msi::chanceOfCurve(Eigen::Vector3d(0.05, 0.05, 0.05)), 0.0, 1e-12);
+  EXPECT_NEAR(
+    msi::chanceOfCurve(Eigen::Vector3d(1.0, 0.0, 0.0)), 1.0 - std::sqrt(1.0 / 3.0), 1e-12);
+  EXPECT_NEAR(msi::chanceOfCurve(Eigen::Vector4d(0.01, 0.03, 0.05, 0.07)), 0.0, 1e-12);
 }
 
 TEST(ChannelStructure, CurvesOverTheChannelsAreCommonAlternationIsNot)
 {
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(12, 0.0, 1.0);
   EXPECT_NEAR(
-    msi::commonFraction((0.02 + 0.1 * x - 0.3 * x.square() + x.cube()).matrix()), 1.0, 1e-12);
+    msi::chanceOfCurve((0.02 + 0.1 * x - 0.3 * x.square() + x.cube()).matrix()), 0.0, 1e-12);
   Eigen::VectorXd alternating(12);
   alternating << 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1;
-  EXPECT_LT(msi::commonFraction(alternating), 0.1);
-  EXPECT_EQ(msi::commonFraction(Eigen::VectorXd::Zero(12)), 0.0);
-  EXPECT_EQ(msi::commonFraction(Eigen::VectorXd::Ones(1)), 0.0);
+  EXPECT_GT(msi::chanceOfCurve(alternating), 0.9);
 }
 
 } // namespace

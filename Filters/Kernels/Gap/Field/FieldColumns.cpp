@@ -1,6 +1,7 @@
 #include "Kernels/Gap/Field/FieldColumns.h"
 
 #include "Kernels/Camera/Imaging/ChannelRegistration.h"
+#include "Kernels/Camera/Imaging/SeparableFilter.h"
 #include "Kernels/Numerics/Angle.h"
 
 #include <Eigen/Core>
@@ -72,8 +73,7 @@ Eigen::VectorXd columnsChanged(
 
 namespace
 {
-constexpr double NoiseStep = 1e-3; // white
-constexpr double GaussianCut = 4.0;
+constexpr double NoiseStep = 1e-3;     // white
 constexpr double SmallVariance = 0.04; // below, the blur is a second difference
 constexpr double VarianceStep = 0.02;
 

@@ -19,7 +19,6 @@ namespace msi
 
 namespace
 {
-constexpr std::size_t MeanPixels = std::size_t(1) << 20;
 constexpr int CellsPerSide = 64;
 
 // Gaps in a row of one channel become the mean of both sides, weighted by nearness; `other` where the whole row is one.
@@ -43,67 +42,7 @@ void fillRow(float* row, int pixels, std::size_t step, float other)
     last = x;
   }
 }
-}
 
-SceneCells::SceneCells(const FieldPair& pair)
-{
-  const Eigen::Index K = pair.channels.size();
-  Part = X = Y = Eigen::ArrayXXd::Zero(Eigen::Index{ CellsPerSide } * CellsPerSide, K);
-  Eigen::ArrayXd count = Eigen::ArrayXd::Zero(K);
-  const auto visit = [&](int x, int y, Eigen::Index cell)
-  {
-    const float* values = pair.simulated + pair.index(x, y) * K;
-    for (Eigen::Index k = 0; k < K; ++k)
-    {
-      if (std::isfinite(values[k]))
-      {
-        const auto u = static_cast<double>(values[k]);
-        Part(cell, k) += u;
-        X(cell, k) += u * pair.fieldX(x);
-        Y(cell, k) += u * pair.fieldY(y);
-        count[k] += 1.0;
-      }
-    }
-  };
-  forPixels(pair, CellsPerSide, CellsPerSide, visit);
-  const auto light = Part.abs() > 1e-12;
-  X = light.select(X / Part, 0.0);
-  Y = light.select(Y / Part, 0.0);
-  Part.rowwise() /= count.max(1.0).transpose();
-}
-
-Eigen::ArrayXd SceneCells::mean(const FieldModel& model) const
-{
-  const FieldFactor factor(model);
-  const Eigen::ArrayXXd factors =
-    X.binaryExpr(Y, [&factor](double x, double y) { return factor(x, y); });
-  return (Part * factors).colwise().sum().transpose();
-}
-
-std::vector<float> filledScene(const FieldPair& pair)
-{
-  const std::size_t K = pair.channels.size();
-  const std::size_t count = pair.pixels() * K;
-  if (std::all_of(
-        pair.simulated, pair.simulated + count, [](float value) { return std::isfinite(value); }))
-  {
-    return {};
-  }
-  std::vector<float> filled(pair.simulated, pair.simulated + count);
-  const Eigen::ArrayXd mean = SceneCells(pair).mean(FieldModel(K));
-  for (int y = 0; y < pair.extent.height; ++y)
-  {
-    for (std::size_t k = 0; k < K; ++k)
-    {
-      fillRow(filled.data() + pair.index(0, y) * K + k, pair.extent.width, K,
-        static_cast<float>(mean[k]));
-    }
-  }
-  return filled;
-}
-
-namespace
-{
 constexpr std::size_t LargestWhole = std::size_t(1) << 21;
 constexpr int RegionSide = 512;
 constexpr int Regions = 3;  // a side
@@ -351,48 +290,7 @@ void addTails(FieldData& data, const Region& region)
     }
   }
 }
-}
 
-FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, FieldLoop loop)
-{
-  if (pair.extent.width < 1 || pair.extent.height < 1 || pair.channels.empty())
-  {
-    reject("the images have ", pair.extent.width, " x ", pair.extent.height, " pixels and ",
-      pair.channels.size(), " channels; expected at least one of each");
-  }
-  FieldData data;
-  data.loop = std::move(loop);
-  data.pair = withoutFrame(pair);
-  const std::vector<PairSums> sums = channelSums(data.pair);
-  requireRelativeToWhite(sums);
-  data.filled = filledScene(data.pair);
-  data.unit = fieldUnits(sums);
-  const auto regions = regionsOf(pair.extent);
-  const int largest = pair.channels.size() < ManyChannels ? LargestBlock : LargestBlock / 2;
-  for (int size = largest; size >= SmallestBlock; size /= 2)
-  {
-    findBlocks(data, regions, size);
-    if (data.blocks.size() >= EnoughBlocks)
-    {
-      break;
-    }
-  }
-  if (data.blocks.size() < FewestBlocks)
-  {
-    reject("the images share ", data.blocks.size(), " blocks of ", SmallestBlock, " x ",
-      SmallestBlock, " usable pixels; expected at least ", FewestBlocks,
-      ": pixels must be finite in both images, with finite neighbours in the simulated one");
-  }
-  dealBlocks(data.pair, data.blocks,
-    std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
-  data.cells = SceneCells(data.pair);
-  data.forBlocks([&](int b) { readBlock(data, data.blocks[b]); });
-  data.loop(static_cast<int>(regions.size()), [&](int i) { addTails(data, regions[i]); });
-  return data;
-}
-
-namespace
-{
 constexpr double Cells = 96.0;
 constexpr std::size_t FewestGroups = 12;
 constexpr std::size_t LargestLabel = 8; // part of the blocks, 1 / this
@@ -447,6 +345,101 @@ std::size_t findGroups(const FieldPair& pair, std::vector<FieldBlock>& blocks)
   const std::size_t found = group(blocks, labels);
   return found >= FewestGroups ? found : group(blocks, cells);
 }
+}
+
+SceneCells::SceneCells(const FieldPair& pair)
+{
+  const Eigen::Index K = pair.channels.size();
+  Part = X = Y = Eigen::ArrayXXd::Zero(Eigen::Index{ CellsPerSide } * CellsPerSide, K);
+  Eigen::ArrayXd count = Eigen::ArrayXd::Zero(K);
+  const auto visit = [&](int x, int y, Eigen::Index cell)
+  {
+    const float* values = pair.simulated + pair.index(x, y) * K;
+    for (Eigen::Index k = 0; k < K; ++k)
+    {
+      if (std::isfinite(values[k]))
+      {
+        const auto u = static_cast<double>(values[k]);
+        Part(cell, k) += u;
+        X(cell, k) += u * pair.fieldX(x);
+        Y(cell, k) += u * pair.fieldY(y);
+        count[k] += 1.0;
+      }
+    }
+  };
+  forPixels(pair, CellsPerSide, CellsPerSide, visit);
+  const auto light = Part.abs() > 1e-12;
+  X = light.select(X / Part, 0.0);
+  Y = light.select(Y / Part, 0.0);
+  Part.rowwise() /= count.max(1.0).transpose();
+}
+
+Eigen::ArrayXd SceneCells::mean(const FieldModel& model) const
+{
+  const FieldFactor factor(model);
+  const Eigen::ArrayXXd factors =
+    X.binaryExpr(Y, [&factor](double x, double y) { return factor(x, y); });
+  return (Part * factors).colwise().sum().transpose();
+}
+
+std::vector<float> filledScene(const FieldPair& pair)
+{
+  const std::size_t K = pair.channels.size();
+  const std::size_t count = pair.pixels() * K;
+  if (std::all_of(
+        pair.simulated, pair.simulated + count, [](float value) { return std::isfinite(value); }))
+  {
+    return {};
+  }
+  std::vector<float> filled(pair.simulated, pair.simulated + count);
+  const Eigen::ArrayXd mean = SceneCells(pair).mean(FieldModel(K));
+  for (int y = 0; y < pair.extent.height; ++y)
+  {
+    for (std::size_t k = 0; k < K; ++k)
+    {
+      fillRow(filled.data() + pair.index(0, y) * K + k, pair.extent.width, K,
+        static_cast<float>(mean[k]));
+    }
+  }
+  return filled;
+}
+
+FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, FieldLoop loop)
+{
+  if (pair.extent.width < 1 || pair.extent.height < 1 || pair.channels.empty())
+  {
+    reject("the images have ", pair.extent.width, " x ", pair.extent.height, " pixels and ",
+      pair.channels.size(), " channels; expected at least one of each");
+  }
+  FieldData data;
+  data.loop = std::move(loop);
+  data.pair = withoutFrame(pair);
+  const std::vector<PairSums> sums = channelSums(data.pair);
+  requireRelativeToWhite(sums);
+  data.filled = filledScene(data.pair);
+  data.unit = fieldUnits(sums);
+  const auto regions = regionsOf(pair.extent);
+  const int largest = pair.channels.size() < ManyChannels ? LargestBlock : LargestBlock / 2;
+  for (int size = largest; size >= SmallestBlock; size /= 2)
+  {
+    findBlocks(data, regions, size);
+    if (data.blocks.size() >= EnoughBlocks)
+    {
+      break;
+    }
+  }
+  if (data.blocks.size() < FewestBlocks)
+  {
+    reject("the images share ", data.blocks.size(), " blocks of ", SmallestBlock, " x ",
+      SmallestBlock, " usable pixels; expected at least ", FewestBlocks,
+      ": pixels must be finite in both images, with finite neighbours in the simulated one");
+  }
+  dealBlocks(data.pair, data.blocks,
+    std::clamp(8 * MostBlocks / pair.channels.size(), MostBlocks / 2, MostBlocks), seed);
+  data.cells = SceneCells(data.pair);
+  data.forBlocks([&](int b) { readBlock(data, data.blocks[b]); });
+  data.loop(static_cast<int>(regions.size()), [&](int i) { addTails(data, regions[i]); });
+  return data;
 }
 
 void dealBlocks(

@@ -207,17 +207,12 @@ std::vector<GapPreview> FieldObservation::previews(const ObservedFit& from) cons
   return previews;
 }
 
-FieldHypothesis FieldObservation::refit(const FieldSet& set, const FieldModel& start) const
-{
-  return refitted(Data, Weights, set, start);
-}
-
 FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview& with) const
 {
   const FieldHypothesis& base = started(from);
   const FieldChoice& choice = Choices[with.option];
   const FieldSet set = joined(base.set, choice);
-  FieldHypothesis hypothesis = refit(set,
+  FieldHypothesis hypothesis = refitted(Data, Weights, set,
     with.start.empty() ? FieldFitter(Data, *base.statistics).fitFromBestStart(set).next
                        : registered(base.statistics->model, choice));
   // Once more beside the other effects.
@@ -236,7 +231,7 @@ FitPointer FieldObservation::extended(const ObservedFit& from, const GapPreview&
       {
         FieldModel model = found;
         findProfiles(model, residuals, others, keepTrend);
-        FieldHypothesis other = refit(set, model);
+        FieldHypothesis other = refitted(Data, Weights, set, model);
         if (!keepTrend || other.fit.energy < hypothesis.fit.energy)
         {
           hypothesis = std::move(other);
@@ -263,7 +258,8 @@ FitPointer FieldObservation::reduced(const ObservedFit& from, std::size_t positi
       set.push_back(all.set[e]);
     }
   }
-  return known = described(refit(set, FieldFitter(Data, *all.statistics).fit(set).next));
+  return known = described(
+           refitted(Data, Weights, set, FieldFitter(Data, *all.statistics).fit(set).next));
 }
 
 void FieldObservation::describe(

@@ -42,7 +42,6 @@ public:
 private:
   // With starts for stripes and clipping that its residual shows.
   const FieldHypothesis& started(const ObservedFit& fit) const;
-  FieldHypothesis refit(const FieldSet& set, const FieldModel& start) const;
   void describe(ObservedFit& described, const FieldSet& set, const FieldFit& fit) const;
   FitPointer described(FieldHypothesis hypothesis) const;
   void findProfiles(FieldModel& model, const std::vector<FieldResidual>& residuals,

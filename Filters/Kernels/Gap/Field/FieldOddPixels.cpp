@@ -61,38 +61,7 @@ double meanOf(const Values& values)
   return known.select(values.template cast<double>(), 0.0).sum() /
     std::fmax(static_cast<double>(known.count()), 1.0);
 }
-}
 
-FieldPair withoutFrame(FieldPair pair)
-{
-  const auto values = [&](const float* image) -> ImageValues
-  {
-    return { image, static_cast<Eigen::Index>(pair.channels.size()),
-      static_cast<Eigen::Index>(pair.pixels()) };
-  };
-  const std::size_t side = std::min(pair.extent.width, pair.extent.height);
-  const ImageValues simulated = values(pair.simulated);
-  const auto take = [&](const float*& image, const ImageValues& other)
-  {
-    const std::vector<Eigen::Index> frame = zerosFromBorder(values(image), pair.extent);
-    if (2 * frame.size() >= side && 2 * frame.size() <= pair.pixels() &&
-      meanOf(other(Eigen::all, frame)) >= DarkFrame * meanOf(other))
-    {
-      Eigen::MatrixXf inside = values(image);
-      inside(Eigen::all, frame).setConstant(std::numeric_limits<float>::quiet_NaN());
-      pair.own.push_back(std::make_shared<const Eigen::MatrixXf>(std::move(inside)));
-      image = pair.own.back()->data();
-      pair.framePart += static_cast<double>(frame.size()) / static_cast<double>(pair.pixels());
-    }
-  };
-  const ImageValues real = values(pair.real);
-  take(pair.real, simulated);
-  take(pair.simulated, real);
-  return pair;
-}
-
-namespace
-{
 // The gap of a pixel of a block, beside that of its neighbours.
 struct LonePixel
 {
@@ -147,6 +116,80 @@ std::vector<LonePixel> lonePixels(FieldData& data, std::size_t channel)
   }
   return pixels;
 }
+
+std::size_t leftOutPixels(const FieldData& data)
+{
+  std::size_t pixels = 0;
+  for (const ImageWindow& window : data.leftOut)
+  {
+    pixels += window.pixels();
+  }
+  return pixels;
+}
+
+// By how steep the simulated image is there: pixels of one kind are as many as those of another, pixels x blocks.
+Eigen::MatrixXi kindsOfPixels(const FieldData& data)
+{
+  constexpr Eigen::Index Kinds = 8;
+  const Eigen::Index rows = data.blocks.front().window.pixels();
+  const Eigen::Index K = data.channels();
+  Eigen::ArrayXXd slope(rows, data.blocks.size());
+  const ImageExtent& extent = data.pair.extent;
+  const auto scene = [&](int x, int y)
+  {
+    const auto pixel =
+      data.pair.index(std::clamp(x, 0, extent.width - 1), std::clamp(y, 0, extent.height - 1));
+    return Eigen::Map<const Eigen::ArrayXf>(data.scene() + pixel * K, K);
+  };
+  for (Eigen::Index b = 0; b < slope.cols(); ++b)
+  {
+    for (Eigen::Index p = 0; p < rows; ++p)
+    {
+      const auto [x, y] = data.blocks[b].place(static_cast<int>(p));
+      slope(p, b) = static_cast<double>((
+        (scene(x + 1, y) - scene(x - 1, y)).square() + (scene(x, y + 1) - scene(x, y - 1)).square())
+                                          .sum());
+    }
+  }
+  std::vector<Eigen::Index> order(slope.size());
+  std::iota(order.begin(), order.end(), Eigen::Index(0));
+  std::stable_sort(order.begin(), order.end(),
+    [&slope](Eigen::Index a, Eigen::Index b) { return slope(a) < slope(b); });
+  Eigen::MatrixXi kind(slope.rows(), slope.cols());
+  for (std::size_t n = 0; n < order.size(); ++n)
+  {
+    kind(order[n]) = static_cast<int>(Kinds * static_cast<Eigen::Index>(n) / slope.size());
+  }
+  return kind;
+}
+}
+
+FieldPair withoutFrame(FieldPair pair)
+{
+  const auto values = [&](const float* image) -> ImageValues
+  {
+    return { image, static_cast<Eigen::Index>(pair.channels.size()),
+      static_cast<Eigen::Index>(pair.pixels()) };
+  };
+  const std::size_t side = std::min(pair.extent.width, pair.extent.height);
+  const ImageValues simulated = values(pair.simulated);
+  const auto take = [&](const float*& image, const ImageValues& other)
+  {
+    const std::vector<Eigen::Index> frame = zerosFromBorder(values(image), pair.extent);
+    if (2 * frame.size() >= side && 2 * frame.size() <= pair.pixels() &&
+      meanOf(other(Eigen::all, frame)) >= DarkFrame * meanOf(other))
+    {
+      Eigen::MatrixXf inside = values(image);
+      inside(Eigen::all, frame).setConstant(std::numeric_limits<float>::quiet_NaN());
+      pair.own.push_back(std::make_shared<const Eigen::MatrixXf>(std::move(inside)));
+      image = pair.own.back()->data();
+      pair.framePart += static_cast<double>(frame.size()) / static_cast<double>(pair.pixels());
+    }
+  };
+  const ImageValues real = values(pair.real);
+  take(pair.real, simulated);
+  take(pair.simulated, real);
+  return pair;
 }
 
 void leaveOutDefects(FieldData& data)
@@ -207,55 +250,6 @@ void leaveOut(FieldData& data, const IndexList& pixels)
       std::fill_n(block->real.begin() + pixel * K, K, std::numeric_limits<float>::quiet_NaN());
     }
   }
-}
-
-namespace
-{
-std::size_t leftOutPixels(const FieldData& data)
-{
-  std::size_t pixels = 0;
-  for (const ImageWindow& window : data.leftOut)
-  {
-    pixels += window.pixels();
-  }
-  return pixels;
-}
-
-// By how steep the simulated image is there: pixels of one kind are as many as those of another, pixels x blocks.
-Eigen::MatrixXi kindsOfPixels(const FieldData& data)
-{
-  constexpr Eigen::Index Kinds = 8;
-  const Eigen::Index rows = data.blocks.front().window.pixels();
-  const Eigen::Index K = data.channels();
-  Eigen::ArrayXXd slope(rows, data.blocks.size());
-  const ImageExtent& extent = data.pair.extent;
-  const auto scene = [&](int x, int y)
-  {
-    const auto pixel =
-      data.pair.index(std::clamp(x, 0, extent.width - 1), std::clamp(y, 0, extent.height - 1));
-    return Eigen::Map<const Eigen::ArrayXf>(data.scene() + pixel * K, K);
-  };
-  for (Eigen::Index b = 0; b < slope.cols(); ++b)
-  {
-    for (Eigen::Index p = 0; p < rows; ++p)
-    {
-      const auto [x, y] = data.blocks[b].place(static_cast<int>(p));
-      slope(p, b) = static_cast<double>((
-        (scene(x + 1, y) - scene(x - 1, y)).square() + (scene(x, y + 1) - scene(x, y - 1)).square())
-                                          .sum());
-    }
-  }
-  std::vector<Eigen::Index> order(slope.size());
-  std::iota(order.begin(), order.end(), Eigen::Index(0));
-  std::stable_sort(order.begin(), order.end(),
-    [&slope](Eigen::Index a, Eigen::Index b) { return slope(a) < slope(b); });
-  Eigen::MatrixXi kind(slope.rows(), slope.cols());
-  for (std::size_t n = 0; n < order.size(); ++n)
-  {
-    kind(order[n]) = static_cast<int>(Kinds * static_cast<Eigen::Index>(n) / slope.size());
-  }
-  return kind;
-}
 }
 
 IndexList oddPixels(const FieldData& data, const FieldWeights& weights, const FieldModel& nominal,

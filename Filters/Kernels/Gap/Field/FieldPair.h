@@ -45,14 +45,16 @@ private:
   }
 };
 
-// Every pixel, or every few of an image of more than 2^20, with the cell in which it lies of a raster of width x height:
+// So many are enough to look at an image as a whole.
+inline constexpr std::size_t MeanPixels = std::size_t(1) << 20;
+
+// Every pixel, or every few of an image of more than MeanPixels, with the cell in which it lies of a raster of width x height:
 // visit(x, y, cell), row after row.
 template <typename Visit>
 void forPixels(const FieldPair& pair, int width, int height, const Visit& visit)
 {
-  constexpr std::size_t Most = std::size_t(1) << 20;
   int step = 1;
-  while (pair.pixels() / (step * step) > Most)
+  while (pair.pixels() / (step * step) > MeanPixels)
   {
     ++step;
   }

@@ -293,10 +293,9 @@ FieldProfile findProfile(const FieldData& data, const std::vector<FieldResidual>
 namespace
 {
 constexpr double FalseAlarm = 1e-3;
-constexpr double PeriodOversampling = 6.0;
+constexpr Eigen::Index Oversampling = 6; // of frequencies
 constexpr int Refinements = 40;
 constexpr Eigen::Index FewestLines = 24;
-const double ExponentialMedian = std::log(2.0);
 
 // Weighted energy that a sine takes away, of each channel.
 Eigen::ArrayXd powerAt(const LineValues& profile, double frequency)
@@ -336,9 +335,9 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
   }
   detrend(profile, 3);
   const double span = static_cast<double>(lines);
-  const auto count = static_cast<int>(PeriodOversampling * (0.5 * span - 2.0)) + 1;
+  const auto count = static_cast<int>(Oversampling * (0.5 * span - 2.0)) + 1;
   const auto frequencyOf = [&](Eigen::Index i)
-  { return (2.0 + static_cast<double>(i) / PeriodOversampling) / span; };
+  { return (2.0 + static_cast<double>(i) / Oversampling) / span; };
   Eigen::ArrayXXd power(count, K);
   constexpr int Batch = 64;
   data.loop((count + Batch - 1) / Batch,
@@ -352,7 +351,7 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
   Eigen::ArrayXd scale(K);
   for (Eigen::Index k = 0; k < K; ++k)
   {
-    scale[k] = std::fmax(orderStatistic(power.col(k), count / 2) / ExponentialMedian, 1e-300);
+    scale[k] = std::fmax(orderStatistic(power.col(k), count / 2) / std::log(2.0), 1e-300);
   }
   const auto total = [&](double frequency) { return (powerAt(profile, frequency) / scale).sum(); };
   Eigen::Index best = 0;
@@ -362,8 +361,8 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
   {
     return;
   }
-  double low = frequencyOf(best) - 1.0 / (PeriodOversampling * span);
-  double high = std::fmin(frequencyOf(best) + 1.0 / (PeriodOversampling * span), 0.5);
+  double low = frequencyOf(best) - 1.0 / (Oversampling * span);
+  double high = std::fmin(frequencyOf(best) + 1.0 / (Oversampling * span), 0.5);
   for (int i = 0; i < Refinements; ++i)
   {
     const double a = low + (high - low) / 3.0;
@@ -380,7 +379,6 @@ void findPeriod(const FieldData& data, const std::vector<FieldResidual>& residua
 namespace
 {
 constexpr double LargestAmplitude = 0.45;
-constexpr Eigen::Index Oversampling = 6;
 
 // Sine and cosine of every harmonic.
 Eigen::MatrixXd basisOf(Eigen::Index lines, double period)

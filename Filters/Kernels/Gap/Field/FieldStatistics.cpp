@@ -89,27 +89,7 @@ void addDifferences(const ChannelColumns& found, const ImageWindow& window, Bloc
     (varianceByMeans(left.topRows(window.width / 2), left.bottomRows(window.width / 2)) +
       varianceByMeans(left.leftCols(window.height / 2), left.rightCols(window.height / 2)));
 }
-}
 
-Eigen::MatrixXd BlockSums::normal() const
-{
-  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(fieldColumns().count, fieldColumns().count);
-  whole(there, there) = products;
-  return whole;
-}
-
-Eigen::VectorXd FieldStatistics::ofBlocks(double BlockSums::*number) const
-{
-  Eigen::VectorXd together = Eigen::VectorXd::Zero(blocks());
-  for (std::size_t i = 0; i < sums.size(); ++i)
-  {
-    together[i / channels] += sums[i].*number;
-  }
-  return together;
-}
-
-namespace
-{
 // The smoother half of the blocks, of a channel.
 std::vector<const BlockSums*> smoothBlocks(const FieldStatistics& statistics, Eigen::Index channel)
 {
@@ -127,6 +107,70 @@ std::vector<const BlockSums*> smoothBlocks(const FieldStatistics& statistics, Ei
   smooth.resize((smooth.size() + 1) / 2);
   return smooth;
 }
+
+double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
+{
+  enum Column : Eigen::Index
+  {
+    Gain,
+    Offset,
+    Blur,
+    Residual
+  };
+  const std::array<int, 4> there{ fieldColumns().gain, fieldColumns().offset, fieldColumns().blur,
+    fieldColumns().residual };
+  const Eigen::Index blocks = statistics.blocks();
+  std::vector<Eigen::Matrix4d> normals;
+  Eigen::Matrix4d all = Eigen::Matrix4d::Zero();
+  for (Eigen::Index b = 0; b < blocks; ++b)
+  {
+    normals.emplace_back(statistics.at(b, channel).normal()(there, there));
+    all += normals.back();
+  }
+  const Eigen::Vector2d line = all.topLeftCorner<2, 2>().ldlt().solve(all.col(Residual).head<2>());
+  // product = noise x what it adds + blur x square, of each block; all over the deviation that the product has.
+  Eigen::MatrixX2d known = Eigen::MatrixX2d::Zero(blocks, 2);
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(blocks);
+  double square = 0.0;
+  double added = 0.0;
+  for (Eigen::Index b = 0; b < blocks; ++b)
+  {
+    const BlockSums& sums = statistics.at(b, channel);
+    const Eigen::Matrix4d& normal = normals[b];
+    const double size = std::sqrt(normal(Blur, Blur));
+    if (size > 0.0)
+    {
+      known.row(b) << sums.pixels * sums.residualOfNoise / size, size;
+      product[b] = (normal(Blur, Residual) - normal.row(Blur).head<2>().dot(line)) / size;
+      square += sums.blurOfNoise;
+      added += sums.residualOfNoise;
+    }
+  }
+  const Eigen::Matrix2d inverse = (known.transpose() * known).inverse();
+  const Eigen::Vector2d found = inverse * known.transpose() * product;
+  const Eigen::MatrixX2d scores = (product - known * found).asDiagonal() * (known * inverse).eval();
+  const double error = scores.col(0).norm();
+  return found[0] > Decision::SureDeviations * error
+    ? found[0] / std::fmax(1.0 - found[1] * square / added, LeastOfNoise)
+    : 0.0;
+}
+}
+
+Eigen::MatrixXd BlockSums::normal() const
+{
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(fieldColumns().count, fieldColumns().count);
+  whole(there, there) = products;
+  return whole;
+}
+
+Eigen::VectorXd FieldStatistics::ofBlocks(double BlockSums::*number) const
+{
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(blocks());
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    together[i / channels] += sums[i].*number;
+  }
+  return together;
 }
 
 double noiseCoherence(const FieldStatistics& statistics, Eigen::Index channel)
@@ -238,56 +282,6 @@ std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
     noise.back().read = std::hypot(noise.back().read, LeastNoise);
   }
   return noise;
-}
-
-namespace
-{
-double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
-{
-  enum Column : Eigen::Index
-  {
-    Gain,
-    Offset,
-    Blur,
-    Residual
-  };
-  const std::array<int, 4> there{ fieldColumns().gain, fieldColumns().offset, fieldColumns().blur,
-    fieldColumns().residual };
-  const Eigen::Index blocks = statistics.blocks();
-  std::vector<Eigen::Matrix4d> normals;
-  Eigen::Matrix4d all = Eigen::Matrix4d::Zero();
-  for (Eigen::Index b = 0; b < blocks; ++b)
-  {
-    normals.emplace_back(statistics.at(b, channel).normal()(there, there));
-    all += normals.back();
-  }
-  const Eigen::Vector2d line = all.topLeftCorner<2, 2>().ldlt().solve(all.col(Residual).head<2>());
-  // product = noise x what it adds + blur x square, of each block; all over the deviation that the product has.
-  Eigen::MatrixX2d known = Eigen::MatrixX2d::Zero(blocks, 2);
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(blocks);
-  double square = 0.0;
-  double added = 0.0;
-  for (Eigen::Index b = 0; b < blocks; ++b)
-  {
-    const BlockSums& sums = statistics.at(b, channel);
-    const Eigen::Matrix4d& normal = normals[b];
-    const double size = std::sqrt(normal(Blur, Blur));
-    if (size > 0.0)
-    {
-      known.row(b) << sums.pixels * sums.residualOfNoise / size, size;
-      product[b] = (normal(Blur, Residual) - normal.row(Blur).head<2>().dot(line)) / size;
-      square += sums.blurOfNoise;
-      added += sums.residualOfNoise;
-    }
-  }
-  const Eigen::Matrix2d inverse = (known.transpose() * known).inverse();
-  const Eigen::Vector2d found = inverse * known.transpose() * product;
-  const Eigen::MatrixX2d scores = (product - known * found).asDiagonal() * (known * inverse).eval();
-  const double error = scores.col(0).norm();
-  return found[0] > Decision::SureDeviations * error
-    ? found[0] / std::fmax(1.0 - found[1] * square / added, LeastOfNoise)
-    : 0.0;
-}
 }
 
 Eigen::ArrayXd sceneNoise(const FieldStatistics& statistics)

@@ -89,15 +89,13 @@ public:
     for (std::size_t f = 0; f < Data.folds.size(); ++f)
     {
       const std::vector<Eigen::VectorXd>& coefficients = energies.coefficients[f];
-      for (const Eigen::Index i : Data.folds[f])
+      const SampleList& samples = Data.folds[f];
+      left(Eigen::all, samples) = List.back()(Eigen::all, samples);
+      for (Eigen::Index k = 0; k < Data.channels(); ++k)
       {
-        left.col(i) = List.back().col(i);
-        for (Eigen::Index k = 0; k < Data.channels(); ++k)
+        for (std::size_t c = 0; c + 1 < List.size(); ++c)
         {
-          for (std::size_t c = 0; c + 1 < List.size(); ++c)
-          {
-            left(k, i) -= coefficients[k][c] * List[c](k, i);
-          }
+          left(k, samples) -= coefficients[k][c] * List[c](k, samples);
         }
       }
     }
@@ -177,8 +175,8 @@ Elements surroundMinusSelf(const GapData& data)
   for (Eigen::Index i = 0; i < data.samples(); ++i)
   {
     std::vector<int> near = data.scene.neighbours()[i];
-    near.erase(std::remove_if(near.begin(), near.end(),
-                 [&](int other) { return !(data.count.col(other).array() > 0.0).any(); }),
+    near.erase(
+      std::remove_if(near.begin(), near.end(), [&](int other) { return !data.anyMeasured(other); }),
       near.end());
     if (!near.empty())
     {
@@ -320,6 +318,13 @@ double sampleEnergy(const GapData& data, const Eigen::MatrixXd& residual)
   return std::fmax(energy, 0.0);
 }
 
+constexpr Eigen::Index FewSamples = 3;
+
+// Energy explained over energy left where the gap shrinks by Decision::SmallPart.
+double leastOverLeft()
+{
+  return std::pow(1.0 - Decision::SmallPart, -2) - 1.0;
+}
 }
 
 AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap)
@@ -342,17 +347,6 @@ AxisShares shareOverAxes(const GapData& data, const Eigen::MatrixXd& gap)
     axis.worst = worstCells(data, gap, axis.axis);
   }
   return shares;
-}
-
-namespace
-{
-constexpr Eigen::Index FewSamples = 3;
-
-// Energy explained over energy left where the gap shrinks by Decision::SmallPart.
-double leastOverLeft()
-{
-  return std::pow(1.0 - Decision::SmallPart, -2) - 1.0;
-}
 }
 
 double limitIntegration(GapData& data, const Eigen::MatrixXd& integration, double unpredicted)

@@ -30,18 +30,12 @@ struct ReadingVariances
   Eigen::ArrayXXd common; // of the error by rounding that they share
 
   ReadingVariances(const GapData& data, const CameraNoise& noise)
-    : within(data.channels(), data.samples())
-    , common(data.channels(), data.samples())
   {
-    for (Eigen::Index i = 0; i < data.samples(); ++i)
-    {
-      for (Eigen::Index k = 0; k < data.channels(); ++k)
-      {
-        const double variance = noiseVariance(noise, data.observed(k, i));
-        common(k, i) = sharedRounding(variance, data.step[k]);
-        within(k, i) = variance + data.step[k] * data.step[k] / 12.0 - common(k, i);
-      }
-    }
+    const Eigen::ArrayXXd step = data.step.replicate(1, data.samples());
+    const Eigen::ArrayXXd variance = data.observed.array().unaryExpr(
+      [&noise](double response) { return noiseVariance(noise, response); });
+    common = variance.binaryExpr(step, &sharedRounding);
+    within = variance + step.square() / 12.0 - common;
   }
 };
 
@@ -60,6 +54,146 @@ CameraNoise fitRepeats(const GapData& data)
     noise = fittedNoise(response.reshaped(), variance.reshaped(), weight.reshaped());
   }
   return noise;
+}
+
+// Of one channel of a sample: the one that is farthest from the median of all and of what is simulated.
+void leaveOutFarthest(GapCapture& capture, const GapData& data, const OddReading& odd)
+{
+  std::vector<double> values{ data.simulated(odd.channel, odd.sample) };
+  std::vector<double*> readings;
+  for (std::size_t r = 0; r < capture.sampleOf.size(); ++r)
+  {
+    double& reading = capture.readings(odd.channel, r);
+    if (capture.sampleOf[r] == odd.sample && std::isfinite(reading))
+    {
+      values.push_back(reading);
+      readings.push_back(&reading);
+    }
+  }
+  const double median = orderStatistic(values, values.size() / 2);
+  **std::max_element(readings.begin(), readings.end(),
+    [median](const double* a, const double* b) {
+      return std::fabs(*a - median) < std::fabs(*b - median);
+    }) = std::numeric_limits<double>::quiet_NaN();
+}
+
+// Responsivity beyond the measured wavelengths, each times its distance from the end, times the slope there. Of the value at an end
+// of the grid half lies beyond the end, half a step away: a passband that is cut off there.
+Eigen::MatrixXd beyondMeasured(const GapData& data, const WavelengthGrid& measured)
+{
+  const WavelengthGrid& grid = data.camera.wavelengths();
+  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(data.channels(), data.samples());
+  for (const bool upper : { false, true })
+  {
+    const double end = upper ? measured.back() : measured.front();
+    const double span = 20.0 * (upper ? -1.0 : 1.0);
+    Eigen::VectorXd reach = Eigen::VectorXd::Zero(data.channels());
+    Eigen::Index atEnd = 0;
+    Eigen::Index inside = 0;
+    for (Eigen::Index j = 0; j < grid.size(); ++j)
+    {
+      if (upper ? grid[j] > end : grid[j] < end)
+      {
+        reach += data.camera.responsivity().col(j) * (grid[j] - end);
+      }
+      atEnd = std::fabs(grid[j] - end) < std::fabs(grid[atEnd] - end) ? j : atEnd;
+      inside = std::fabs(grid[j] - end - span) < std::fabs(grid[inside] - end - span) ? j : inside;
+    }
+    if (inside != atEnd)
+    {
+      if (atEnd == 0 || atEnd == grid.size() - 1)
+      {
+        const double step =
+          (grid[atEnd] - grid[inside]) / std::fabs(static_cast<double>(atEnd - inside));
+        reach += 0.5 * data.camera.responsivity().col(atEnd) * (0.5 * step);
+      }
+      const Eigen::MatrixXd& r = data.scene.reflectance();
+      error += reach * (r.row(atEnd) - r.row(inside)) / (grid[atEnd] - grid[inside]);
+    }
+  }
+  return error;
+}
+
+// Where the grid cuts off a passband the sum counts half a step too much of it.
+Eigen::MatrixXd cutOff(const GapData& data)
+{
+  const Eigen::MatrixXd& responsivity = data.camera.responsivity();
+  const Eigen::MatrixXd& r = data.scene.reflectance();
+  const Eigen::ArrayXd white = data.camera.whiteResponse();
+  const Eigen::MatrixXd mean = white.inverse().matrix().asDiagonal() * (responsivity * r);
+  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(data.channels(), data.samples());
+  for (const Eigen::Index end : { Eigen::Index(0), r.rows() - 1 })
+  {
+    error += (0.5 * responsivity.col(end)).asDiagonal() *
+      (r.row(end).replicate(data.channels(), 1) - mean);
+  }
+  return error;
+}
+
+// Of what neighbouring channels show, in the samples that have all three: smooth errors cancel, noise does not.
+struct SecondDifferences
+{
+  std::vector<double> values;
+  double allowed = 0.0; // sum of their variances by data.variance
+
+  SecondDifferences(const GapData& data, const Eigen::MatrixXd& residual, Eigen::Index middle)
+  {
+    for (Eigen::Index i = 0; i < data.samples(); ++i)
+    {
+      if (data.count.col(i).segment(middle - 1, 3).minCoeff() > 0.0)
+      {
+        const auto three = residual.col(i).segment(middle - 1, 3);
+        const auto variance = data.variance.col(i).segment(middle - 1, 3);
+        values.push_back(three[0] - 2.0 * three[1] + three[2]);
+        allowed += variance[0] + 4.0 * variance[1] + variance[2];
+      }
+    }
+  }
+};
+
+constexpr double LeastFactor = 1.25;
+constexpr double LargestFactor = 20.0;
+constexpr double FarMoreLikely = 10.0; // natural logarithm of the likelihood ratio
+constexpr double LeastScatter = 1e-5;
+constexpr std::size_t FewestDifferences = 8;
+constexpr double Together = 0.15; // correlation of neighbouring channels
+
+// Where a function with one hill between ln(low) and ln(high) is highest: golden section.
+template <typename Function>
+double highest(double low, double high, const Function& function)
+{
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double a = std::log(low);
+  double b = std::log(high);
+  for (int step = 0; step < 30; ++step)
+  {
+    const double left = b - golden * (b - a);
+    const double right = a + golden * (b - a);
+    const bool rises = function(std::exp(left)) < function(std::exp(right));
+    (rises ? a : b) = rises ? left : right;
+  }
+  return std::exp(0.5 * (a + b));
+}
+
+// Normal residuals whose covariance, sample by sample, is diagonal plus `common`.
+double logLikelihood(const GapData& data, const Eigen::MatrixXd& residual,
+  const Eigen::ArrayXXd& variance, const Eigen::MatrixXd& common)
+{
+  double sum = 0.0;
+  for (const Eigen::Index j : data.usable)
+  {
+    const auto measured = data.count.col(j).array() > 0.0;
+    Eigen::MatrixXd covariance = common;
+    covariance.diagonal().array() += variance.col(j);
+    const Eigen::VectorXd there = measured.cast<double>();
+    covariance.array() *= (there * there.transpose()).array();
+    covariance.diagonal() += Eigen::VectorXd::Ones(there.size()) - there;
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    const Eigen::VectorXd e = measured.select(residual.col(j), 0.0);
+    sum -=
+      root.matrixL().toDenseMatrix().diagonal().array().log().sum() + 0.5 * e.dot(root.solve(e));
+  }
+  return sum;
 }
 }
 
@@ -111,30 +245,6 @@ NoiseFinding findNoise(const GapData& data, const std::optional<CameraNoise>& gi
     finding.excess = 1.0;
   }
   return finding;
-}
-
-namespace
-{
-// Of one channel of a sample: the one that is farthest from the median of all and of what is simulated.
-void leaveOutFarthest(GapCapture& capture, const GapData& data, const OddReading& odd)
-{
-  std::vector<double> values{ data.simulated(odd.channel, odd.sample) };
-  std::vector<double*> readings;
-  for (std::size_t r = 0; r < capture.sampleOf.size(); ++r)
-  {
-    double& reading = capture.readings(odd.channel, r);
-    if (capture.sampleOf[r] == odd.sample && std::isfinite(reading))
-    {
-      values.push_back(reading);
-      readings.push_back(&reading);
-    }
-  }
-  const double median = orderStatistic(values, values.size() / 2);
-  **std::max_element(readings.begin(), readings.end(),
-    [median](const double* a, const double* b) {
-      return std::fabs(*a - median) < std::fabs(*b - median);
-    }) = std::numeric_limits<double>::quiet_NaN();
-}
 }
 
 std::vector<OddReading> leaveOutOddReadings(GapCapture& capture, const GapOptions& options)
@@ -191,62 +301,6 @@ ChannelMask fittedChannels(const CameraModel& camera)
     (1.0 + Decision::SmallPart) * camera.whiteResponse().array().abs();
 }
 
-namespace
-{
-// Responsivity beyond the measured wavelengths, each times its distance from the end, times the slope there. Of the value at an end
-// of the grid half lies beyond the end, half a step away: a passband that is cut off there.
-Eigen::MatrixXd beyondMeasured(const GapData& data, const WavelengthGrid& measured)
-{
-  const WavelengthGrid& grid = data.camera.wavelengths();
-  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(data.channels(), data.samples());
-  for (const bool upper : { false, true })
-  {
-    const double end = upper ? measured.back() : measured.front();
-    const double span = 20.0 * (upper ? -1.0 : 1.0);
-    Eigen::VectorXd reach = Eigen::VectorXd::Zero(data.channels());
-    Eigen::Index atEnd = 0;
-    Eigen::Index inside = 0;
-    for (Eigen::Index j = 0; j < grid.size(); ++j)
-    {
-      if (upper ? grid[j] > end : grid[j] < end)
-      {
-        reach += data.camera.responsivity().col(j) * (grid[j] - end);
-      }
-      atEnd = std::fabs(grid[j] - end) < std::fabs(grid[atEnd] - end) ? j : atEnd;
-      inside = std::fabs(grid[j] - end - span) < std::fabs(grid[inside] - end - span) ? j : inside;
-    }
-    if (inside != atEnd)
-    {
-      if (atEnd == 0 || atEnd == grid.size() - 1)
-      {
-        const double step =
-          (grid[atEnd] - grid[inside]) / std::fabs(static_cast<double>(atEnd - inside));
-        reach += 0.5 * data.camera.responsivity().col(atEnd) * (0.5 * step);
-      }
-      const Eigen::MatrixXd& r = data.scene.reflectance();
-      error += reach * (r.row(atEnd) - r.row(inside)) / (grid[atEnd] - grid[inside]);
-    }
-  }
-  return error;
-}
-
-// Where the grid cuts off a passband the sum counts half a step too much of it.
-Eigen::MatrixXd cutOff(const GapData& data)
-{
-  const Eigen::MatrixXd& responsivity = data.camera.responsivity();
-  const Eigen::MatrixXd& r = data.scene.reflectance();
-  const Eigen::ArrayXd white = data.camera.whiteResponse();
-  const Eigen::MatrixXd mean = white.inverse().matrix().asDiagonal() * (responsivity * r);
-  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(data.channels(), data.samples());
-  for (const Eigen::Index end : { Eigen::Index(0), r.rows() - 1 })
-  {
-    error += (0.5 * responsivity.col(end)).asDiagonal() *
-      (r.row(end).replicate(data.channels(), 1) - mean);
-  }
-  return error;
-}
-}
-
 Eigen::MatrixXd integrationVariance(const GapData& data, const WavelengthGrid& measured)
 {
   const WavelengthGrid& grid = data.camera.wavelengths();
@@ -290,30 +344,6 @@ double robustDeviation(std::vector<double> values)
   return orderStatistic(values, values.size() / 2) / MedianOfNormal;
 }
 
-namespace
-{
-// Of what neighbouring channels show, in the samples that have all three: smooth errors cancel, noise does not.
-struct SecondDifferences
-{
-  std::vector<double> values;
-  double allowed = 0.0; // sum of their variances by data.variance
-
-  SecondDifferences(const GapData& data, const Eigen::MatrixXd& residual, Eigen::Index middle)
-  {
-    for (Eigen::Index i = 0; i < data.samples(); ++i)
-    {
-      if (data.count.col(i).segment(middle - 1, 3).minCoeff() > 0.0)
-      {
-        const auto three = residual.col(i).segment(middle - 1, 3);
-        const auto variance = data.variance.col(i).segment(middle - 1, 3);
-        values.push_back(three[0] - 2.0 * three[1] + three[2]);
-        allowed += variance[0] + 4.0 * variance[1] + variance[2];
-      }
-    }
-  }
-};
-}
-
 Eigen::MatrixXd unknownVariance(const GapData& data, const Eigen::MatrixXd& left)
 {
   const auto measured = data.measured();
@@ -344,60 +374,6 @@ Eigen::MatrixXd unknownVariance(const GapData& data, const Eigen::MatrixXd& left
     }
   }
   return (variance.array() + 1e-12).matrix().replicate(1, data.samples());
-}
-
-namespace
-{
-constexpr double LeastFactor = 1.25;
-constexpr double LargestFactor = 20.0;
-constexpr double FarMoreLikely = 10.0; // natural logarithm of the likelihood ratio
-constexpr double LeastScatter = 1e-5;
-constexpr std::size_t FewestDifferences = 8;
-constexpr double Together = 0.15; // correlation of neighbouring channels
-
-// Where a function with one hill between ln(low) and ln(high) is highest: golden section.
-template <typename Function>
-double highest(double low, double high, const Function& function)
-{
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  double a = std::log(low);
-  double b = std::log(high);
-  for (int step = 0; step < 30; ++step)
-  {
-    const double left = b - golden * (b - a);
-    const double right = a + golden * (b - a);
-    const bool rises = function(std::exp(left)) < function(std::exp(right));
-    (rises ? a : b) = rises ? left : right;
-  }
-  return std::exp(0.5 * (a + b));
-}
-
-// Normal residuals whose covariance, sample by sample, is diagonal plus `common`.
-double logLikelihood(const GapData& data, const Eigen::MatrixXd& residual,
-  const Eigen::ArrayXXd& variance, const Eigen::MatrixXd& common)
-{
-  double sum = 0.0;
-  for (const Eigen::Index j : data.usable)
-  {
-    const auto measured = data.count.col(j).array() > 0.0;
-    Eigen::MatrixXd covariance = common;
-    covariance.diagonal().array() += variance.col(j);
-    for (Eigen::Index k = 0; k < data.channels(); ++k)
-    {
-      if (!measured[k])
-      {
-        covariance.row(k).setZero();
-        covariance.col(k).setZero();
-        covariance(k, k) = 1.0;
-      }
-    }
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-    const Eigen::VectorXd e = measured.select(residual.col(j), 0.0);
-    sum -=
-      root.matrixL().toDenseMatrix().diagonal().array().log().sum() + 0.5 * e.dot(root.solve(e));
-  }
-  return sum;
-}
 }
 
 double reflectanceScatter(const GapData& data, const Eigen::MatrixXd& residual, double unpredicted)

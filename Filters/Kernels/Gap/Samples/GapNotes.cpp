@@ -241,6 +241,12 @@ void noteSaturation(std::vector<std::string>& notes, const GapData& data)
       ": they look clipped and say little about any other effect."));
   }
 }
+
+std::string elementName(const std::vector<std::string>& channels,
+  const std::vector<std::string>& samples, Eigen::Index channel, Eigen::Index sample)
+{
+  return channels[channel] + " of " + samples[sample];
+}
 }
 
 ExcessNoise excessNoise(const GapData& data, const NoiseFinding& noise,
@@ -346,15 +352,6 @@ std::string mixUpOf(const GapData& data)
     : arrangementsOf(data.samples());
   return mixUp(data.measured().select(data.observed, none), data.simulated, arrangements,
     data.camera.channels(), data.names);
-}
-
-namespace
-{
-std::string elementName(const std::vector<std::string>& channels,
-  const std::vector<std::string>& samples, Eigen::Index channel, Eigen::Index sample)
-{
-  return channels[channel] + " of " + samples[sample];
-}
 }
 
 std::string oddElementsNote(const GapData& data, const std::string& consequence)

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 namespace msi
@@ -147,7 +146,21 @@ NewSpectra newSpectra(const GapData& data, const CaptureCandidate& candidate)
 struct Expectation
 {
   Eigen::MatrixXd mean, variance;
-  std::vector<Derivative> derivatives; // by the free parameters of the explanation
+  std::vector<Eigen::Triplet<double>>
+    derivatives; // of each element, column by column, by the numbers of the explanation
+
+  // Of samples from the first on, by one number, times a factor.
+  void addDerivative(Eigen::Index number, const Derivative& derivative, double factor)
+  {
+    for (Eigen::Index j = 0; j < derivative.changes.cols(); ++j)
+    {
+      for (Eigen::Index k = 0; k < derivative.changes.rows(); ++k)
+      {
+        derivatives.emplace_back(
+          j * mean.rows() + derivative.first + k, number, factor * derivative.changes(k, j));
+      }
+    }
+  }
 
   // Of samples from `first` on: counts as so many numbers, but as no more than in the criterion.
   void addSystematic(const Eigen::MatrixXd& added, Eigen::Index first, double numbers)
@@ -184,9 +197,10 @@ std::optional<Expectation> simulated(const GapData& data, const CaptureCandidate
         return parameter.effect == effect && parameter.index == other.index &&
           parameter.channel == other.channel;
       });
-    expected.derivatives.push_back(same != free.end()
-        ? known[same - free.begin()]
-        : Derivative{ predictor.fit.derivatives[p].first, Eigen::MatrixXd(0, scene.size()) });
+    if (same != free.end())
+    {
+      expected.addDerivative(p, known[same - free.begin()], 1.0);
+    }
   }
   return expected;
 }
@@ -203,15 +217,10 @@ void seeAgain(
     std::numeric_limits<double>::infinity());
   mean += data.observed(Eigen::all, again);
   expected.variance.leftCols(known) += data.variance(Eigen::all, again);
-  for (std::size_t p = 0; p < expected.derivatives.size(); ++p)
+  for (std::size_t p = 0; p < predictor.fit.derivatives.size(); ++p)
   {
     const Derivative& before = predictor.fit.derivatives[p];
-    Derivative change{ before.first,
-      Eigen::MatrixXd::Zero(before.changes.rows(), expected.mean.cols()) };
-    change.changes.leftCols(known) = -before.changes(Eigen::all, again);
-    const Derivative& now = expected.derivatives[p];
-    change.changes.middleRows(now.first - before.first, now.changes.rows()) += now.changes;
-    expected.derivatives[p] = std::move(change);
+    expected.addDerivative(p, { before.first, before.changes(Eigen::all, again) }, -1.0);
   }
 }
 
@@ -231,20 +240,15 @@ public:
   Prediction(Expectation expected, const Predictor& by)
     : Expected(std::move(expected))
     , By(by)
+    , Jacobian(Expected.mean.size(), by.precision.cols())
   {
     Expected.variance = Decision::Temperature * (Expected.variance.array() + 1e-14);
-    for (Derivative& derivative : Expected.derivatives)
-    {
-      derivative.changes *= std::sqrt(Decision::Temperature);
-    }
-    SampleList all(Expected.mean.cols());
-    std::iota(all.begin(), all.end(), Eigen::Index(0));
-    SparseMatrix told = normalEquations(Expected.derivatives, Expected.variance.array().rsqrt(),
-      Eigen::ArrayXXd::Zero(Expected.mean.rows(), Expected.mean.cols()), { all })
-                          .front()
-                          .matrix;
-    told.conservativeResize(By.precision.rows(), By.precision.cols());
-    Inner = std::make_unique<SparseFactor>(SparseMatrix(By.precision + told));
+    Jacobian.setFromTriplets(Expected.derivatives.begin(), Expected.derivatives.end());
+    Jacobian *= std::sqrt(Decision::Temperature);
+    const SparseMatrix weighted =
+      Expected.variance.reshaped().cwiseInverse().asDiagonal() * Jacobian;
+    Inner = std::make_unique<SparseFactor>(
+      SparseMatrix(By.precision + SparseMatrix(Jacobian.transpose() * weighted)));
     LogDeterminant =
       Expected.variance.array().log().sum() + logDeterminant(*Inner) - logDeterminant(*By.factor);
   }
@@ -253,12 +257,7 @@ public:
   {
     const Eigen::MatrixXd off = y - Expected.mean;
     const Eigen::MatrixXd pull = off.cwiseQuotient(Expected.variance);
-    Eigen::VectorXd inner = Eigen::VectorXd::Zero(By.precision.rows());
-    for (std::size_t p = 0; p < Expected.derivatives.size(); ++p)
-    {
-      const Derivative& derivative = Expected.derivatives[p];
-      inner[p] = derivative.changes.cwiseProduct(derivative.of(pull)).sum();
-    }
+    const Eigen::VectorXd inner = Jacobian.transpose() * pull.reshaped();
     const double square = off.cwiseProduct(pull).sum() - inner.dot(Inner->solve(inner));
     return -0.5 * (square + LogDeterminant);
   }
@@ -266,10 +265,9 @@ public:
   Eigen::MatrixXd draw(const CounterRandom& random, std::uint64_t number) const
   {
     const Eigen::Index elements = Expected.mean.size();
-    std::vector<float> normals(elements + By.precision.rows());
+    Eigen::VectorXf normals(elements + By.precision.rows());
     random.normals(number * normals.size(), normals.data(), normals.size());
-    const Eigen::VectorXd z =
-      Eigen::Map<Eigen::VectorXf>(normals.data(), normals.size()).cast<double>();
+    const Eigen::VectorXd z = normals.cast<double>();
     Eigen::MatrixXd y = Expected.mean +
       Expected.variance.cwiseSqrt().cwiseProduct(
         z.head(elements).reshaped(Expected.mean.rows(), Expected.mean.cols()));
@@ -277,17 +275,14 @@ public:
       z.tail(By.precision.rows()).cwiseQuotient(By.factor->vectorD().cwiseSqrt());
     const Eigen::VectorXd parameters =
       By.factor->permutationPinv() * Eigen::VectorXd(By.factor->matrixU().solve(scaled));
-    for (std::size_t p = 0; p < Expected.derivatives.size(); ++p)
-    {
-      const Derivative& derivative = Expected.derivatives[p];
-      derivative.of(y) += parameters[p] * derivative.changes;
-    }
+    y.reshaped() += Jacobian * parameters;
     return y;
   }
 
 private:
   Expectation Expected;
   const Predictor& By;
+  SparseMatrix Jacobian; // by the explanation's numbers and, behind them, means of their prior
   std::unique_ptr<SparseFactor> Inner; // of the precision of the numbers once the capture is known
   double LogDeterminant = 0.0;
 };
@@ -311,41 +306,35 @@ std::optional<Prediction> prediction(const GapData& data, const CaptureCandidate
   return Prediction(std::move(*expected), predictor);
 }
 
-double logSumExp(const std::vector<double>& logs)
+// Logarithm of the weighted mean of densities.
+double logMean(const Eigen::ArrayXd& logs, const Eigen::ArrayXd& weights)
 {
-  const double top = *std::max_element(logs.begin(), logs.end());
-  double sum = 0.0;
-  for (const double one : logs)
-  {
-    sum += std::exp(one - top);
-  }
-  return top + std::log(sum);
+  const double top =
+    (weights > 0.0).select(logs, -std::numeric_limits<double>::infinity()).maxCoeff();
+  return top + std::log((weights > 0.0).select(weights * (logs - top).exp(), 0.0).sum());
 }
 
 // group: of explanations that are one.
-double expectedBits(const std::vector<Prediction>& predicted,
-  const std::vector<double>& probability, const std::vector<std::set<std::string>>& group,
-  const CounterRandom& random)
+double expectedBits(const std::vector<Prediction>& predicted, const Eigen::ArrayXd& probability,
+  const std::vector<std::set<std::string>>& group, const CounterRandom& random)
 {
   double information = 0.0;
   for (std::size_t h = 0; h < predicted.size(); ++h)
   {
+    Eigen::ArrayXd ofGroup = probability;
+    for (std::size_t g = 0; g < predicted.size(); ++g)
+    {
+      ofGroup[g] *= group[g] == group[h] ? 1.0 : 0.0;
+    }
+    ofGroup /= ofGroup.sum();
     double mean = 0.0;
     for (std::uint64_t draw = 0; draw < Draws; ++draw)
     {
       const Eigen::MatrixXd y = predicted[h].draw(random, h * Draws + draw);
-      std::vector<double> joint, ofGroup;
-      double groupProbability = 0.0;
-      for (std::size_t g = 0; g < predicted.size(); ++g)
-      {
-        joint.push_back(std::log(probability[g]) + predicted[g].logDensity(y));
-        if (group[g] == group[h])
-        {
-          ofGroup.push_back(joint.back());
-          groupProbability += probability[g];
-        }
-      }
-      mean += (logSumExp(ofGroup) - std::log(groupProbability) - logSumExp(joint)) / Draws;
+      Eigen::ArrayXd logs(probability.size());
+      std::transform(predicted.begin(), predicted.end(), logs.begin(),
+        [&y](const Prediction& one) { return one.logDensity(y); });
+      mean += (logMean(logs, ofGroup) - logMean(logs, probability)) / Draws;
     }
     information += probability[h] * mean;
   }
@@ -409,10 +398,7 @@ std::vector<CaptureCandidate> captureCandidates(
   for (Eigen::Index i = 0; i < bands; ++i)
   {
     const double center = grid[i * (N - 1) / std::max<Eigen::Index>(bands - 1, 1)];
-    for (Eigen::Index n = 0; n < N; ++n)
-    {
-      narrow.reflectance(n, i) = std::exp(-0.5 * std::pow((grid[n] - center) / 5.0, 2));
-    }
+    narrow.reflectance.col(i) = (-0.5 * ((grid.vector().array() - center) / 5.0).square()).exp();
   }
   candidates.push_back({ Captures::NarrowBands, narrow });
 
@@ -469,7 +455,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   std::uint64_t seed)
 {
   std::vector<FitPointer> fits;
-  std::vector<double> probability;
+  std::vector<double> chances;
   std::vector<std::set<std::string>> group;
   std::vector<std::string> effects;
   for (const Explanation& one : explanations)
@@ -477,7 +463,7 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
     if (one.probability >= LeastProbability)
     {
       fits.push_back(one.fit);
-      probability.push_back(one.probability);
+      chances.push_back(one.probability);
       group.push_back(inBoth(one.effects, inQuestion));
       effects.insert(effects.end(), one.effects.begin(), one.effects.end());
     }
@@ -486,11 +472,8 @@ std::vector<GapNextCapture> nextCaptures(const SampleObservation& data,
   {
     return {};
   }
-  const double all = std::accumulate(probability.begin(), probability.end(), 0.0);
-  for (double& one : probability)
-  {
-    one /= all;
-  }
+  const Eigen::Map<const Eigen::ArrayXd> all(chances.data(), chances.size());
+  const Eigen::ArrayXd probability = all / all.sum();
   std::vector<Predictor> predictors;
   predictors.reserve(fits.size());
   for (const FitPointer& fit : fits)

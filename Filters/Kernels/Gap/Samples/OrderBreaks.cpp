@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace msi
 {
@@ -26,6 +25,102 @@ SampleList inOrder(const EffectFitter& fitter)
       [&scene](Eigen::Index a, Eigen::Index b) { return scene.time()[a] < scene.time()[b]; });
   }
   return order;
+}
+
+// Relative gap of each sample along the order, its weight, and when it was captured.
+struct Series
+{
+  Eigen::ArrayXd value, weight, time;
+};
+
+Series relativeGaps(
+  const EffectFitter& fitter, const Eigen::MatrixXd& predicted, const SampleList& order)
+{
+  const GapData& data = fitter.data();
+  const Eigen::ArrayXXd weight = fitter.weight()(Eigen::all, order);
+  const Eigen::ArrayXXd u = (weight > 0.0).select(predicted(Eigen::all, order).array(), 0.0);
+  const Eigen::ArrayXXd residual =
+    (weight > 0.0).select(data.observed(Eigen::all, order).array() - u, 0.0);
+  const Eigen::ArrayXd information = (weight * u.square()).colwise().sum();
+  const Eigen::ArrayXd product = (weight * u * residual).colwise().sum();
+  return { (information > 0.0).select(product / information, 0.0), information,
+    data.scene.time()(order) };
+}
+
+// Samples in a row, whose gap is a straight line over the time but for at most one break: a drift is no row of breaks.
+class Stretch
+{
+public:
+  Stretch(const Series& series, Eigen::Index first, Eigen::Index end)
+    : Count(end - first)
+    , Weight(series.weight.segment(first, Count))
+    , Time(besideMean(series.time.segment(first, Count)))
+    , Value(besideLine(series.value.segment(first, Count)))
+  {
+  }
+
+  struct Break
+  {
+    double change = 0.0, information = 0.0; // 1 / variance for a gap of unit variance and weight
+    double energy() const { return change * change * information; }
+  };
+
+  // In front of the sample with this number in the stretch.
+  Break at(Eigen::Index place) const
+  {
+    Eigen::ArrayXd behind = Eigen::ArrayXd::Zero(Count);
+    behind.tail(Count - place).setOnes();
+    behind = besideLine(behind);
+    const double information = (Weight * behind.square()).sum();
+    return information > Rounding * Weight.sum()
+      ? Break{ (Weight * behind * Value).sum() / information, information }
+      : Break{};
+  }
+
+  double deviations(const Break& found) const
+  {
+    const double left = (Weight * Value.square()).sum() - found.energy();
+    const double spread =
+      std::fmax(left / static_cast<double>(Count - 3), Rounding * Weight.mean());
+    return spread > 0.0 ? std::sqrt(found.energy() / spread) : 0.0;
+  }
+
+private:
+  Eigen::ArrayXd besideMean(const Eigen::ArrayXd& values) const
+  {
+    return values - (Weight * values).sum() / std::fmax(Weight.sum(), 1e-300);
+  }
+  Eigen::ArrayXd besideLine(const Eigen::ArrayXd& values) const
+  {
+    const double slope =
+      (Weight * Time * values).sum() / std::fmax((Weight * Time.square()).sum(), 1e-300);
+    return besideMean(values) - slope * Time;
+  }
+
+  Eigen::Index Count;
+  Eigen::ArrayXd Weight, Time, Value;
+};
+
+// The number of the sample in front of which first .. end - 1 breaks best; `first` where they do not break significantly.
+Eigen::Index breakOf(const Series& series, Eigen::Index first, Eigen::Index end)
+{
+  if (end - first < 2 * ShortestSegment)
+  {
+    return first;
+  }
+  const Stretch stretch(series, first, end);
+  Stretch::Break best;
+  Eigen::Index place = 0;
+  for (Eigen::Index i = ShortestSegment; i + ShortestSegment <= end - first; ++i)
+  {
+    const Stretch::Break found = stretch.at(i);
+    if (found.energy() > best.energy())
+    {
+      best = found;
+      place = i;
+    }
+  }
+  return stretch.deviations(best) >= Significant ? first + place : first;
 }
 }
 
@@ -107,111 +202,6 @@ std::vector<std::vector<double>> OrderBreaks::startsFor(const EffectForm& form) 
     starts.push_back({ change == 0.0 ? 1e-4 : change, place.place, Width });
   }
   return starts;
-}
-
-namespace
-{
-// Relative gap of each sample along the order, its weight, and when it was captured.
-struct Series
-{
-  Eigen::ArrayXd value, weight, time;
-};
-
-Series relativeGaps(
-  const EffectFitter& fitter, const Eigen::MatrixXd& predicted, const SampleList& order)
-{
-  const GapData& data = fitter.data();
-  const Eigen::Index count = order.size();
-  Series series{ Eigen::ArrayXd::Zero(count), Eigen::ArrayXd::Zero(count),
-    Eigen::ArrayXd::Zero(count) };
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    const Eigen::Index j = order[i];
-    const Eigen::ArrayXd w = fitter.weight().col(j).array();
-    const Eigen::ArrayXd u = (w > 0.0).select(predicted.col(j).array(), 0.0);
-    const Eigen::ArrayXd residual = (w > 0.0).select(data.observed.col(j).array() - u, 0.0);
-    series.weight[i] = (w * u.square()).sum();
-    series.value[i] = series.weight[i] > 0.0 ? (w * u * residual).sum() / series.weight[i] : 0.0;
-    series.time[i] = data.scene.time()[j];
-  }
-  return series;
-}
-
-// Samples in a row, whose gap is a straight line over the time but for at most one break: a drift is no row of breaks.
-class Stretch
-{
-public:
-  Stretch(const Series& series, Eigen::Index first, Eigen::Index end)
-    : Count(end - first)
-    , Weight(series.weight.segment(first, Count))
-    , Time(besideMean(series.time.segment(first, Count)))
-    , Value(besideLine(series.value.segment(first, Count)))
-  {
-  }
-
-  struct Break
-  {
-    double change = 0.0, information = 0.0; // 1 / variance for a gap of unit variance and weight
-    double energy() const { return change * change * information; }
-  };
-
-  // In front of the sample with this number in the stretch.
-  Break at(Eigen::Index place) const
-  {
-    Eigen::ArrayXd behind = Eigen::ArrayXd::Zero(Count);
-    behind.tail(Count - place).setOnes();
-    behind = besideLine(behind);
-    const double information = (Weight * behind.square()).sum();
-    return information > Rounding * Weight.sum()
-      ? Break{ (Weight * behind * Value).sum() / information, information }
-      : Break{};
-  }
-
-  double deviations(const Break& found) const
-  {
-    const double left = (Weight * Value.square()).sum() - found.energy();
-    const double spread =
-      std::fmax(left / static_cast<double>(Count - 3), Rounding * Weight.mean());
-    return spread > 0.0 ? std::sqrt(found.energy() / spread) : 0.0;
-  }
-
-private:
-  Eigen::ArrayXd besideMean(const Eigen::ArrayXd& values) const
-  {
-    return values - (Weight * values).sum() / std::fmax(Weight.sum(), 1e-300);
-  }
-  Eigen::ArrayXd besideLine(const Eigen::ArrayXd& values) const
-  {
-    const double slope =
-      (Weight * Time * values).sum() / std::fmax((Weight * Time.square()).sum(), 1e-300);
-    return besideMean(values) - slope * Time;
-  }
-
-  Eigen::Index Count;
-  Eigen::ArrayXd Weight, Time, Value;
-};
-
-// The number of the sample in front of which first .. end - 1 breaks best; `first` where they do not break significantly.
-Eigen::Index breakOf(const Series& series, Eigen::Index first, Eigen::Index end)
-{
-  if (end - first < 2 * ShortestSegment)
-  {
-    return first;
-  }
-  const Stretch stretch(series, first, end);
-  Stretch::Break best;
-  Eigen::Index place = 0;
-  for (Eigen::Index i = ShortestSegment; i + ShortestSegment <= end - first; ++i)
-  {
-    const Stretch::Break found = stretch.at(i);
-    if (found.energy() > best.energy())
-    {
-      best = found;
-      place = i;
-    }
-  }
-  return stretch.deviations(best) >= Significant ? first + place : first;
-}
 }
 
 std::vector<GapChangePoint> OrderBreaks::significant(

@@ -57,30 +57,18 @@ EffectFit withSecondary(const EffectFitter& fitter, EffectFit fit, std::size_t p
 // No square yet, and slope and constant of the line through the squared signals of each channel.
 std::vector<double> besideLine(const GapData& data)
 {
-  const Eigen::Index channels = data.channels();
-  std::vector<double> start(1 + 2 * channels, 0.0);
-  for (Eigen::Index k = 0; k < channels; ++k)
-  {
-    double n = 0, x = 0, xx = 0, xxx = 0;
-    for (Eigen::Index j = 0; j < data.samples(); ++j)
-    {
-      if (data.weight(k, j) > 0.0)
-      {
-        const double u = data.simulated(k, j) - data.camera.dark()[k];
-        n += 1.0;
-        x += u;
-        xx += u * u;
-        xxx += u * u * u;
-      }
-    }
-    const double spread = n * xx - x * x;
-    if (spread > 1e-9 * n * xx)
-    {
-      const double slope = (n * xxx - x * xx) / spread;
-      start[1 + k] = slope;
-      start[1 + channels + k] = (xx - slope * x) / n;
-    }
-  }
+  const auto known = data.weight.array() > 0.0;
+  const Eigen::ArrayXXd u = known.select(data.simulated.colwise() - data.camera.dark(), 0.0);
+  const Eigen::ArrayXd n = known.cast<double>().rowwise().sum();
+  const Eigen::ArrayXd x = u.rowwise().sum();
+  const Eigen::ArrayXd xx = u.square().rowwise().sum();
+  const Eigen::ArrayXd xxx = u.cube().rowwise().sum();
+  const Eigen::ArrayXd spread = n * xx - x * x;
+  const Eigen::ArrayXd slope = (n * xxx - x * xx) / spread;
+  const auto told = spread > 1e-9 * n * xx;
+  std::vector<double> start(1 + 2 * data.channels(), 0.0);
+  Eigen::Map<Eigen::ArrayXd>(start.data() + 1, start.size() - 1) << told.select(slope, 0.0),
+    told.select((xx - slope * x) / n, 0.0);
   return start;
 }
 

@@ -383,8 +383,9 @@ std::set<std::string> inQuestion(const std::vector<GapCause>& causes)
 
 void sortByWorth(std::vector<GapNextCapture>& captures)
 {
+  // In single precision, so that rounding does not order what is equal.
   const auto rate = [](const GapNextCapture& one)
-  { return *one.expectedBits / (*one.minutes + MinutesToGetReady); };
+  { return static_cast<float>(*one.expectedBits / (*one.minutes + MinutesToGetReady)); };
   std::stable_sort(captures.begin(), captures.end(),
     [&rate](const GapNextCapture& a, const GapNextCapture& b) { return rate(a) > rate(b); });
 }

@@ -94,6 +94,19 @@ TEST(LinearFit, BeyondABoundTheOthersAreSolvedForAgain)
   EXPECT_NEAR(description.surprise, std::log1p(0.16) + std::log1p(1.69), 1e-5);
 }
 
+// A number that cannot be negative is none where it is zero; at its other end it says that something is wrong.
+TEST(LinearFit, AnEndThatIsNeutralIsNoEnd)
+{
+  for (const double end : { 0.0, 0.4 })
+  {
+    const LinearFit fit({ common(end, 0.0, 0.4) },
+      { equations(Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Zero(1)) }, false);
+    Described description;
+    fit.describe(description);
+    EXPECT_EQ(description.atBound, end > 0.0);
+  }
+}
+
 // Where the fit has settled leaving out nothing changes nothing, and leaving out a fold takes its own pull away.
 TEST(LinearFit, ASettledFitStays)
 {

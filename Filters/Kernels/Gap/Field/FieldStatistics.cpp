@@ -194,30 +194,74 @@ double noiseCoherence(const FieldStatistics& statistics, Eigen::Index channel)
 
 namespace
 {
-// Part of the differences, seen in blocks as multiples of the noise so far, that is there without a slope of the scene, too: what an
-// effect leaves on edges is no noise. 1 where it is not sure.
-double partWithoutSlope(const Eigen::ArrayXd& differences, const Eigen::ArrayXd& slopes)
+using BlockPointers = std::vector<const BlockSums*>;
+
+// Of blocks whose differences contain this much of the squared slopes of the scene.
+CameraNoise noiseOf(BlockPointers blocks, double ofSlopes)
 {
-  if (slopes.size() < 3)
+  const auto without = [ofSlopes](const BlockSums* block, double difference)
+  { return std::fmax(difference - ofSlopes * block->gradient, 0.0); };
+  std::vector<double> across;
+  std::vector<double> down;
+  for (const BlockSums* block : blocks)
   {
-    return 1.0;
+    across.push_back(without(block, block->difference));
+    down.push_back(without(block, block->differenceDown));
   }
-  const auto count = static_cast<double>(slopes.size());
-  const Eigen::ArrayXd off = slopes - slopes.mean();
-  const double square = off.square().sum();
-  if (!(square > 0.0))
+  const double meanAcross = trimmedMean(across);
+  const double meanDown = trimmedMean(down);
+  std::stable_sort(blocks.begin(), blocks.end(),
+    [](const BlockSums* a, const BlockSums* b) { return a->level < b->level; });
+  const std::size_t bins = std::min(LevelBins, blocks.size());
+  Eigen::ArrayXd level(bins);
+  Eigen::ArrayXd variance(bins);
+  for (std::size_t bin = 0; bin < bins; ++bin)
   {
-    return 1.0;
+    std::vector<double> values;
+    double mean = 0.0;
+    for (std::size_t i = bin * blocks.size() / bins; i < (bin + 1) * blocks.size() / bins; ++i)
+    {
+      const BlockSums* block = blocks[i];
+      values.push_back(without(block,
+        meanDown > Unequal * meanAcross     ? block->difference
+          : meanAcross > Unequal * meanDown ? block->differenceDown
+                                            : 0.5 * (block->difference + block->differenceDown)));
+      mean += block->level;
+    }
+    level[bin] = mean / static_cast<double>(values.size());
+    variance[bin] = trimmedMean(values);
   }
-  const double rise = (off * differences).sum() / square;
-  const Eigen::ArrayXd left = differences - differences.mean() - rise * off;
-  if (rise * square < Decision::SureDeviations * (off * left).matrix().norm())
+  CameraNoise noise = fittedNoise(level, variance, Eigen::ArrayXd::Ones(level.size()));
+  noise.read = std::hypot(noise.read, LeastNoise);
+  return noise;
+}
+
+// How much of the squared slopes of the scene the differences contain beside read and shot noise: what an effect leaves on edges is no
+// noise. 0 where it is not sure.
+double partOfSlopes(const BlockPointers& blocks, const CameraNoise& noise)
+{
+  Eigen::MatrixX3d known(blocks.size(), 3);
+  Eigen::VectorXd differences(blocks.size());
+  Eigen::Index count = 0;
+  for (const BlockSums* block : blocks)
   {
-    return 1.0;
+    const double seen = noiseVariance(noise, block->level);
+    known.row(count) = Eigen::RowVector3d(1.0, block->level, block->gradient) / seen;
+    differences[count] = 0.5 * (block->difference + block->differenceDown) / seen;
+    count += differences[count] < Unusual ? 1 : 0;
   }
-  const double part = differences.mean() - rise * slopes.mean();
-  const double error = (left * (1.0 / count - off * slopes.mean() / square)).matrix().norm();
-  return std::clamp(part, std::fmin(error, 1.0), 1.0);
+  known.conservativeResize(count, 3);
+  differences.conservativeResize(count);
+  const Eigen::FullPivLU<Eigen::Matrix3d> normal(known.transpose() * known);
+  if (!normal.isInvertible())
+  {
+    return 0.0;
+  }
+  const Eigen::Matrix3Xd inverse = normal.inverse() * known.transpose();
+  const Eigen::Vector3d found = inverse * differences;
+  const Eigen::VectorXd left = differences - known * found;
+  const double error = inverse.row(2).cwiseProduct(left.transpose()).norm();
+  return found[2] > Decision::SureDeviations * error ? found[2] : 0.0;
 }
 }
 
@@ -226,60 +270,17 @@ std::vector<CameraNoise> fieldNoise(const FieldStatistics& statistics)
   std::vector<CameraNoise> noise;
   for (Eigen::Index k = 0; k < statistics.channels; ++k)
   {
-    std::vector<const BlockSums*> smooth = smoothBlocks(statistics, k);
+    const BlockPointers smooth = smoothBlocks(statistics, k);
     if (smooth.empty())
     {
       noise.push_back({ LeastNoise, 0.0 });
       continue;
     }
-    std::vector<double> across;
-    std::vector<double> down;
-    for (const BlockSums* block : smooth)
+    noise.push_back(noiseOf(smooth, 0.0));
+    if (const double part = partOfSlopes(smooth, noise.back()); part > 0.0)
     {
-      across.push_back(block->difference);
-      down.push_back(block->differenceDown);
+      noise.back() = noiseOf(smooth, part);
     }
-    const double meanAcross = trimmedMean(across);
-    const double meanDown = trimmedMean(down);
-    std::stable_sort(smooth.begin(), smooth.end(),
-      [](const BlockSums* a, const BlockSums* b) { return a->level < b->level; });
-    const std::size_t bins = std::min(LevelBins, smooth.size());
-    Eigen::ArrayXd level(bins);
-    Eigen::ArrayXd variance(level.size());
-    for (std::size_t bin = 0; bin < bins; ++bin)
-    {
-      std::vector<double> values;
-      double mean = 0.0;
-      for (std::size_t i = bin * smooth.size() / bins; i < (bin + 1) * smooth.size() / bins; ++i)
-      {
-        values.push_back(meanDown > Unequal * meanAcross ? smooth[i]->difference
-            : meanAcross > Unequal * meanDown
-            ? smooth[i]->differenceDown
-            : 0.5 * (smooth[i]->difference + smooth[i]->differenceDown));
-        mean += smooth[i]->level;
-      }
-      level[bin] = mean / static_cast<double>(values.size());
-      variance[bin] = trimmedMean(values);
-    }
-    noise.push_back(fittedNoise(level, variance, Eigen::ArrayXd::Ones(level.size())));
-    std::vector<double> differences;
-    std::vector<double> slopes;
-    for (const BlockSums* block : smooth)
-    {
-      const double seen = noiseVariance(noise.back(), block->level);
-      const double difference = 0.5 * (block->difference + block->differenceDown) / seen;
-      if (difference < Unusual)
-      {
-        differences.push_back(difference);
-        slopes.push_back(block->gradient / seen);
-      }
-    }
-    const double part = std::sqrt(partWithoutSlope(
-      Eigen::Map<const Eigen::ArrayXd>(differences.data(), Eigen::Index(differences.size())),
-      Eigen::Map<const Eigen::ArrayXd>(slopes.data(), Eigen::Index(slopes.size()))));
-    noise.back().read *= part;
-    noise.back().shot *= part;
-    noise.back().read = std::hypot(noise.back().read, LeastNoise);
   }
   return noise;
 }

@@ -208,6 +208,18 @@ TEST(FieldGap, SaturationAtALevelOfEachChannel)
   expectParameter(report, "saturation", "level[C3]", 0.42, 0.005);
 }
 
+// A full well fills up gradually: a p-norm of light and level, here with p = 8, and no curve beside it.
+TEST(FieldGap, SaturationOfAFullWellIsSoft)
+{
+  const TestScene scene(36);
+  const GapReport report = diagnose(changed(scene, 46,
+    [](double u, int, int, int, double)
+    { return u / std::pow(1.0 + std::pow(u / 0.5, 8.0), 1.0 / 8.0); }));
+  expectFirst(report, "saturation", "level");
+  expectParameter(report, "saturation", "level[C2]", 0.5, 0.005);
+  expectParameter(report, "saturation", "softness", 1.0 / 8.0, 0.005);
+}
+
 // Darks of the channels that are nearly the same are one cause beside a curve, not what its form leaves.
 TEST(FieldGap, DarkOffsetsThatAreAlikeBesideACurve)
 {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -33,6 +34,32 @@ void inTurn(int count, const std::function<void(int)>& body)
     body(i);
   }
 }
+}
+
+// Differences of noise alone, and with a part that goes with the squared slopes of the scene: the noise is the same. It has a scatter as of
+// blocks of some hundred pixels.
+TEST(FieldNoise, WhatGoesWithSlopesIsNone)
+{
+  constexpr CameraNoise True{ 0.002, 0.004 };
+  const CounterRandom random(73);
+  for (const double onEdges : { 0.0, 0.05 })
+  {
+    FieldStatistics statistics{ FieldModel(1), 1, std::vector<BlockSums>(200) };
+    std::uint64_t draw = 0;
+    for (BlockSums& block : statistics.sums)
+    {
+      block.level = 0.05 + 0.9 * random.uniform(draw++);
+      block.gradient = 4e-4 * random.uniform(draw++); // of all of them: no block is smooth
+      const double noise = noiseVariance(True, block.level);
+      block.difference = noise * (1.0 + 0.1 * random.normal(draw++)) + onEdges * block.gradient;
+      block.differenceDown = noise * (1.0 + 0.1 * random.normal(draw++)) + onEdges * block.gradient;
+    }
+    const CameraNoise found = fieldNoise(statistics).front();
+    for (const double level : { 0.1, 0.5, 0.9 })
+    {
+      EXPECT_NEAR(noiseVariance(found, level) / noiseVariance(True, level), 1.0, 0.15) << onEdges;
+    }
+  }
 }
 
 // An image of nothing but noise, moved and blurred: the mean products of its columns are those that noise is said to make.

@@ -70,7 +70,7 @@ struct Bend
     : over(std::fmin(std::log(std::fmax(u, 1e-300) / level) / softness, 700.0))
   {
     const double rest = std::log1p(std::exp(-std::fabs(over)));
-    value = std::fmin(u, level) * std::exp(-softness * rest);
+    value = (level < u ? level : u) * std::exp(-softness * rest); // NaN stays
     free = std::exp(-rest - std::fmax(over, 0.0));
   }
   double over; // p log(u / level)

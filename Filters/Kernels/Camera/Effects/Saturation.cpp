@@ -161,7 +161,7 @@ Effect saturation()
       { "per_channel",
         "u / (1 + (u / level_k)^(1 / softness))^softness, a level of each channel: channels that "
         "are exposed differently",
-        { level.ofLight(), softness }, { { 0.95, 0.01 }, { 0.8, 0.01 }, { 0.65, 0.01 } } } },
+        { level.ofLight(), softness }, { { 0.95, 0.05 }, { 0.8, 0.05 }, { 0.65, 0.05 } } } },
     { "shorter exposure", 2.0 }, EffectTrait::LimitsResponse,
     { { "per_channel", sharp }, { "per_channel", soft } } };
   effect.makeBlock = makeSaturation;

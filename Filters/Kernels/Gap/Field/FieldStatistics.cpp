@@ -6,7 +6,7 @@
 #include "Kernels/Numerics/OrderStatistic.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -90,10 +90,12 @@ void addDifferences(const ChannelColumns& found, const ImageWindow& window, Bloc
       varianceByMeans(left.leftCols(window.height / 2), left.rightCols(window.height / 2)));
 }
 
+using BlockPointers = std::vector<const BlockSums*>;
+
 // The smoother half of the blocks, of a channel.
-std::vector<const BlockSums*> smoothBlocks(const FieldStatistics& statistics, Eigen::Index channel)
+BlockPointers smoothBlocks(const FieldStatistics& statistics, Eigen::Index channel)
 {
-  std::vector<const BlockSums*> smooth;
+  BlockPointers smooth;
   for (std::size_t b = 0; b < statistics.blocks(); ++b)
   {
     const BlockSums& sums = statistics.at(b, channel);
@@ -107,6 +109,20 @@ std::vector<const BlockSums*> smoothBlocks(const FieldStatistics& statistics, Ei
   smooth.resize((smooth.size() + 1) / 2);
   return smooth;
 }
+
+// Least squares. How well the numbers are known is seen by how the values scatter (a sandwich).
+struct Regression
+{
+  Regression(const Eigen::MatrixXd& known, const Eigen::VectorXd& values)
+  {
+    const Eigen::MatrixXd inverse = known.completeOrthogonalDecomposition().pseudoInverse();
+    number = inverse * values;
+    error = (inverse * (values - known * number).asDiagonal()).rowwise().norm();
+  }
+  bool isSure(Eigen::Index n) const { return number[n] > Decision::SureDeviations * error[n]; }
+
+  Eigen::VectorXd number, error;
+};
 
 double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
 {
@@ -146,12 +162,9 @@ double sceneNoiseOf(const FieldStatistics& statistics, Eigen::Index channel)
       added += sums.residualOfNoise;
     }
   }
-  const Eigen::Matrix2d inverse = (known.transpose() * known).inverse();
-  const Eigen::Vector2d found = inverse * known.transpose() * product;
-  const Eigen::MatrixX2d scores = (product - known * found).asDiagonal() * (known * inverse).eval();
-  const double error = scores.col(0).norm();
-  return found[0] > Decision::SureDeviations * error
-    ? found[0] / std::fmax(1.0 - found[1] * square / added, LeastOfNoise)
+  const Regression found(known, product);
+  return found.isSure(0)
+    ? found.number[0] / std::fmax(1.0 - found.number[1] * square / added, LeastOfNoise)
     : 0.0;
 }
 }
@@ -194,8 +207,6 @@ double noiseCoherence(const FieldStatistics& statistics, Eigen::Index channel)
 
 namespace
 {
-using BlockPointers = std::vector<const BlockSums*>;
-
 // Of blocks whose differences contain this much of the squared slopes of the scene.
 CameraNoise noiseOf(BlockPointers blocks, double ofSlopes)
 {
@@ -250,18 +261,12 @@ double partOfSlopes(const BlockPointers& blocks, const CameraNoise& noise)
     differences[count] = 0.5 * (block->difference + block->differenceDown) / seen;
     count += differences[count] < Unusual ? 1 : 0;
   }
-  known.conservativeResize(count, 3);
-  differences.conservativeResize(count);
-  const Eigen::FullPivLU<Eigen::Matrix3d> normal(known.transpose() * known);
-  if (!normal.isInvertible())
+  if (count < known.cols())
   {
     return 0.0;
   }
-  const Eigen::Matrix3Xd inverse = normal.inverse() * known.transpose();
-  const Eigen::Vector3d found = inverse * differences;
-  const Eigen::VectorXd left = differences - known * found;
-  const double error = inverse.row(2).cwiseProduct(left.transpose()).norm();
-  return found[2] > Decision::SureDeviations * error ? found[2] : 0.0;
+  const Regression found(known.topRows(count), differences.head(count));
+  return found.isSure(2) ? found.number[2] : 0.0;
 }
 }
 

@@ -324,9 +324,11 @@ const std::map<std::string, Maker>& makers()
       [](Random& random, int channels, int, int) -> ImageFault
       {
         const std::vector<double> part = ofChannels(random, channels, 0.1);
-        return { "full well",
-          [part](ImageFaults& f, double size)
+        const double bend = chance(random, 0.5) ? uniform(random, 5.0, 15.0) : 0.0;
+        return { bend > 0.0 ? "well that fills up" : "full well",
+          [=](ImageFaults& f, double size)
           {
+            f.bend = bend;
             for (std::size_t k = 0; k < part.size(); ++k)
             {
               f.well[k] = 0.93 * part[k] * std::exp(-0.15 * size);
@@ -474,6 +476,16 @@ ImageFault drawImageStranger(const std::string& name, Random& random, const Imag
     } };
 }
 
+namespace
+{
+// Of a well of this size, whose electrons find less and less room; at once full where there is no bend.
+double filled(double u, double well, double bend)
+{
+  return bend > 0.0 && u > 0.0 ? well * std::pow(-std::expm1(-std::pow(u / well, bend)), 1.0 / bend)
+                               : std::min(u, well);
+}
+}
+
 Planes expose(const ImageScene& scene, const ImageFaults& faults)
 {
   const double half = 0.5 * (std::max(scene.width(), scene.height()) - 1);
@@ -547,7 +559,7 @@ Planes expose(const ImageScene& scene, const ImageFaults& faults)
         const double y = static_cast<double>(i / width) - 0.5 * (scene.height() - 1);
         u += faults.window(static_cast<int>(k), x / half, y / half);
       }
-      planes[k][i] = std::min(u + faults.offset[k], faults.well[k]);
+      planes[k][i] = filled(u + faults.offset[k], faults.well[k], faults.bend);
     }
   }
   if (faults.other)

@@ -27,6 +27,7 @@ struct ImageFaults
   std::function<double(int k, double x, double y)> window; // added; -1..1
   std::function<double(int k, double u)> curve;
   std::vector<double> well;
+  double bend = 0.0; // power with which a well fills up before its end; 0: at once
   std::function<void(Planes&, const ImageScene&)> other;
 };
 

@@ -108,7 +108,9 @@ def _crosstalk(form, p):
         return f"{part['coupling']} of the signal of each channel is what all channels have in common"
     if "coupling" in p:
         return f"{part['coupling']} of the signal exchanged with each neighbouring channel"
-    return f"{part['from_previous']} of the signal from the channel before, {part['from_next']} from the one behind"
+    sides = [f"{part[name]} of the signal from the channel {side}" for name, side in
+             (("from_previous", "before"), ("from_next", "behind")) if abs(p[name][0]) >= 0.0005]
+    return " and ".join(sides) or "less than 0.05 % of the signal"
 
 
 def _wider(value):

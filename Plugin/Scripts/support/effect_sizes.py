@@ -37,9 +37,8 @@ def _relative(values, words):
 
 def _of(values, words):
     """A part of the light, of all channels or of each."""
-    if len(values) == 1:
-        return words.format(_percent(values[0]))
-    return words.format(f"{_plain(100 * min(values))} to {_plain(100 * max(values))} % (by channel)")
+    low, high = _plain(100 * min(values)), _plain(100 * max(values))
+    return words.format(f"{low} %" if low == high else f"{low} to {high} % (by channel)")
 
 
 def _falloff(form, p):

@@ -61,6 +61,7 @@ private:
   ChannelValues After;
   double OfAll;
 };
+
 // Its step on image pairs.
 double crosstalkStep(const double* numbers, const ImagePixel& pixel, double& signal, double* by)
 {

@@ -79,6 +79,7 @@ struct ImageSimulator::Implementation
   std::optional<ScatterTail> Tail;
   std::vector<OtherLight> Lights;
   std::vector<PixelOperator> OnPixels;
+  std::vector<double> FieldX; // of every column of the image
 
   Implementation(CameraModel camera, std::vector<CameraEffect> effects, const ImageExtent& extent,
     const ImageSimulatorOptions& options)
@@ -96,6 +97,10 @@ struct ImageSimulator::Implementation
     {
       reject("session_drift concerns samples captured one after the other; for an image use "
              "channel_gain");
+    }
+    for (int x = 0; x < extent.width; ++x)
+    {
+      FieldX.push_back(fieldAt(x, extent.width));
     }
     for (const std::string& medium : options.media)
     {
@@ -159,17 +164,18 @@ struct ImageSimulator::Implementation
     }
   }
 
+  // Of a place along an axis with so many pixels.
+  double fieldAt(int place, int pixels) const
+  {
+    const double half = 0.5 * std::max(1, std::max(Extent.width, Extent.height) - 1);
+    return (place - 0.5 * (pixels - 1)) / half;
+  }
+
   // Where the pixels from (x, y) to the right lie.
   ColumnContext placesOf(int x, int y, int count, ImageWorkspace& work) const
   {
-    const double half = 0.5 * std::max(1, std::max(Extent.width, Extent.height) - 1);
-    work.fieldX.clear();
-    for (int i = 0; i < count; ++i)
-    {
-      work.fieldX.push_back((x + i - 0.5 * (Extent.width - 1)) / half);
-    }
-    work.fieldY.assign(work.fieldX.size(), (y - 0.5 * (Extent.height - 1)) / half);
-    return { nullptr, work.fieldX.data(), work.fieldY.data() };
+    work.fieldY.assign(static_cast<std::size_t>(count), fieldAt(y, Extent.height));
+    return { nullptr, FieldX.data() + x, work.fieldY.data() };
   }
 
   // The light on the detector, pixel by pixel: a run of at most BlockPixels pixels of one row.

@@ -35,7 +35,7 @@ struct ImageWorkspace
   RowConvolution blur;
   ScatterRows tail;
   std::vector<float> row, reflectance, surround;
-  std::vector<double> fieldX, fieldY;
+  std::vector<double> fieldY;
   std::vector<int> medium;
 };
 

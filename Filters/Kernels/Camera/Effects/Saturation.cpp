@@ -39,7 +39,22 @@ struct SoftSaturation
   }
 };
 
-// The p-norm of both.
+// The p-norm of u and level, for any p = 1 / softness without an overflow.
+struct Bend
+{
+  Bend(double u, double level, double softness) noexcept
+    : over(std::fmin(std::log(std::fmax(u, 1e-300) / level) / softness, 700.0))
+  {
+    const double rest = std::log1p(std::exp(-std::fabs(over)));
+    value = (level < u ? level : u) * std::exp(-softness * rest); // NaN stays
+    free = std::exp(-rest - std::fmax(over, 0.0));
+  }
+  double over; // p log(u / level)
+  double free; // 1 / (1 + (u / level)^p)
+  double value;
+};
+
+// The same, as fast as it goes in double precision.
 struct GradualSaturation
 {
   double level;
@@ -55,27 +70,8 @@ struct GradualSaturation
   void operator()(Block<float> response, const ColumnContext&) const noexcept
   {
     response = response.unaryExpr(
-      [bend = static_cast<float>(level), p = static_cast<float>(sharpness)](float u)
-      {
-        const float over = u > 0.0F ? std::pow(u / bend, p) : 0.0F;
-        return u / std::pow(1.0F + over, 1.0F / p);
-      });
+      [this](float u) { return static_cast<float>(Bend(u, level, 1.0 / sharpness).value); });
   }
-};
-
-// The same for any p = 1 / softness.
-struct Bend
-{
-  Bend(double u, double level, double softness) noexcept
-    : over(std::fmin(std::log(std::fmax(u, 1e-300) / level) / softness, 700.0))
-  {
-    const double rest = std::log1p(std::exp(-std::fabs(over)));
-    value = (level < u ? level : u) * std::exp(-softness * rest); // NaN stays
-    free = std::exp(-rest - std::fmax(over, 0.0));
-  }
-  double over; // p log(u / level)
-  double free; // 1 / (1 + (u / level)^p)
-  double value;
 };
 
 std::unique_ptr<BlockOperator> makeSaturation(const BoundEffect& effect)

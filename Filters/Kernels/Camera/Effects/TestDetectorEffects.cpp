@@ -1,8 +1,10 @@
 #include "Kernels/Camera/CameraTestData.h"
+#include "Kernels/Camera/Imaging/ImageSimulator.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace
 {
@@ -143,6 +145,21 @@ TEST(Saturation, GraduallyItIsAPNorm)
   EXPECT_NEAR(respondToFlat(0.8, { "saturation", "gradual", "", { 0.8, 10.0 } }),
     0.8 * std::pow(2.0, -0.1), 1e-15);
   EXPECT_EQ(respondToFlat(-0.01, { "saturation", "gradual", "", { 0.8, 10.0 } }), -0.01);
+}
+
+// (u / level)^p is more than single precision holds.
+TEST(Saturation, FarBeyondItsLevelAnImageIsNotDark)
+{
+  const msi::CameraModel identity(
+    fiveBands(), Eigen::MatrixXd::Identity(5, 5), Eigen::VectorXd::Zero(5));
+  const msi::ImageSimulator simulator(
+    identity, { { "saturation", "gradual", "", { 0.1, 60.0 } } }, { 1, 1 });
+  const std::vector<float> reflectance(5, 0.9F);
+  std::vector<float> response(5);
+  msi::ImageWorkspace work;
+  simulator.simulate(
+    reflectance.data(), nullptr, { 0, 0, 1, 1 }, { 0, 0, 1, 1 }, nullptr, response.data(), work);
+  EXPECT_NEAR(response[2], 0.1, 1e-7);
 }
 
 TEST(SessionDrift, FollowsItsCourse)

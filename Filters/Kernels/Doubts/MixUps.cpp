@@ -1,6 +1,5 @@
 #include "Kernels/Doubts/MixUps.h"
 
-#include "Kernels/Doubts/PairSums.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
 #include <algorithm>
@@ -31,26 +30,6 @@ double leftOf(const std::vector<PairSums>& channels)
 double correlationOf(const PairSums& sums)
 {
   return sums.n < 3.0 || sums.isFlat() ? 1.0 : sums.correlation();
-}
-
-// A channel that does not change with the scene as the others do.
-std::string deadChannel(
-  const std::vector<PairSums>& channels, const std::vector<std::string>& names)
-{
-  Eigen::VectorXd contrast(static_cast<Eigen::Index>(channels.size()));
-  std::transform(channels.begin(), channels.end(), contrast.begin(),
-    [](const PairSums& sums) { return sums.isFlat() ? 0.0 : sums.ofReal() / sums.ofSimulated(); });
-  const double usual = orderStatistic(contrast, contrast.size() / 2);
-  for (std::size_t k = 0; k < channels.size(); ++k)
-  {
-    if (!channels[k].isFlat() && contrast[static_cast<Eigen::Index>(k)] < Dead * usual &&
-      (channels[k].isSteady() || correlationOf(channels[k]) < HardlyTogether))
-    {
-      return "Dead? Channel " + names[k] +
-        " does not change with the scene as the others do: is it connected, and nothing before it?";
-    }
-  }
-  return {};
 }
 
 using Pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
@@ -183,7 +162,7 @@ std::string exchangedSamples(const Eigen::MatrixXd& observed, const Eigen::Matri
 // As mixUp(), without the question.
 std::string betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
-  const std::vector<std::string>& columns)
+  const std::vector<std::string>& columns, bool known)
 {
   const bool images = columns.empty();
   const std::vector<PairSums> asTold = sumsOfChannels(observed, simulated);
@@ -212,6 +191,10 @@ std::string betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixX
   {
     return found;
   }
+  if (known)
+  {
+    return {};
+  }
   double together = 0.0;
   for (const PairSums& channel : asTold)
   {
@@ -222,6 +205,38 @@ std::string betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixX
                "same place?"
              : "The readings hardly go with the samples: do they belong to these, in this order?";
 }
+}
+
+std::vector<Eigen::Index> deadChannels(const std::vector<PairSums>& channels)
+{
+  Eigen::VectorXd contrast(static_cast<Eigen::Index>(channels.size()));
+  std::transform(channels.begin(), channels.end(), contrast.begin(),
+    [](const PairSums& sums) { return sums.isFlat() ? 0.0 : sums.ofReal() / sums.ofSimulated(); });
+  const double usual = orderStatistic(contrast, contrast.size() / 2);
+  std::vector<Eigen::Index> dead;
+  for (Eigen::Index k = 0; k < contrast.size(); ++k)
+  {
+    const PairSums& channel = channels[static_cast<std::size_t>(k)];
+    if (!channel.isFlat() && contrast[k] < Dead * usual &&
+      (channel.isSteady() || correlationOf(channel) < HardlyTogether))
+    {
+      dead.push_back(k);
+    }
+  }
+  return dead;
+}
+
+std::string deadChannelsNote(const std::vector<Eigen::Index>& dead,
+  const std::vector<std::string>& channels, const std::string& consequence)
+{
+  std::string text;
+  for (const Eigen::Index k : dead)
+  {
+    text += (text.empty() ? "Dead? Channel " : ", ") + channels[static_cast<std::size_t>(k)];
+  }
+  return text.empty() ? text
+                      : text + " does not change with the scene as the others do" + consequence +
+      ": is it connected, and nothing before it?";
 }
 
 std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y)
@@ -276,16 +291,16 @@ std::vector<Arrangement> arrangementsOf(
 
 std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
-  const std::vector<std::string>& columns)
+  const std::vector<std::string>& columns, bool together)
 {
-  std::string found = deadChannel(sumsOfChannels(observed, simulated), channels);
+  std::string found = deadChannelsNote(deadChannels(sumsOfChannels(observed, simulated)), channels);
   if (found.empty())
   {
     found = copiedChannels(observed, simulated, channels);
   }
   if (found.empty())
   {
-    found = betterThanTold(observed, simulated, arrangements, channels, columns);
+    found = betterThanTold(observed, simulated, arrangements, channels, columns, together);
     found.insert(0, found.empty() ? "" : "Mixed up? ");
   }
   return found;

@@ -2,6 +2,8 @@
 // another order. And channels that do not work, or are there twice.
 #pragma once
 
+#include "Kernels/Doubts/PairSums.h"
+
 #include <Eigen/Core>
 
 #include <string>
@@ -23,11 +25,18 @@ std::vector<Arrangement> arrangementsOf(
 // places are at least 0.04 apart.
 std::vector<Arrangement> turnedPlaces(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);
 
+// Channels that do not change with the scene as the others do.
+std::vector<Eigen::Index> deadChannels(const std::vector<PairSums>& channels);
+// In words; empty where there are none. consequence: ", and takes no part".
+std::string deadChannelsNote(const std::vector<Eigen::Index>& dead,
+  const std::vector<std::string>& channels, const std::string& consequence = {});
+
 // In words, which channel is dead, else which have the same values, else what fits much better than as told: a quarter of the
 // squares left, after a gain of each channel. Empty: nothing.
+// together: that they go together at all is known.
 // observed, simulated: K x S, NaN: not measured. channels, columns: K and S names; without columns no single ones are looked at.
 std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
-  const std::vector<std::string>& columns = {});
+  const std::vector<std::string>& columns = {}, bool together = false);
 
 } // namespace msi

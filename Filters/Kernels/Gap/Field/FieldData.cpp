@@ -1,7 +1,7 @@
 #include "Kernels/Gap/Field/FieldData.h"
 
 #include "Kernels/Camera/Imaging/ScatterTail.h"
-#include "Kernels/Doubts/PairSums.h"
+#include "Kernels/Doubts/MixUps.h"
 #include "Kernels/Gap/Field/FieldOddPixels.h"
 #include "Kernels/Numerics/CounterRandom.h"
 #include "Kernels/Numerics/OrderStatistic.h"
@@ -190,6 +190,8 @@ std::size_t readBlock(const FieldData& data, FieldBlock& block)
   const int margin = std::min(LargestMargin, std::min(pair.extent.width, pair.extent.height) / 16);
   const ImageWindow inside{ margin, margin, pair.extent.width - 2 * margin,
     pair.extent.height - 2 * margin };
+  const auto isDead = [&data](std::size_t k)
+  { return std::find(data.dead.begin(), data.dead.end(), k) != data.dead.end(); };
   const auto surrounded = [&](int x, int y, std::size_t k)
   {
     const ImageWindow near = grown({ x, y, 1, 1 }, Surround, pair.extent);
@@ -214,7 +216,7 @@ std::size_t readBlock(const FieldData& data, FieldBlock& block)
       for (std::size_t k = 0; k < K && inside.contains({ x, y, 1, 1 }); ++k)
       {
         const float value = pair.real[pair.index(x, y) * K + k];
-        if (std::isfinite(value) && (data.filled.empty() || surrounded(x, y, k)))
+        if (std::isfinite(value) && !isDead(k) && (data.filled.empty() || surrounded(x, y, k)))
         {
           out[k] = static_cast<float>(static_cast<double>(value) / data.unit[k]);
           any = true;
@@ -418,6 +420,7 @@ FieldData prepareFieldData(const FieldPair& pair, std::uint64_t seed, FieldLoop 
   requireRelativeToWhite(sums);
   data.filled = filledScene(data.pair);
   data.unit = fieldUnits(sums);
+  data.dead = deadChannels(sums);
   const auto regions = regionsOf(pair.extent);
   const int largest = pair.channels.size() < ManyChannels ? LargestBlock : LargestBlock / 2;
   for (int size = largest; size >= SmallestBlock; size /= 2)

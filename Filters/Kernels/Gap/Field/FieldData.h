@@ -65,6 +65,7 @@ struct FieldData
   Eigen::ArrayXd unit;       // of the real image's channels, K; FieldBlock::real is divided by it
   std::vector<FieldBlock> blocks;
   std::vector<ImageWindow> leftOut; // blocks, and single pixels of others
+  std::vector<Eigen::Index> dead;   // channels, without usable values
   double usablePart = 0.0;          // of the image's pixels
   double defectPart = 0.0;          // of the blocks' values: leaveOutDefects()
   SceneCells cells;

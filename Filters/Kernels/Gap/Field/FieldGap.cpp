@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -24,7 +25,8 @@ namespace msi
 namespace
 {
 constexpr double FewUsable = 0.5;
-constexpr int RasterSide = 32; // on which an image is looked at as a whole
+constexpr double MostlyExplained = 0.5; // of the gap
+constexpr int RasterSide = 32;          // on which an image is looked at as a whole
 
 // Sets of an image pair that are kept on the way, and options fitted in full for each: previews are cross-validated and good.
 constexpr int PairBeamWidth = 2;
@@ -213,25 +215,33 @@ Eigen::MatrixXd rasterOf(const FieldPair& pair, const float* image, int width, i
   return sum / count;
 }
 
-std::string mixUpOf(const FieldPair& pair)
+// together: that the images go together at all is known.
+std::string mixUpOf(const FieldData& data, bool together)
 {
+  const FieldPair& pair = data.pair;
   const int width = std::min(RasterSide, pair.extent.width);
   const int height = std::min(RasterSide, pair.extent.height);
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(width, 0.0, width - 1.0);
   const Eigen::ArrayXd y = Eigen::ArrayXd::LinSpaced(height, 0.0, height - 1.0);
   const std::vector<Arrangement> arrangements =
     turnedPlaces(x.replicate(height, 1), y.transpose().replicate(width, 1).reshaped());
-  return mixUp(rasterOf(pair, pair.real, width, height),
-    rasterOf(pair, pair.simulated, width, height), arrangements, pair.channels);
+  Eigen::MatrixXd real = rasterOf(pair, pair.real, width, height);
+  real(data.dead, Eigen::all).setConstant(std::numeric_limits<double>::quiet_NaN());
+  return mixUp(
+    real, rasterOf(pair, pair.simulated, width, height), arrangements, pair.channels, {}, together);
 }
 
-std::vector<std::string> notesOn(
-  const FieldData& data, const FieldFinding& finding, const std::vector<FieldChoice>& choices)
+std::vector<std::string> notesOn(const FieldData& data, const FieldFinding& finding,
+  const std::vector<FieldChoice>& choices, double shrink)
 {
   std::vector<std::string> notes;
-  if (std::string note = mixUpOf(data.pair); !note.empty())
+  for (std::string note : { deadChannelsNote(data.dead, data.pair.channels, ", and takes no part"),
+         mixUpOf(data, shrink > MostlyExplained) })
   {
-    notes.push_back(std::move(note));
+    if (!note.empty())
+    {
+      notes.push_back(std::move(note));
+    }
   }
   if (!data.leftOut.empty())
   {
@@ -383,7 +393,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
   }
   else
   {
-    evidence.gap = beyondNoise(report.gap.rmsBefore, finding.before());
+    evidence.gap = beyondNoise(report.gap.rmsBefore, finding.before()) || !data.dead.empty();
     evidence.noticed = finding.set().empty() ? 1.0 : 0.0;
     gap->model = finding.before().model;
   }
@@ -394,7 +404,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     addRest(*gap, data, finding.weights, options);
   }
   report.nextCaptures = separatingCaptures(explanations, inQuestion(report.causes));
-  report.notes = notesOn(data, finding, choices);
+  report.notes = notesOn(data, finding, choices, report.gap.shrink);
   noteDoubts(report.notes, report);
   say(1.0, "done");
   return gap;

@@ -160,7 +160,7 @@ std::string exchangedSamples(const Eigen::MatrixXd& observed, const Eigen::Matri
 }
 
 // As mixUp(), without the question.
-std::string betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+MixUp betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
   const std::vector<std::string>& columns, bool known)
 {
@@ -183,27 +183,28 @@ std::string betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixX
   {
     found = exchangedChannels(observed, simulated, channels);
   }
-  if (found.empty() && !images)
+  if (!found.empty())
+  {
+    return { found, true };
+  }
+  if (!images)
   {
     found = exchangedSamples(observed, simulated, asTold, columns);
   }
-  if (!found.empty())
+  if (known || !found.empty())
   {
-    return found;
-  }
-  if (known)
-  {
-    return {};
+    return { found };
   }
   double together = 0.0;
   for (const PairSums& channel : asTold)
   {
     together += correlationOf(channel) / static_cast<double>(asTold.size());
   }
-  return together >= HardlyTogether ? std::string()
+  found = together >= HardlyTogether ? ""
     : images ? "The real image hardly goes with the simulated one: is it the same scene, in the "
                "same place?"
              : "The readings hardly go with the samples: do they belong to these, in this order?";
+  return { found };
 }
 }
 
@@ -289,20 +290,23 @@ std::vector<Arrangement> arrangementsOf(
   return all;
 }
 
-std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+MixUp mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
   const std::vector<std::string>& columns, bool together)
 {
-  std::string found = deadChannelsNote(deadChannels(sumsOfChannels(observed, simulated)), channels);
-  if (found.empty())
+  const std::string dead =
+    deadChannelsNote(deadChannels(sumsOfChannels(observed, simulated)), channels);
+  if (!dead.empty())
   {
-    found = copiedChannels(observed, simulated, channels);
+    return { dead };
   }
-  if (found.empty())
+  const std::string copied = copiedChannels(observed, simulated, channels);
+  if (!copied.empty())
   {
-    found = betterThanTold(observed, simulated, arrangements, channels, columns, together);
-    found.insert(0, found.empty() ? "" : "Mixed up? ");
+    return { copied, true };
   }
+  MixUp found = betterThanTold(observed, simulated, arrangements, channels, columns, together);
+  found.question.insert(0, found.question.empty() ? "" : "Mixed up? ");
   return found;
 }
 

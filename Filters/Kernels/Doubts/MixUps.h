@@ -31,11 +31,17 @@ std::vector<Eigen::Index> deadChannels(const std::vector<PairSums>& channels);
 std::string deadChannelsNote(const std::vector<Eigen::Index>& dead,
   const std::vector<std::string>& channels, const std::string& consequence = {});
 
+struct MixUp
+{
+  std::string question; // empty: nothing
+  bool ofAll =
+    false; // channels, or all samples or places, are others than told: whatever explains the gap otherwise is in doubt
+};
 // In words, which channel is dead, else which have the same values, else what fits much better than as told: a quarter of the
 // squares left, after a gain of each channel. Empty: nothing.
 // together: that they go together at all is known.
 // observed, simulated: K x S, NaN: not measured. channels, columns: K and S names; without columns no single ones are looked at.
-std::string mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
+MixUp mixUp(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& simulated,
   const std::vector<Arrangement>& arrangements, const std::vector<std::string>& channels,
   const std::vector<std::string>& columns = {}, bool together = false);
 

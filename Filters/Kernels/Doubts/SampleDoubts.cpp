@@ -248,7 +248,7 @@ struct ChartCamera
         predicted(Eigen::all, instead) = chart.set.response - other.leftOut;
       }
     }
-    mixUp = msi::mixUp(chart.set.response, predicted, orders, channels, chart.names);
+    mixUp = msi::mixUp(chart.set.response, predicted, orders, channels, chart.names).question;
   }
 };
 
@@ -365,7 +365,7 @@ std::vector<std::string> doubtsOf(const NamedSamples& chartInAll,
   const Eigen::MatrixXd predicted = seen.camera.fit.transform(medium.set.reflectance);
   ask(medium, saturationQuestion(medium.set.response, predicted, channels));
   const std::string mixedUp =
-    mixUp(medium.set.response, predicted, ordersOf(medium), channels, medium.names);
+    mixUp(medium.set.response, predicted, ordersOf(medium), channels, medium.names).question;
   ask(medium, mixedUp);
   if (!mixedUp.empty())
   {

@@ -44,7 +44,7 @@ protected:
       arrangements.front().instead.push_back(Count - 1 - i);
     }
     const std::string text =
-      mixUp(Observed, Simulated, arrangements, { "A", "B", "C", "D" }, Names);
+      mixUp(Observed, Simulated, arrangements, { "A", "B", "C", "D" }, Names).question;
     return text.empty() ? std::vector<std::string>() : std::vector<std::string>{ text };
   }
 

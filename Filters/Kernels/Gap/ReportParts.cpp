@@ -329,6 +329,7 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
       "with the detector's curve (Camera Model Fit, Detector Curve).");
   }
   std::string names;
+  const bool several = report.uncredited.size() > 1;
   for (const std::string& name : report.uncredited)
   {
     names += (names.empty() ? "" : ", ") + name;
@@ -336,7 +337,9 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
   if (!names.empty())
   {
     notes.push_back("The corrected simulator also has " + names +
-      ": with it the readings are predicted better, but it is not believed to be a cause.");
+      (several
+          ? ": with them the readings are predicted better, but they are not believed to be causes."
+          : ": with it the readings are predicted better, but it is not believed to be a cause."));
   }
 }
 

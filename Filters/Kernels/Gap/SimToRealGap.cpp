@@ -157,7 +157,7 @@ public:
   }
 
   // unlessOdd: where samples are odd goes no further than to find them.
-  std::optional<GapReport> run(bool unlessOdd)
+  std::optional<GapReport> run(bool unlessOdd, bool mixedUp)
   {
     expectNoise();
     Choices = choicesFor(Data.scene, Options.without);
@@ -182,7 +182,7 @@ public:
     Report.changePoints =
       OrderBreaks::significant(Observed->fitter(), Data.simulated, MostChangePoints);
     Steps("axes shared", 1.0);
-    judge();
+    judge(mixedUp);
     Steps("done", 10.0);
     return std::move(Report);
   }
@@ -264,7 +264,7 @@ private:
   }
 
   // Whether the causes found count, and what the report says of them.
-  void judge()
+  void judge(bool mixedUp)
   {
     const EffectFit best = Observed->whole(*Found.best);
     const ExcessNoise excess = excessNoise(Data, Noise, Capture.noise, Options.without);
@@ -274,6 +274,7 @@ private:
     evidence.gap = evidence.gap || scatterAlone;
     const double ofNoise = partOf(excess, Report.gap);
     evidence.explained = (1.0 - ofNoise) * evidence.explained + ofNoise * excess.belief;
+    evidence.explained = mixedUp ? 0.0 : evidence.explained;
     evidence.takenForNoise = std::fmin(TakenForNoise / Before.squaredNorm(), 1.0);
     Predicted.back() = best.predicted;
     if (evidence.credited > 0.0)
@@ -396,7 +397,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   GapCapture good = capture;
   const std::vector<OddReading> oddReadings = leaveOutOddReadings(good, options);
   IndexList leftOut;
-  std::string mixedUp;
+  MixUp mixedUp;
   std::optional<TableDiagnosis> last;
   const auto diagnose = [&](IndexList& odd, bool unlessOdd)
   {
@@ -404,7 +405,7 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
     std::sort(leftOut.begin(), leftOut.end());
     last.emplace(good, options, leftOut);
     mixedUp = leftOut.empty() ? mixUpOf(last->data()) : mixedUp;
-    std::optional<GapReport> report = last->run(unlessOdd);
+    std::optional<GapReport> report = last->run(unlessOdd, mixedUp.ofAll);
     odd = last->odd();
     return report;
   };
@@ -415,9 +416,9 @@ std::optional<GapReport> diagnoseGap(const GapCapture& capture, const GapOptions
   {
     report->notes.insert(report->notes.begin(), oddReadingsNote(good, oddReadings));
   }
-  if (report && !mixedUp.empty())
+  if (report && !mixedUp.question.empty())
   {
-    report->notes.insert(report->notes.begin(), mixedUp);
+    report->notes.insert(report->notes.begin(), mixedUp.question);
   }
   return report;
 }

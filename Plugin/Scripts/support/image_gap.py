@@ -12,7 +12,7 @@ _KINDS = {"real": "real", "sim": "simulated", "labels": "labels", "patches": "pa
 AXES = {
     "position": "the gap depends on the place in the field (x from -1 at the left to 1 at the right, y from -1 at the bottom to 1 at "
                 "the top, over the longer side)",
-    "level": "the gap grows with the signal, so bright and dark places differ",
+    "level": "the gap changes with the signal: bright and dark places differ",
     "sample": "single labelled patches stand out",
 }
 # What to do about a gap that no effect of a lens, a lamp's place or a detector explains.
@@ -134,7 +134,8 @@ def sections(gap, folder):
     figures = gap.summary()
     axis = figures.get("unexplained_where", "").split(" ")[0] if figures else ""
     words = []
-    if figures and figures["verdict"] in ("unexplained", "partly explained") and axis in NEXT:
+    left = figures and figures["verdict"] in ("unexplained", "partly explained") and figures["shrink"] < diagnosis.FITS
+    if left and axis in NEXT:
         words.append(NEXT[axis])
     if os.path.exists(os.path.join(folder, "effects.json")):
         words.append("effects.json holds the effects that were found: give it to Camera Simulator as its Effect File, or to "

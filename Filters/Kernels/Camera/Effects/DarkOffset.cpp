@@ -59,7 +59,7 @@ Effect darkOffset()
     "Dark current, bias or ambient light that the dark frame did not take away.",
     EffectStage::Detector, EffectNeed::Nothing,
     { { "common", "u + offset", { offset } },
-      { "per_channel", "u_k + offset_k", { offset.ofChannels() } },
+      { "per_channel", "u_k + offset_k", { offset.ofChannels() }, {}, FormTrait::Adds },
       { "plane",
         "u_k + offset_k + along_x_k x + along_y_k y: light that does not come from the scene, more "
         "of it on one side",

@@ -144,6 +144,9 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
     for (const ImageTerm& term : choice->terms)
     {
       const ImageNumber& kind = numberOf(term.parameter);
+      // An offset is over the counts of white, which follow the light and the exposure.
+      const bool mayFollowCurve = choice->effect->stage == EffectStage::Image ||
+        term.followsLight || kind.axes == ImageAxis::Channel;
       for (Eigen::Index k = 0; k < (term.perChannel ? model.channels() : 1); ++k)
       {
         const double deviation = model.at(term.parameter, k) - kind.neutral;
@@ -151,8 +154,7 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
           { { term.parameter, term.perChannel, hasCommonForm, deviation, term.typical, 0.0,
               term.lower - kind.neutral, term.upper - kind.neutral,
               kind.pull == ImagePull::Neutral ? 0.0 : deviation, kind.pull == ImagePull::Itself,
-              choice->effect->stage == EffectStage::Image || term.followsLight,
-              term.mayEnd || term.name.empty() },
+              mayFollowCurve, term.mayEnd || term.name.empty() },
             &term, term.perChannel ? k : -1 });
       }
     }

@@ -25,8 +25,11 @@ namespace msi
 namespace
 {
 constexpr double FewUsable = 0.5;
-constexpr double MostlyExplained = 0.5; // of the gap
-constexpr int RasterSide = 32;          // on which an image is looked at as a whole
+constexpr double WorthTelling = 1e-5;     // of the values
+constexpr double MostlyExplained = 0.5;   // of the gap
+constexpr double MiddleLevel = 0.5;       // of white
+constexpr double SharedByChannels = 0.25; // of the variance
+constexpr int RasterSide = 32;            // on which an image is looked at as a whole
 
 // Sets of an image pair that are kept on the way, and options fitted in full for each: previews are cross-validated and good.
 constexpr int PairBeamWidth = 2;
@@ -216,7 +219,7 @@ Eigen::MatrixXd rasterOf(const FieldPair& pair, const float* image, int width, i
 }
 
 // together: that the images go together at all is known.
-std::string mixUpOf(const FieldData& data, bool together)
+MixUp mixUpOf(const FieldData& data, bool together)
 {
   const FieldPair& pair = data.pair;
   const int width = std::min(RasterSide, pair.extent.width);
@@ -231,12 +234,54 @@ std::string mixUpOf(const FieldData& data, bool together)
     real, rasterOf(pair, pair.simulated, width, height), arrangements, pair.channels, {}, together);
 }
 
+// A tenth of the noise of both images, in some channel.
+bool hasSceneNoise(const FieldWeights& weights)
+{
+  for (std::size_t k = 0; k < weights.noise.size(); ++k)
+  {
+    const double both = noiseVariance(weights.noise[k], MiddleLevel);
+    if (weights.sceneNoise[k] > Decision::SmallPart * Decision::SmallPart * both)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Mean correlation of two channels' residuals from one pixel to the next.
+double sharedNoise(const FieldData& data, const FieldModel& model)
+{
+  const std::vector<FieldResidual> residuals = fieldResiduals(data, model, true);
+  const Eigen::Index K = data.channels();
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(K, K);
+  for (std::size_t b = 0; b < data.blocks.size(); ++b)
+  {
+    const ImageWindow& window = data.blocks[b].window;
+    Eigen::ArrayXXd left =
+      Eigen::ArrayXXd::Constant(window.pixels(), K, std::numeric_limits<double>::quiet_NaN());
+    for (Eigen::Index k = 0; k < K; ++k)
+    {
+      const FieldResidual& residual = residuals[b * K + k];
+      left.col(k)(residual.pixel) = residual.residual;
+    }
+    const Eigen::Index pairs = left.rows() - 1;
+    const Eigen::ArrayXXd steps = left.bottomRows(pairs) - left.topRows(pairs);
+    const Eigen::MatrixXd known = steps.isFinite().select(steps, 0.0);
+    products += known.transpose() * known;
+  }
+  const Eigen::VectorXd deviation = products.diagonal().cwiseSqrt().cwiseMax(1e-30);
+  const Eigen::MatrixXd correlation =
+    deviation.cwiseInverse().asDiagonal() * products * deviation.cwiseInverse().asDiagonal();
+  const double others = static_cast<double>(K * (K - 1));
+  return K > 1 ? (correlation.sum() - correlation.trace()) / others : 0.0;
+}
+
 std::vector<std::string> notesOn(const FieldData& data, const FieldFinding& finding,
-  const std::vector<FieldChoice>& choices, double shrink)
+  const std::vector<FieldChoice>& choices, const std::string& mixedUp)
 {
   std::vector<std::string> notes;
-  for (std::string note : { deadChannelsNote(data.dead, data.pair.channels, ", and takes no part"),
-         mixUpOf(data, shrink > MostlyExplained) })
+  for (std::string note :
+    { deadChannelsNote(data.dead, data.pair.channels, ", and takes no part"), mixedUp })
   {
     if (!note.empty())
     {
@@ -253,17 +298,24 @@ std::vector<std::string> notesOn(const FieldData& data, const FieldFinding& find
       " % of the pixels is 0 in all channels of one image, as registration leaves it, and takes no "
       "part"));
   }
-  if (data.defectPart > 0.0)
+  if (data.defectPart > WorthTelling)
   {
     notes.push_back(textOf(2, "in the real image ", 100.0 * data.defectPart,
       " % of the values looked at stand out from all of their neighbours, as those of hot and dead "
       "pixels do, and take no part"));
   }
-  if ((finding.weights.sceneNoise > 0.0).any())
+  if (hasSceneNoise(finding.weights))
   {
     notes.push_back(textOf(2, "the simulated image has noise of its own, ",
       std::sqrt(finding.weights.sceneNoise.maxCoeff()),
       " of white; blur and stray light get no credit for taking it away"));
+  }
+  if (const double shared = sharedNoise(data, finding.after().model); shared > SharedByChannels)
+  {
+    notes.push_back(textOf(2, "Noise? ", 100.0 * shared,
+      " % of what differs from pixel to pixel is the same in all channels, and counts as noise "
+      "here: the gain of the pixels (no flat field), dust, compression, or detail that the "
+      "simulated scene lacks. The mean of several captures tells it from noise"));
   }
   const FieldSet& set = finding.set();
   for (const std::string& effect : indistinctEffects(data, finding.before(), choices))
@@ -397,6 +449,8 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     evidence.noticed = finding.set().empty() ? 1.0 : 0.0;
     gap->model = finding.before().model;
   }
+  const MixUp mixedUp = mixUpOf(data, report.gap.shrink > MostlyExplained);
+  evidence.explained = mixedUp.ofAll ? 0.0 : evidence.explained;
   const std::vector<Explanation> explanations =
     conclude(report, *finding.observation, finding.found, evidence, options.seed);
   if (report.verdict != GapVerdict::NoGap)
@@ -404,7 +458,7 @@ std::optional<FieldGap> diagnose(const FieldData& data, const std::vector<FieldC
     addRest(*gap, data, finding.weights, options);
   }
   report.nextCaptures = separatingCaptures(explanations, inQuestion(report.causes));
-  report.notes = notesOn(data, finding, choices, report.gap.shrink);
+  report.notes = notesOn(data, finding, choices, mixedUp.question);
   noteDoubts(report.notes, report);
   say(1.0, "done");
   return gap;

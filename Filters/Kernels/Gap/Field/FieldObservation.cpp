@@ -277,6 +277,11 @@ FitPointer FieldObservation::described(FieldHypothesis hypothesis) const
 {
   auto described = std::make_shared<FieldObservedFit>();
   describe(*described, hypothesis.set, hypothesis.fit);
+  for (const FieldChoice* choice : hypothesis.set)
+  {
+    described->atBound =
+      described->atBound || (isProfile(*choice) && isSlow(*choice, hypothesis.fit.next));
+  }
   described->hypothesis = std::move(hypothesis);
   return described;
 }

@@ -469,17 +469,40 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile)
   return sines;
 }
 
+namespace
+{
+// Lines x K.
+Eigen::ArrayXXd profileOf(const FieldChoice& choice, const FieldModel& model)
+{
+  const FieldProfile& profile = *model.stripes(isOfRows(choice)).profile;
+  return (isOffset(choice) ? profile.offset : profile.gain).back().rowwise() *
+    model[choice.terms.front().parameter].transpose();
+}
+}
+
+bool isSlow(const FieldChoice& profile, const FieldModel& model)
+{
+  const Eigen::ArrayXXd values = profileOf(profile, model);
+  const Eigen::Index lines = values.rows();
+  const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(lines, 0.5, lines - 0.5) / lines;
+  double slow = 0.0;
+  for (int halfCycles = 1; halfCycles < 8; ++halfCycles)
+  {
+    const Eigen::VectorXd wave = (0.5 * TwoPi * halfCycles * place).cos() * std::sqrt(2.0 / lines);
+    slow += (wave.transpose() * values.matrix()).squaredNorm();
+  }
+  return slow > 0.5 * values.square().sum();
+}
+
 BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model)
 {
+  if (isProfile(choice))
+  {
+    return nearestSines(profileOf(choice, model));
+  }
   const FieldStripes& stripes = model.stripes(isOfRows(choice));
   const ImageParameter first = choice.terms.front().parameter;
   const Eigen::Index K = model[first].size();
-  if (isProfile(choice))
-  {
-    const FieldProfile& profile = *stripes.profile;
-    return nearestSines((isOffset(choice) ? profile.offset : profile.gain).back().rowwise() *
-      model[first].transpose());
-  }
   BandingSines sines = noSines(K, 1);
   sines.period = stripes.period;
   for (Eigen::Index k = 0; k < K; ++k)

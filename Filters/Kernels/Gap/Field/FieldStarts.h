@@ -56,4 +56,7 @@ BandingSines nearestSines(const Eigen::ArrayXXd& profile);
 // Those of a choice of banding: its own, or the nearest to its profile.
 BandingSines bandingSines(const FieldChoice& choice, const FieldModel& model);
 
+// Whether a profile has most of its energy in waves with fewer than four cycles over the image: light may as well be that uneven.
+bool isSlow(const FieldChoice& profile, const FieldModel& model);
+
 } // namespace msi

@@ -139,7 +139,8 @@ std::vector<FreeParameter> EffectSet::freeParameters(const CameraModel& camera) 
                        parameter.lower - neutral, parameter.upper - neutral },
       e, index, channel, &parameter, name });
     free.back().deviation = value(free.back()) - neutral;
-    free.back().mayFollowCurve = parameter.followsLight;
+    free.back().mayFollowCurve =
+      parameter.followsLight || (e < choices.size() && choices[e].form->has(FormTrait::Adds));
   };
   for (std::size_t e = 0; e < effects.size(); ++e)
   {

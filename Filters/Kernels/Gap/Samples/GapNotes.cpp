@@ -182,8 +182,9 @@ void noteSamples(std::vector<std::string>& notes, const GapData& data, const Gap
   }
   if (static_cast<std::size_t>(usable) < std::max<std::size_t>(parameters, 20))
   {
-    notes.push_back(textOf(
-      3, usable, " samples are few for ", parameters, " parameters: expect wide intervals."));
+    notes.push_back(textOf(3, usable, " samples are few",
+      parameters > 0 ? textOf(3, " for ", parameters, " parameters") : "",
+      ": expect wide intervals."));
   }
   const Eigen::ArrayXXd r = data.scene.reflectance()(Eigen::all, data.usable);
   const Eigen::Array<double, 1, Eigen::Dynamic> mean = r.colwise().mean();
@@ -235,7 +236,8 @@ void noteSaturation(std::vector<std::string>& notes, const GapData& data)
   const double top = data.observed.maxCoeff();
   const Eigen::Index equal =
     (data.measured() && data.observed.array() >= top - 1e-6 * std::fabs(top)).count();
-  if (static_cast<double>(equal) > ClippedReadings * static_cast<double>(data.elements))
+  if (equal > 1 &&
+    static_cast<double>(equal) > ClippedReadings * static_cast<double>(data.elements))
   {
     notes.push_back(textOf(3, equal, " readings share the largest value ", top,
       ": they look clipped and say little about any other effect."));
@@ -344,7 +346,7 @@ void addExcessNoise(
   believe(report, std::move(beliefs));
 }
 
-std::string mixUpOf(const GapData& data)
+MixUp mixUpOf(const GapData& data)
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Arrangement> arrangements = data.scene.hasPositions()

@@ -1,6 +1,7 @@
 // What the report says in words, and about the noise itself.
 #pragma once
 
+#include "Kernels/Doubts/MixUps.h"
 #include "Kernels/Gap/GapReport.h"
 #include "Kernels/Gap/Samples/GapData.h"
 #include "Kernels/Gap/Samples/GapNoise.h"
@@ -29,7 +30,7 @@ void addExcessNoise(
   GapReport& report, const GapData& data, const NoiseFinding& noise, const ExcessNoise& excess);
 
 // mixUp() of samples, channels and places.
-std::string mixUpOf(const GapData& data);
+MixUp mixUpOf(const GapData& data);
 
 // What the report says of the elements that are left out. consequence: " left out".
 std::string oddElementsNote(const GapData& data, const std::string& consequence);

@@ -16,6 +16,7 @@ constexpr double MuchBetter = 0.25;    // of the squares left
 constexpr double HardlyTogether = 0.5; // squared correlation
 constexpr double Outlier = 6.0;        // deviations of the usual one
 constexpr double Dead = 0.01;      // variance over that of the others, each over what is simulated
+constexpr double Rounding = 1e-9;  // of the squares
 constexpr double SamePlace = 1e-3; // squared distance
 constexpr std::size_t PairsNamed = 3;
 constexpr Eigen::Index FewestCopied = 4; // values that are the same
@@ -166,6 +167,12 @@ MixUp betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& sim
 {
   const bool images = columns.empty();
   const std::vector<PairSums> asTold = sumsOfChannels(observed, simulated);
+  const double squares = std::accumulate(asTold.begin(), asTold.end(), 0.0,
+    [](double sum, const PairSums& channel) { return sum + channel.realSquares; });
+  if (leftOf(asTold) <= Rounding * squares)
+  {
+    return {};
+  }
   double least = MuchBetter * leftOf(asTold);
   std::string found;
   for (const Arrangement& arrangement : arrangements)

@@ -937,4 +937,28 @@ TEST(SimToRealGap, AChartTurnedByHalfATurnIsMixedUp)
   EXPECT_TRUE(says(diagnosisOf(capture).notes, "Mixed up? The samples fit much better in reverse"));
 }
 
+// Filters that moved by a whole filter would explain them as well.
+TEST(SimToRealGap, ExchangedChannelsPutTheCausesInDoubt)
+{
+  msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 0.9 } } });
+  EXPECT_LT(diagnosisOf(capture).probabilityOf("unknown"), 0.2);
+  capture.readings.row(2).swap(capture.readings.row(3));
+  const msi::GapReport report = diagnosisOf(capture);
+  EXPECT_TRUE(says(report.notes, "fit much better when they are exchanged"));
+  EXPECT_EQ(report.verdict, GapVerdict::Unexplained);
+  EXPECT_GE(report.probabilityOf("unknown"), 0.75);
+}
+
+// Dark counts over those of white, as with a filter wheel whose exposures differ.
+TEST(SimToRealGap, OffsetsThatFollowTheExposureAreDark)
+{
+  msi::GapCapture capture = captureWith({});
+  const Eigen::Index channels = capture.readings.rows();
+  capture.readings.colwise() += Eigen::VectorXd::LinSpaced(channels, 0.03, 0.003);
+  const msi::GapReport report = diagnosisOf(capture);
+  ASSERT_FALSE(report.causes.empty());
+  EXPECT_EQ(report.causes.front().effect, "dark_offset");
+  EXPECT_LT(report.probabilityOf("unknown"), 0.2);
+}
+
 } // namespace

@@ -59,7 +59,7 @@ constexpr double UsablePart = 0.25;
 
 constexpr double MostMean = 2.0;    // white
 constexpr double OtherUnit = 5.0;   // times
-constexpr double SameScale = 0.25;  // relative; the next scale is 2.5 times as large at the least
+constexpr double SameScale = 0.125; // relative
 constexpr double Correlated = 0.25; // squared
 
 // Of each channel.

@@ -227,3 +227,28 @@ TEST(FieldMistakes, TheSameImageTwiceIsNoGap)
   EXPECT_EQ(report.verdict, GapVerdict::NoGap);
   EXPECT_GE(report.probabilityOf("nothing"), 0.9); // a number at all
 }
+
+// Dark counts over those of white, as with a filter wheel whose exposures differ: they follow a curve over the channels.
+TEST(FieldMistakes, ADarkFrameThatWasForgotten)
+{
+  const TestScene scene(68, 8, 120, 100);
+  const GapReport report = diagnose(changed(scene, 78,
+    [](double u, int k, int, int, double) { return u + 0.012 + 0.0012 * std::pow(k - 3.0, 2); }));
+  expectFirst(report, "dark_offset", "channel");
+  EXPECT_LT(report.probabilityOf("unknown"), 0.1);
+}
+
+// In one image the gain of the pixels looks like noise, but for what the channels share.
+TEST(FieldMistakes, APatternOfThePixelsIsToldOf)
+{
+  const TestScene scene(69);
+  const msi::CounterRandom random(6);
+  for (const double size : { 0.0, 0.03 })
+  {
+    const GapReport report = diagnose(changed(scene, 79,
+      [&](double u, int, int x, int y, double)
+      { return u * (1.0 + size * random.normal(static_cast<std::uint64_t>(1000 * y + x))); }));
+    SCOPED_TRACE(describe(report));
+    EXPECT_EQ(says(report, "is the same in all channels, and counts as noise"), size > 0.0);
+  }
+}

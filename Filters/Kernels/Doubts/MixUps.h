@@ -34,8 +34,8 @@ std::string deadChannelsNote(const std::vector<Eigen::Index>& dead,
 struct MixUp
 {
   std::string question; // empty: nothing
-  bool ofAll =
-    false; // channels, or all samples or places, are others than told: whatever explains the gap otherwise is in doubt
+  // Channels, or all samples or places, are others than told: whatever explains the gap otherwise is in doubt.
+  bool ofAll = false;
 };
 // In words, which channel is dead, else which have the same values, else what fits much better than as told: a quarter of the
 // squares left, after a gain of each channel. Empty: nothing.

@@ -48,8 +48,7 @@ public:
   SparseMatrix information;   // their normal matrix without prior; unit dispersion
   double surprise = 0.0;      // LearnedPrior::surprise
   double chanceOfCurve = 1.0; // LearnedPrior::chanceOfCurve
-  bool atBound =
-    false; // a parameter lies at the end of its range, stripes are as wide as the image
+  bool atBound = false;       // a parameter lies at the end of its range, or stripes are slow
 };
 using FitPointer = std::shared_ptr<const ObservedFit>;
 

@@ -248,7 +248,7 @@ bool hasSceneNoise(const FieldWeights& weights)
   return false;
 }
 
-// Mean correlation of two channels' residuals from one pixel to the next.
+// Mean correlation of what two channels leave, from one pixel to the next.
 double sharedNoise(const FieldData& data, const FieldModel& model)
 {
   const std::vector<FieldResidual> residuals = fieldResiduals(data, model, true);

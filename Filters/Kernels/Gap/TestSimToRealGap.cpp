@@ -278,7 +278,7 @@ TEST(SimToRealGap, SaturationMayBeAtALevelOfEachChannel)
   }
 }
 
-TEST(SimToRealGap, TwoEffectsShareTheGap)
+TEST(CausesOfAGap, TwoEffectsShareTheGap)
 {
   const msi::GapReport report = diagnosisOf(captureWith(
     { { "illumination_gradient", "", "", { 0.05, 0.0 } }, { "dark_offset", "", "", { 0.01 } } }));
@@ -297,7 +297,7 @@ TEST(SimToRealGap, TwoEffectsShareTheGap)
 }
 
 // Responses in another unit, or another exposure, of all channels or of each: a gradient of 5 % is a fiftieth of that gap.
-TEST(SimToRealGap, ALargeGainHidesNothing)
+TEST(CausesOfAGap, ALargeGainHidesNothing)
 {
   const msi::CameraEffect gradient{ "illumination_gradient", "", "", { 0.05, 0.0 } };
   for (const msi::CameraEffect& gain : { msi::CameraEffect{ "exposure_gain", "", "", { 0.4 } },
@@ -319,7 +319,7 @@ TEST(SimToRealGap, ALargeGainHidesNothing)
 
 // A Gaussian passband times an exponential of the wavelength is the passband moved: with white balanced again a tilt of the
 // lamp and a small shift of the filters do the same.
-TEST(SimToRealGap, WhatIsTheSameForGaussianPassbandsIsSaidToBe)
+TEST(CausesOfAGap, WhatIsTheSameForGaussianPassbandsIsSaidToBe)
 {
   const msi::GapReport report = diagnosisOf(captureWith({ { "filter_shift", "", "", { 1.0 } } }));
   ASSERT_EQ(report.verdict, GapVerdict::Explained);
@@ -349,7 +349,7 @@ void curveBehindLinearFit(msi::GapCapture& capture, double square)
   }
 }
 
-TEST(SimToRealGap, ACurveBehindALinearFitIsOneCause)
+TEST(CausesOfAGap, ACurveBehindALinearFitIsOneCause)
 {
   msi::GapCapture capture = captureWith({}, 96);
   curveBehindLinearFit(capture, 0.1);
@@ -362,7 +362,7 @@ TEST(SimToRealGap, ACurveBehindALinearFitIsOneCause)
 }
 
 // How the simulated camera was made is said after what is new, however much of the gap it is.
-TEST(SimToRealGap, ACurveBehindALinearFitComesAfterWhatHasChanged)
+TEST(CausesOfAGap, ACurveBehindALinearFitComesAfterWhatHasChanged)
 {
   msi::GapCapture capture = captureWith({ { "dark_offset", "", "", { 0.002 } } }, 96);
   curveBehindLinearFit(capture, 0.1);
@@ -374,7 +374,7 @@ TEST(SimToRealGap, ACurveBehindALinearFitComesAfterWhatHasChanged)
 }
 
 // The detector has changed its curve since the camera was fitted as linear: one effect, and no offset to mend it.
-TEST(SimToRealGap, ACurveMayChangeBehindALinearFit)
+TEST(CausesOfAGap, ACurveMayChangeBehindALinearFit)
 {
   msi::GapCapture capture = captureWith({}, 96);
   curveBehindLinearFit(capture, 0.1);
@@ -391,7 +391,7 @@ TEST(SimToRealGap, ACurveMayChangeBehindALinearFit)
 }
 
 // With one medium a gain of the medium and of the exposure are the same numbers.
-TEST(SimToRealGap, WhatThisCaptureCannotTellApartIsSaid)
+TEST(CausesOfAGap, WhatThisCaptureCannotTellApartIsSaid)
 {
   msi::SceneSamples samples = rasterSamples(96);
   samples.medium.assign(96, "paper");
@@ -416,7 +416,7 @@ TEST(SimToRealGap, WhatThisCaptureCannotTellApartIsSaid)
 }
 
 // Responsivities that alternate where no sample looks, as a fit with little regularization leaves them, answer to the samples alike.
-TEST(SimToRealGap, AFitThatAlternatesHidesNoGap)
+TEST(CausesOfAGap, AFitThatAlternatesHidesNoGap)
 {
   msi::GapCapture capture =
     captureWith({ { "channel_gain", "", "", { 1.03, 0.98, 1.0, 1.04, 0.97, 1.01, 0.96 } } }, 96);
@@ -437,7 +437,7 @@ TEST(SimToRealGap, AFitThatAlternatesHidesNoGap)
   EXPECT_TRUE(says(report.notes, "7 of 7 channels have responsivities that are negative in part"));
 }
 
-TEST(SimToRealGap, ACameraFarFromWhiteIsSaid)
+TEST(CausesOfAGap, ACameraFarFromWhiteIsSaid)
 {
   const msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } }, 96);
   EXPECT_FALSE(says(diagnosisOf(capture).notes, "to a perfect white"));
@@ -448,7 +448,7 @@ TEST(SimToRealGap, ACameraFarFromWhiteIsSaid)
   EXPECT_TRUE(says(diagnosisOf(quarter).notes, "answers 0.25 to a perfect white"));
 }
 
-TEST(SimToRealGap, CurvesInOtherUnitsThanTheReadingsAreSaid)
+TEST(CausesOfAGap, CurvesInOtherUnitsThanTheReadingsAreSaid)
 {
   msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 1.05 } } }, 96);
   const Eigen::MatrixXd curves = capture.camera.responsivity();
@@ -458,7 +458,7 @@ TEST(SimToRealGap, CurvesInOtherUnitsThanTheReadingsAreSaid)
   EXPECT_TRUE(says(diagnosisOf(capture).notes, "Units? The curves of the simulated camera give"));
 }
 
-TEST(SimToRealGap, ALidWithoutAPlaceLeavesTheChartItsPlaces)
+TEST(CausesOfAGap, ALidWithoutAPlaceLeavesTheChartItsPlaces)
 {
   const msi::SceneSamples chart = rasterSamples(96);
   msi::SceneSamples lid;
@@ -479,7 +479,7 @@ TEST(SimToRealGap, ALidWithoutAPlaceLeavesTheChartItsPlaces)
 }
 
 // A gain of its own for each sample: in no library.
-TEST(SimToRealGap, UnknownIsCalledUnknown)
+TEST(DoubtsOfAGap, UnknownIsCalledUnknown)
 {
   msi::GapCapture capture = captureWith({});
   for (Eigen::Index j = 0; j < capture.readings.cols(); ++j)
@@ -499,7 +499,7 @@ TEST(SimToRealGap, UnknownIsCalledUnknown)
   EXPECT_EQ(report.where.front().axis, "sample");
 }
 
-TEST(SimToRealGap, AnEffectLeftOutIsNotBlamed)
+TEST(DoubtsOfAGap, AnEffectLeftOutIsNotBlamed)
 {
   const msi::GapCapture capture =
     captureWith({ { "illumination_gradient", "", "", { 0.06, 0.02 } } });
@@ -517,7 +517,7 @@ TEST(SimToRealGap, AnEffectLeftOutIsNotBlamed)
   EXPECT_EQ(report.where.front().axis, "position");
 }
 
-TEST(SimToRealGap, ScatterBeyondTheNoiseModelIsExcessNoise)
+TEST(DoubtsOfAGap, ScatterBeyondTheNoiseModelIsExcessNoise)
 {
   msi::GapCapture capture = captureOf(rasterSamples(96), {}, 4, 0.002);
   capture.noise = msi::CameraNoise{ 0.001, 0.0 };
@@ -539,7 +539,7 @@ TEST(SimToRealGap, ScatterBeyondTheNoiseModelIsExcessNoise)
 }
 
 // Scatter of single readings beyond the noise model may be noise, or not: what a cause leaves to it is in doubt.
-TEST(SimToRealGap, WhatACauseLeavesToScatterIsInDoubt)
+TEST(DoubtsOfAGap, WhatACauseLeavesToScatterIsInDoubt)
 {
   const auto unknownBeside = [](double readNoise)
   {
@@ -560,7 +560,7 @@ TEST(SimToRealGap, WhatACauseLeavesToScatterIsInDoubt)
 }
 
 // Without a noise model and repeats all that nothing predicts is taken for noise; it may be something else.
-TEST(SimToRealGap, WhatIsTakenForNoiseIsInDoubt)
+TEST(DoubtsOfAGap, WhatIsTakenForNoiseIsInDoubt)
 {
   const auto diagnosed = [](double readNoise, bool known)
   {
@@ -585,7 +585,7 @@ TEST(SimToRealGap, WhatIsTakenForNoiseIsInDoubt)
   EXPECT_GT(taken.probabilityOf("unknown"), 3.0 * unsure / (1.0 + 3.0 * unsure) - 0.02);
 }
 
-TEST(SimToRealGap, TheSameBytesOnManyThreadsAndOne)
+TEST(DoubtsOfAGap, TheSameBytesOnManyThreadsAndOne)
 {
   const msi::GapCapture capture = captureWith({ { "medium_gain", "", "fabric", { 0.94 } } }, 48);
   const msi::GapReport alone = diagnosisOf(capture);
@@ -626,7 +626,7 @@ TEST(SimToRealGap, TheSameBytesOnManyThreadsAndOne)
 }
 
 // Two effects of the surface can imitate a third to the last: r (1 - p) / (1 - p r) is a gain and a loss that grows with r.
-TEST(SimToRealGap, DoubtsTwoAlikeEffectsOfOneMedium)
+TEST(DoubtsOfAGap, DoubtsTwoAlikeEffectsOfOneMedium)
 {
   msi::GapOptions options;
   options.without = { "interreflection" };
@@ -639,14 +639,14 @@ TEST(SimToRealGap, DoubtsTwoAlikeEffectsOfOneMedium)
   }
 }
 
-TEST(SimToRealGap, StopsWhenAskedTo)
+TEST(DoubtsOfAGap, StopsWhenAskedTo)
 {
   msi::GapOptions options;
   options.progress = [](double, const char*) { return false; };
   EXPECT_FALSE(msi::diagnoseGap(captureWith({}, 24), options).has_value());
 }
 
-TEST(SimToRealGap, RefusesWhatDisagreesAndSaysWhat)
+TEST(DoubtsOfAGap, RefusesWhatDisagreesAndSaysWhat)
 {
   const auto message = [](const auto& change)
   {
@@ -685,7 +685,7 @@ TEST(DegenerateCapture, OneReadingAndNoNoiseModel)
 }
 
 // Channels are read one by one: their noise is independent, a sample's own gain is not.
-TEST(SimToRealGap, WithoutNoiseModelWhatChannelsShareIsAGap)
+TEST(DoubtsOfAGap, WithoutNoiseModelWhatChannelsShareIsAGap)
 {
   msi::GapCapture capture = captureOf(rasterSamples(96), {}, 1, 0.01);
   capture.noise.reset();
@@ -925,7 +925,7 @@ TEST(DegenerateCapture, ImpossibleReadingsGiveNumbersOrAnError)
   }
 }
 
-TEST(SimToRealGap, AChartTurnedByHalfATurnIsMixedUp)
+TEST(MisreadCapture, AChartTurnedByHalfATurnIsMixedUp)
 {
   msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 0.9 } } });
   EXPECT_FALSE(says(diagnosisOf(capture).notes, "Mixed up?"));
@@ -938,7 +938,7 @@ TEST(SimToRealGap, AChartTurnedByHalfATurnIsMixedUp)
 }
 
 // Filters that moved by a whole filter would explain them as well.
-TEST(SimToRealGap, ExchangedChannelsPutTheCausesInDoubt)
+TEST(MisreadCapture, ExchangedChannelsPutTheCausesInDoubt)
 {
   msi::GapCapture capture = captureWith({ { "exposure_gain", "", "", { 0.9 } } });
   EXPECT_LT(diagnosisOf(capture).probabilityOf("unknown"), 0.2);
@@ -950,7 +950,7 @@ TEST(SimToRealGap, ExchangedChannelsPutTheCausesInDoubt)
 }
 
 // Dark counts over those of white, as with a filter wheel whose exposures differ.
-TEST(SimToRealGap, OffsetsThatFollowTheExposureAreDark)
+TEST(MisreadCapture, OffsetsThatFollowTheExposureAreDark)
 {
   msi::GapCapture capture = captureWith({});
   const Eigen::Index channels = capture.readings.rows();

@@ -169,19 +169,20 @@ MixUp betterThanTold(const Eigen::MatrixXd& observed, const Eigen::MatrixXd& sim
   const std::vector<PairSums> asTold = sumsOfChannels(observed, simulated);
   const double squares = std::accumulate(asTold.begin(), asTold.end(), 0.0,
     [](double sum, const PairSums& channel) { return sum + channel.realSquares; });
-  if (leftOf(asTold) <= Rounding * squares)
+  const double left = leftOf(asTold);
+  if (left <= Rounding * squares)
   {
     return {};
   }
-  double least = MuchBetter * leftOf(asTold);
+  double least = MuchBetter * left;
   std::string found;
   for (const Arrangement& arrangement : arrangements)
   {
-    const double left =
+    const double other =
       leftOf(sumsOfChannels(observed, simulated(Eigen::all, arrangement.instead)));
-    if (left < least)
+    if (other < least)
     {
-      least = left;
+      least = other;
       found = (images ? "The real image fits" : "The samples fit") + std::string(" much better ") +
         arrangement.what + ".";
     }

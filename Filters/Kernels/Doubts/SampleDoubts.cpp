@@ -80,7 +80,7 @@ std::string oddQuestion(
 }
 
 // Channels that are the same in every sample.
-std::vector<Eigen::Index> deadChannels(const Eigen::MatrixXd& responses)
+std::vector<Eigen::Index> constantChannels(const Eigen::MatrixXd& responses)
 {
   std::vector<Eigen::Index> dead;
   for (Eigen::Index k = 0; responses.cols() > 1 && k < responses.rows(); ++k)
@@ -101,7 +101,7 @@ std::string deadQuestion(const NamedSamples& samples, const std::vector<std::str
     return {}; // as they should be
   }
   std::ostringstream text;
-  for (const Eigen::Index k : deadChannels(samples.set.response))
+  for (const Eigen::Index k : constantChannels(samples.set.response))
   {
     text << (text.tellp() > 0 ? ", " : "Dead? Channel ") << channels[static_cast<std::size_t>(k)]
          << " is " << samples.set.response(k, 0);
@@ -325,8 +325,8 @@ std::vector<std::string> doubtsOf(const NamedSamples& chartInAll,
   ask(medium, deadQuestion(medium, allChannels));
   ask(medium, twiceQuestion(medium, chart.set));
   // From here on without the dead channels.
-  std::vector<Eigen::Index> dead = deadChannels(chart.set.response);
-  const std::vector<Eigen::Index> deadOfMedium = deadChannels(medium.set.response);
+  std::vector<Eigen::Index> dead = constantChannels(chart.set.response);
+  const std::vector<Eigen::Index> deadOfMedium = constantChannels(medium.set.response);
   dead.insert(dead.end(), deadOfMedium.begin(), deadOfMedium.end());
   std::vector<Eigen::Index> alive;
   std::vector<std::string> channels;

@@ -141,12 +141,12 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
   for (const FieldChoice* choice : set)
   {
     const bool hasCommonForm = choice->effect->hasCommonForm();
+    const bool isPattern = choice->effect->stage == EffectStage::Image;
+    // An offset is over the counts of white, which follow the light and the exposure.
+    const bool adds = findForm(*choice->effect, choice->form)->has(FormTrait::Adds);
     for (const ImageTerm& term : choice->terms)
     {
       const ImageNumber& kind = numberOf(term.parameter);
-      // An offset is over the counts of white, which follow the light and the exposure.
-      const bool mayFollowCurve = choice->effect->stage == EffectStage::Image ||
-        term.followsLight || kind.axes == ImageAxis::Channel;
       for (Eigen::Index k = 0; k < (term.perChannel ? model.channels() : 1); ++k)
       {
         const double deviation = model.at(term.parameter, k) - kind.neutral;
@@ -154,7 +154,7 @@ std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model)
           { { term.parameter, term.perChannel, hasCommonForm, deviation, term.typical, 0.0,
               term.lower - kind.neutral, term.upper - kind.neutral,
               kind.pull == ImagePull::Neutral ? 0.0 : deviation, kind.pull == ImagePull::Itself,
-              mayFollowCurve, term.mayEnd || term.name.empty() },
+              isPattern || adds || term.followsLight, term.mayEnd || term.name.empty() },
             &term, term.perChannel ? k : -1 });
       }
     }

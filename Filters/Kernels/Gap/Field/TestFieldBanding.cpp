@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -180,4 +183,29 @@ TEST(FieldGap, OneDeadColumnIsNoBanding)
   SCOPED_TRACE(describe(report));
   EXPECT_TRUE(report.causes.empty());
   EXPECT_EQ(report.verdict, GapVerdict::Unexplained);
+}
+
+// Uneven light does the same as stripes that are nearly as wide as the image.
+TEST(FieldStarts, StripesBelowFourCyclesAreSlow)
+{
+  const std::vector<msi::FieldChoice> choices = msi::fieldChoices({});
+  const auto profile = std::find_if(choices.begin(), choices.end(),
+    [](const msi::FieldChoice& choice)
+    { return msi::isProfile(choice) && msi::isOfRows(choice) && !msi::isOffset(choice); });
+  ASSERT_NE(profile, choices.end());
+  constexpr Eigen::Index Lines = 160;
+  const auto slowAt = [&](double cycles)
+  {
+    msi::FieldModel model(2);
+    model[profile->terms.front().parameter].setOnes();
+    const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(Lines, 0.5, Lines - 0.5) / Lines;
+    const Eigen::ArrayXXd values = (2.0 * Pi * cycles * place + 0.4).sin().replicate(1, 2);
+    model.stripes(true).profile =
+      std::make_shared<const msi::FieldProfile>(msi::FieldProfile{ { values }, { values } });
+    return msi::isSlow(*profile, model);
+  };
+  EXPECT_TRUE(slowAt(1.0));
+  EXPECT_TRUE(slowAt(3.0));
+  EXPECT_FALSE(slowAt(5.0));
+  EXPECT_FALSE(slowAt(20.0));
 }

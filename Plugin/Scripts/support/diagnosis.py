@@ -266,7 +266,7 @@ def uncredited_lines(figures, gap):
 
 
 def verdict_section(figures, causes, gap):
-    fits = figures["verdict"] == "partly explained" and figures["shrink"] >= FITS
+    fits = figures["verdict"] in ("partly explained", "unexplained") and figures["shrink"] >= FITS
     lines = [FITTED if fits else VERDICTS[figures["verdict"]], f"The gap: {far(figures, gap.held)}."]
     lines += mistakes(gap)
     lines += [f"{line}." for line in cause_lines(figures, causes, gap)]

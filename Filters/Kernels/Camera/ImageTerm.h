@@ -142,7 +142,7 @@ const PlacedStep& stepOf(ImageParameter parameter);
 // One number of an image form, or one for every channel.
 struct ImageTerm
 {
-  ImageParameter parameter; // in an effect's own file: place among its step's numbers
+  ImageParameter parameter; // in an effect's own file: place among the numbers of its steps
   bool perChannel;
   double lower, upper, typical;
   std::string name = {}; // of the form's parameter; empty: the library has no such number

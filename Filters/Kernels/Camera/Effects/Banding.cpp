@@ -189,7 +189,7 @@ Effect banding()
       { 0.0, ImageAxis::Rows }, { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns },
       { 0.0, ImageAxis::Columns }, { 0.0, ImageAxis::Columns } },
     StripesOfImage::stripe };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

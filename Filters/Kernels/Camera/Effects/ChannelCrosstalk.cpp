@@ -110,7 +110,7 @@ Effect channelCrosstalk()
       { "shared", { imageTerm(2, all) } } } };
   effect.makeBlock = makeBlockOperator<ChannelCrosstalk>;
   static const ImageStep step{ ImageStage::Exposure, { {}, {}, {} }, crosstalkStep };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

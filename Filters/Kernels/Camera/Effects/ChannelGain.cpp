@@ -14,7 +14,7 @@ Effect channelGain()
     EffectNeed::Nothing, { { "per_channel", "gain_k u_k", { gain }, {} } }, { "grey ramp", 5.0 },
     EffectTrait::Exact, { { "per_channel", { imageTerm(0, gain) } } } };
   effect.makeBlock = makeGain;
-  effect.onImage.step = &gainStep();
+  effect.onImage.steps = { &gainStep() };
   return effect;
 }
 

@@ -72,7 +72,7 @@ Effect darkOffset()
   static const ImageStep step{ ImageStage::Detector,
     { { 0.0, ImageAxis::Channel }, { 0.0, ImageAxis::Position }, { 0.0, ImageAxis::Position } },
     darkStep };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   effect.afterDark = true;
   return effect;
 }

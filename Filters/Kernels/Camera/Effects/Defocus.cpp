@@ -51,7 +51,7 @@ Effect defocus()
   { return gaussianKernel(bound.perChannel("blur")); };
   static const ImageStep step{ ImageStage::Scene, { { 0.0, ImageAxis::Edges } }, blurStep, {},
     nullptr, nullptr, blurVariance };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

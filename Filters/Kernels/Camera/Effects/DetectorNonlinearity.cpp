@@ -144,7 +144,7 @@ Effect detectorNonlinearity()
   effect.makeBlock = makeCurve;
   static const ImageStep step{ ImageStage::Detector,
     { { 0.0, ImageAxis::Level }, {}, {}, { 1.0 }, {} }, CurveOfImage::bend };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

@@ -82,7 +82,7 @@ Effect distortion()
   const ImageNumber edges{ 0.0, ImageAxis::Edges };
   static const ImageStep step{ ImageStage::Scene, { edges, edges, edges, edges, edges },
     DistortionOfImage::moved, {}, nullptr, DistortionOfImage::displace };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

@@ -27,7 +27,7 @@ enum class Surround
 // Changes a run of pixels from (x, y) to the right, K x P, in place. A pixel's bytes depend on the pixel alone.
 using PixelOperator = std::function<void(Eigen::Map<Eigen::MatrixXf> run, int x, int y)>;
 
-// `step` is what the diagnosis of image pairs does, and how the channels are moved. Of the others at most one is set: then they are
+// `steps` are what the diagnosis of image pairs does, and how the channels are moved. Of the others at most one is set: then they are
 // blurred, scattered, get light from elsewhere in the image, and change pixel by pixel.
 struct ImageFactories
 {
@@ -35,7 +35,7 @@ struct ImageFactories
   ScatterTail (*makeTail)(const BoundEffect&) = nullptr;
   LightFrom lightFrom = nullptr; // times the first parameter of the form
   PixelOperator (*makePixels)(const BoundEffect&) = nullptr;
-  const ImageStep* step = nullptr; // lives as long as the program
+  std::vector<const ImageStep*> steps = {}; // live as long as the program
 };
 
 // Of the first three factories exactly one is set, none for noise and effects of images alone.
@@ -50,7 +50,7 @@ struct Effect
   ImageFactories onImage = {};
 };
 
-// The term of an image form for a parameter of the library's form: the same name, bounds and size. number: in the effect's step.
+// The term of an image form for a parameter of the library's form: the same name, bounds and size. number: among those of the effect's steps.
 ImageTerm imageTerm(std::size_t number, const EffectParameter& of);
 
 // Of an effect with ImageFactories::lightFrom: its strength is the only number.

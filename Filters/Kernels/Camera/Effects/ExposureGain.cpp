@@ -15,7 +15,7 @@ Effect exposureGain()
     Captures::RepeatedWhite, EffectTrait::Exact | EffectTrait::CommonGain,
     { { "common", { imageTerm(0, gain) } } } };
   effect.makeBlock = makeGain;
-  effect.onImage.step = &gainStep();
+  effect.onImage.steps = { &gainStep() };
   return effect;
 }
 

@@ -29,7 +29,7 @@ Effect ghostReflection()
       { "per_channel", { imageTerm(0, strength.ofChannels()) } } } };
   effect.onImage.lightFrom = throughCenter;
   static const ImageStep step = stepOfLight();
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

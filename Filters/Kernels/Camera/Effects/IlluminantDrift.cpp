@@ -212,7 +212,7 @@ Effect illuminantDrift()
   }
   effect.makeResponsivity = makeResponsivityOperator<IlluminantDrift>;
   static const ImageStep step{ ImageStage::Detector, { {}, {}, {}, {} }, LampOfImage::shine };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

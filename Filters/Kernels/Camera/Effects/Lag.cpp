@@ -54,7 +54,7 @@ Effect lag()
     { { "common", { imageTerm(0, retained) } }, { "conserving", { imageTerm(1, retained) } } } };
   effect.onImage.makePixels = makeLag;
   static const ImageStep step{ ImageStage::Exposure, { {}, {} }, lagStep };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

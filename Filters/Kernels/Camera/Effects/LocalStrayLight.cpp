@@ -199,7 +199,7 @@ Effect localStrayLight()
   effect.surround = Surround::Near;
   effect.onImage.makeTail = makeTail;
   static const ImageStep step = TailOfImage::stepOfTail();
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

@@ -91,7 +91,7 @@ Effect misregistration()
     { { 0.0, ImageAxis::Edges }, { 0.0, ImageAxis::Edges }, {}, {} }, MisregistrationOfImage::moved,
     {}, nullptr, MisregistrationOfImage::displace, nullptr, nullptr,
     MisregistrationOfImage::place };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

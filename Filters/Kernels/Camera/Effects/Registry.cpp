@@ -58,12 +58,13 @@ std::vector<PlacedStep> placedSteps(const std::vector<Effect>& effects)
   std::vector<PlacedStep> steps;
   for (const Effect& effect : effects)
   {
-    const ImageStep* step = effect.onImage.step;
-    if (step != nullptr &&
-      std::none_of(
-        steps.begin(), steps.end(), [step](const PlacedStep& other) { return other.step == step; }))
+    for (const ImageStep* step : effect.onImage.steps)
     {
-      steps.push_back({ step, effect.onImage.lightFrom, 0, 0 });
+      if (std::none_of(steps.begin(), steps.end(),
+            [step](const PlacedStep& other) { return other.step == step; }))
+      {
+        steps.push_back({ step, effect.onImage.lightFrom, 0, 0 });
+      }
     }
   }
   std::stable_sort(steps.begin(), steps.end(),
@@ -79,17 +80,25 @@ std::vector<PlacedStep> placedSteps(const std::vector<Effect>& effects)
 // Counts the numbers of image forms among those of all steps.
 void place(Effect& effect, const std::vector<PlacedStep>& steps)
 {
-  const auto own = std::find_if(steps.begin(), steps.end(),
-    [&effect](const PlacedStep& step) { return step.step == effect.onImage.step; });
-  if (own == steps.end() && !effect.definition.imageForms.empty())
+  std::vector<ImageParameter> numbers; // of the effect's steps
+  for (const ImageStep* own : effect.onImage.steps)
   {
-    throw std::logic_error(effect.definition.name + " has forms for images, but no step");
+    const auto placed = std::find_if(
+      steps.begin(), steps.end(), [own](const PlacedStep& step) { return step.step == own; });
+    for (std::size_t n = 0; n < own->numbers.size(); ++n)
+    {
+      numbers.push_back(placed->number + n);
+    }
   }
   for (ImageForm& form : effect.definition.imageForms)
   {
     for (ImageTerm& term : form.terms)
     {
-      term.parameter += own->number;
+      if (term.parameter >= numbers.size())
+      {
+        throw std::logic_error(effect.definition.name + " has a form for images, but no step");
+      }
+      term.parameter = numbers[term.parameter];
     }
   }
 }

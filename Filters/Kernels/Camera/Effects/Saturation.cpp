@@ -165,7 +165,7 @@ Effect saturation()
     { { 0.0, ImageAxis::Level }, { Image::NeutralLevel, ImageAxis::None, ImagePull::Found },
       { Image::Sharp, ImageAxis::None, ImagePull::Kept } },
     Image::clip };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   effect.afterDark = true;
   return effect;
 }

@@ -47,6 +47,29 @@ TEST(IlluminationGradient, BentItIsTheInverseSquareOfADistance)
   }
 }
 
+// 0.1 P_2(x) P_1(y) - 0.2 (P_6(y) - P_6(0)), of the standard library.
+TEST(IlluminationGradient, MayHaveAnyShape)
+{
+  CameraEffect light =
+    msi::neutralEffect("illumination_gradient", sevenChannels().channels(), "any_shape");
+  const std::vector<msi::EffectParameter> names =
+    msi::effectParameters(light, sevenChannels().channels());
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    light.parameters[i] = names[i].name == "order_2_1" ? 0.1
+      : names[i].name == "order_0_6"                   ? -0.2
+                                                       : 0.0;
+  }
+  const Eigen::MatrixXd u = respondToFlat(White, light);
+  // Eight columns, six rows; the third of these is in the middle of the upper half.
+  const double x = 1.0 - 2.0 / 7.0 * 2.0;
+  const double y = -25.0 / 35.0;
+  EXPECT_NEAR(u(3, 5),
+    1.0 + 0.1 * std::legendre(2, x) * std::legendre(1, y) -
+      0.2 * (std::legendre(6, y) - std::legendre(6, 0.0)),
+    1e-14);
+}
+
 // Seven channels.
 TEST(IlluminationGradient, MayDifferBetweenTheChannels)
 {

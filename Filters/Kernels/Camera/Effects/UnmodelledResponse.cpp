@@ -112,7 +112,7 @@ Effect unmodelledResponse()
     { "chart with other samples" }, EffectTrait::Remainder, { ofImage } };
   effect.makeBlock = makeBlockOperator<UnmodelledResponse>;
   static const ImageStep step{ ImageStage::Detector, std::vector<ImageNumber>(Down + 1), restStep };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   effect.afterDark = true;
   return effect;
 }

@@ -48,7 +48,7 @@ Effect veilingGlare()
   effect.makeStrayLight = [](const BoundEffect& bound)
   { return StrayLight(bound.perChannel("fraction"), bound.form().name != "conserving"); };
   static const ImageStep step{ ImageStage::Light, { {}, {} }, GlareOfImage::cover };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

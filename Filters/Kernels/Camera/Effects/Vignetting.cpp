@@ -147,7 +147,7 @@ Effect vignetting()
       { 0.0, ImageAxis::None, ImagePull::Itself } },
     VignettingOfImage::darken, { ImageAxis::None, ImageAxis::None, ImageAxis::None },
     VignettingOfImage::recentered };
-  effect.onImage.step = &step;
+  effect.onImage.steps = { &step };
   return effect;
 }
 

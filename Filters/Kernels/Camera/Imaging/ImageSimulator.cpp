@@ -110,10 +110,13 @@ struct ImageSimulator::Implementation
     for (const BoundEffect& effect : Chain.active())
     {
       const ImageFactories& make = registered(effect.definition()).onImage;
-      if (make.step != nullptr && make.step->displace != nullptr)
+      for (const ImageStep* step : make.steps)
       {
-        displacements.resize(static_cast<std::size_t>(channels()));
-        displace(effect, *make.step, displacements);
+        if (step->displace != nullptr)
+        {
+          displacements.resize(static_cast<std::size_t>(channels()));
+          displace(effect, *step, displacements);
+        }
       }
       if (make.makeBlur != nullptr)
       {

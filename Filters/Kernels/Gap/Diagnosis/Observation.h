@@ -52,7 +52,7 @@ public:
 };
 using FitPointer = std::shared_ptr<const ObservedFit>;
 
-// With one more option, after one linear step.
+// With one more option, or in the place of a plainer form, after one linear step.
 struct GapPreview
 {
   std::size_t option = 0;
@@ -75,7 +75,7 @@ public:
   double inexactEnergy(bool ofChannels) const { return InexactEnergy[ofChannels ? 1 : 0]; }
   const FitPointer& nominal() const noexcept { return Nominal; }
 
-  // Options whose effect the fit does not have.
+  // Options whose effect the fit does not have, or has in a plainer form.
   virtual std::vector<GapPreview> previews(const ObservedFit& from) const = 0;
   virtual FitPointer extended(const ObservedFit& from, const GapPreview& with) const = 0;
   // The positions of `from` whose bit is set.

@@ -142,8 +142,7 @@ private:
     std::vector<FitPointer> fits;
     for (const GapPreview& preview : promising(from, most))
     {
-      std::vector<std::size_t> set = from.set;
-      set.push_back(preview.option);
+      std::vector<std::size_t> set = preview.fit.set;
       std::sort(set.begin(), set.end());
       if (Tried.insert(set).second && !Stop())
       {

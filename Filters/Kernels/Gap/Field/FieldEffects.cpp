@@ -107,10 +107,26 @@ bool isOfRows(const FieldChoice& choice)
   return choice.form.rfind("row", 0) == 0;
 }
 
+bool extends(const FieldChoice& choice, const FieldChoice& other)
+{
+  return choice.effect == other.effect && choice.terms.size() > other.terms.size() &&
+    std::all_of(other.terms.begin(), other.terms.end(),
+      [&choice](const ImageTerm& term)
+      {
+        return std::any_of(choice.terms.begin(), choice.terms.end(),
+          [&term](const ImageTerm& own)
+          { return own.parameter == term.parameter && own.perChannel == term.perChannel; });
+      });
+}
+
 bool compatible(const FieldSet& set, const FieldChoice& choice)
 {
   for (const FieldChoice* other : set)
   {
+    if (extends(choice, *other))
+    {
+      continue;
+    }
     const bool bothBands =
       isBanding(*other) && isBanding(choice) && isOfRows(*other) != isOfRows(choice);
     if (other == &choice || (other->effect == choice.effect && !bothBands) ||

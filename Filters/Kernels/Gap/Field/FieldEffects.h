@@ -55,7 +55,9 @@ struct FieldNumber : FreeNumber
 // Where a model has them; those of shapes, which no prior pulls, want to stay there.
 std::vector<FieldNumber> numbersOf(const FieldSet& set, const FieldModel& model);
 
-// Neither the same effect nor parameters in common.
+// Whether a form has all numbers of another one of its effect, and more.
+bool extends(const FieldChoice& choice, const FieldChoice& other);
+// Neither the same effect nor parameters in common, but for forms that it extends.
 bool compatible(const FieldSet& set, const FieldChoice& choice);
 AskedSteps stepsOf(const FieldSet& set);
 

@@ -65,8 +65,12 @@ bool hasSine(const FieldSet& set, bool rows)
     { return isBanding(choice) && !isProfile(choice) && isOfRows(choice) == rows; });
 }
 
+// A form takes the place of a plainer one of the same effect.
 FieldSet joined(FieldSet set, const FieldChoice& choice)
 {
+  set.erase(std::remove_if(set.begin(), set.end(),
+              [&choice](const FieldChoice* other) { return extends(choice, *other); }),
+    set.end());
   set.push_back(&choice);
   return set;
 }

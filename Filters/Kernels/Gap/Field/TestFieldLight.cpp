@@ -129,6 +129,25 @@ TEST(FieldGap, GradientThatBends)
     report, "illumination_gradient", "turn", std::atan2(-0.1, 0.2) / msi::Degree, 4.0);
 }
 
+// Two lamps near the corners, and a card that keeps light from one side: no plane, no lens.
+TEST(FieldGap, LightOfNoSimpleShape)
+{
+  const auto light = [](double x, double y)
+  {
+    const auto spot = [=](double atX, double atY)
+    { return std::exp(-2.0 * (std::pow(x - atX, 2) + std::pow(y - atY, 2))); };
+    return 0.9 + 0.2 * spot(-0.9, -0.5) + 0.15 * spot(0.7, 0.6) -
+      0.1 / (1.0 + std::exp(-6.0 * (x - 0.6)));
+  };
+  const TestScene scene(66);
+  const GapReport report = diagnose(changed(scene, 76,
+    [&](double u, int, int x, int y, double)
+    { return u * light(scene.fieldX(x), scene.fieldY(y)) / light(0.0, 0.0); }));
+  expectFirst(report, "illumination_gradient", "position");
+  EXPECT_EQ(report.causes.front().form, "any_shape");
+  EXPECT_LT(report.probabilityOf("unknown"), 0.1);
+}
+
 // Seen against a white in the same light, the middle is too bright and the border too dark.
 TEST(FieldGap, FalloffAboutItsMean)
 {

@@ -156,6 +156,7 @@ std::vector<GapPreview> SampleObservation::previews(const ObservedFit& from) con
     numbers.push_back(option);
     GapPreview best;
     best.option = option;
+    best.fit.set = numbers;
     best.fit.energy = std::numeric_limits<double>::infinity();
     for (const std::vector<double>& start : starts)
     {

@@ -88,8 +88,9 @@ struct AnyShape
     {
       by[n] = values[n] * signal;
     }
-    signal *= factor(numbers, values);
-    return factor(numbers, values);
+    const double light = factor(numbers, values);
+    signal *= light;
+    return light;
   }
 };
 

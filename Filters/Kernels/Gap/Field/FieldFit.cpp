@@ -166,7 +166,7 @@ Eigen::VectorXd blockEnergies(
     const int fold = data.blocks[b].fold;
     for (Eigen::Index k = 0; fold >= 0 && k < data.channels(); ++k)
     {
-      energy[b] += energyLeft(statistics.at(b, k).normal(), fit.change[fold][k]);
+      energy[b] += statistics.at(b, k).energyLeft(fit.change[fold][k]);
     }
   }
   return energy;

@@ -2,6 +2,7 @@
 
 #include "Kernels/Gap/Diagnosis/Decisions.h"
 #include "Kernels/Gap/Diagnosis/SetSearch.h"
+#include "Kernels/Numerics/LeastSquares.h"
 #include "Kernels/Numerics/LowerTriangle.h"
 #include "Kernels/Numerics/OrderStatistic.h"
 
@@ -174,6 +175,16 @@ Eigen::MatrixXd BlockSums::normal() const
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(fieldColumns().count, fieldColumns().count);
   whole(there, there) = products;
   return whole;
+}
+
+double BlockSums::energyLeft(const Eigen::VectorXd& change) const
+{
+  if (there.empty())
+  {
+    return 0.0;
+  }
+  const std::vector<Eigen::Index> columns(there.begin(), there.end() - 1);
+  return msi::energyLeft(products, change(columns));
 }
 
 Eigen::VectorXd FieldStatistics::ofBlocks(double BlockSums::*number) const

@@ -17,6 +17,8 @@ struct BlockSums
 {
   // Weighted columns' products, fieldColumns().count^2; the last is the residual.
   Eigen::MatrixXd normal() const;
+  // Of the weighted energy, where the columns change so.
+  double energyLeft(const Eigen::VectorXd& change) const;
   // Those of ChannelColumns::there: all blocks in full are more than memory is fast for.
   std::vector<Eigen::Index> there;
   Eigen::MatrixXd products;
@@ -68,7 +70,8 @@ struct FieldStatistics
     {
       for (Eigen::Index k = 0; keep(b) && k < channels; ++k)
       {
-        kept[k] += at(b, k).normal();
+        const BlockSums& block = at(b, k);
+        kept[k](block.there, block.there) += block.products;
       }
     }
     return kept;

@@ -15,8 +15,8 @@ namespace msi
 
 namespace
 {
-// Light of any smooth shape: 1 + sum of order_i_j (P_i(x) P_j(y) - P_i(0) P_j(0)), P Legendre polynomials; 1 in the middle, as in the
-// other forms. Two spots, a soft shadow or a lamp that is near leave less than a twentieth of their deviation with sixth order.
+// Light of any smooth shape: 1 + sum of order_i_j P_i(x) P_j(y), P Legendre polynomials: 1 on average over a square field. Two spots, a
+// soft shadow or a lamp that is near leave less than a twentieth of their deviation with sixth order.
 struct AnyShape
 {
   static constexpr std::size_t Highest = 6; // i + j
@@ -66,12 +66,10 @@ struct AnyShape
   using Values = std::array<double, Orders>;
   static Values valuesAt(double x, double y)
   {
-    static const Legendre middle = legendre(0.0);
     const Legendre ofX = legendre(x);
     const Legendre ofY = legendre(y);
     Values values{};
-    forOrders([&](std::size_t n, std::size_t i, std::size_t j)
-      { values[n] = ofX[i] * ofY[j] - middle[i] * middle[j]; });
+    forOrders([&](std::size_t n, std::size_t i, std::size_t j) { values[n] = ofX[i] * ofY[j]; });
     return values;
   }
 
@@ -223,8 +221,9 @@ Effect illuminationGradient()
         "u_k (1 + along_x_k x + along_y_k y): lamps of different colours on the two sides",
         { alongX.ofLight(), alongY.ofLight() } },
       { "any_shape",
-        "u (1 + sum of order_i_j (P_i(x) P_j(y) - P_i(0) P_j(0))), P Legendre polynomials, i + j "
-        "from 1 to 6: several lamps, reflectors, soft shadows",
+        "u (1 + sum of order_i_j P_i(x) P_j(y)), P Legendre polynomials, i + j from 1 to 6: "
+        "several "
+        "lamps, reflectors, soft shadows",
         anyShape, {}, FormTrait::OfImages } },
     Captures::FlatField, EffectTrait::None,
     { { "plane", plane }, { "bent", bent },

@@ -139,10 +139,15 @@ TEST(FieldGap, LightOfNoSimpleShape)
     return 0.9 + 0.2 * spot(-0.9, -0.5) + 0.15 * spot(0.7, 0.6) -
       0.1 / (1.0 + std::exp(-6.0 * (x - 0.6)));
   };
+  double mean = 0.0; // over a square field
+  for (int i = 0; i < 1600; ++i)
+  {
+    mean += light((i % 40 + 0.5) / 20.0 - 1.0, (i / 40 + 0.5) / 20.0 - 1.0) / 1600.0;
+  }
   const TestScene scene(66);
   const GapReport report = diagnose(changed(scene, 76,
     [&](double u, int, int x, int y, double)
-    { return u * light(scene.fieldX(x), scene.fieldY(y)) / light(0.0, 0.0); }));
+    { return u * light(scene.fieldX(x), scene.fieldY(y)) / mean; }));
   expectFirst(report, "illumination_gradient", "position");
   EXPECT_EQ(report.causes.front().form, "any_shape");
   EXPECT_LT(report.probabilityOf("unknown"), 0.1);

@@ -15,8 +15,8 @@ namespace msi
 
 namespace
 {
-// Light of any smooth shape: 1 + sum of order_i_j P_i(x) P_j(y), P Legendre polynomials: 1 on average over a square field. Two spots, a
-// soft shadow or a lamp that is near leave less than a twentieth of their deviation with sixth order.
+// Light of any smooth shape: 1 + sum of order_i_j P_i(x) P_j(y), not below zero, P Legendre polynomials; 1 on average over a square
+// field. Two spots, a soft shadow or a lamp that is near leave less than a twentieth of their deviation with sixth order.
 struct AnyShape
 {
   static constexpr std::size_t Highest = 6; // i + j
@@ -75,7 +75,7 @@ struct AnyShape
 
   static double factor(const double* weights, const Values& values)
   {
-    return std::inner_product(values.begin(), values.end(), weights, 1.0);
+    return std::fmax(std::inner_product(values.begin(), values.end(), weights, 1.0), 0.0);
   }
 
   // Its step on image pairs.
@@ -221,9 +221,8 @@ Effect illuminationGradient()
         "u_k (1 + along_x_k x + along_y_k y): lamps of different colours on the two sides",
         { alongX.ofLight(), alongY.ofLight() } },
       { "any_shape",
-        "u (1 + sum of order_i_j P_i(x) P_j(y)), P Legendre polynomials, i + j from 1 to 6: "
-        "several "
-        "lamps, reflectors, soft shadows",
+        "u (1 + sum of order_i_j P_i(x) P_j(y)), not below zero, P Legendre polynomials, i + j "
+        "from 1 to 6: several lamps, reflectors, soft shadows",
         anyShape, {}, FormTrait::OfImages } },
     Captures::FlatField, EffectTrait::None,
     { { "plane", plane }, { "bent", bent },

@@ -61,7 +61,7 @@ TEST(IlluminationGradient, MayHaveAnyShape)
                                                        : 0.0;
   }
   const Eigen::MatrixXd u = respondToFlat(White, light);
-  // Eight columns, six rows; the third of these is in the middle of the upper half.
+  // The sixth of eight columns, the first of six rows.
   const double x = 1.0 - 2.0 / 7.0 * 2.0;
   const double y = -25.0 / 35.0;
   EXPECT_NEAR(u(3, 5),

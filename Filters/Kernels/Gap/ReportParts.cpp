@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -313,8 +314,69 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double inexac
   report.unexplained.share = std::clamp(1.0 - sumOf(report.causes), 0.0, 1.0);
 }
 
+namespace
+{
+// Whether the end of a parameter's range says that another effect may be behind it: it does not make up a shape, and is no width of an edge
+// that may be as sharp as can be.
+bool endTells(
+  const EffectDefinition& effect, const std::string& form, const EffectParameter& parameter)
+{
+  bool ofImages = false;
+  bool mayEnd = false;
+  for (const ImageForm& shown : effect.imageForms)
+  {
+    for (const ImageTerm& term : shown.terms)
+    {
+      const bool own = shown.form == form && term.name == parameter.name;
+      ofImages = ofImages || own;
+      mayEnd = mayEnd || (own && term.mayEnd);
+    }
+  }
+  return !mayEnd && (ofImages || !parameter.secondary);
+}
+
+// The parameters of a cause that lie at the end of their range; empty: none.
+std::string atTheirEnds(const GapCause& cause)
+{
+  constexpr double Rounding = 1e-6; // of the range
+  const EffectDefinition& effect = requireEffect(cause.effect);
+  std::string ends;
+  for (const EffectParameter& known : requireForm(effect, cause.form).parameters)
+  {
+    const double near = Rounding * (known.upper - known.lower);
+    std::ptrdiff_t all = 0;
+    std::ptrdiff_t count = 0;
+    double end = 0.0;
+    for (const GapParameter& found : cause.parameters)
+    {
+      const bool own = found.name.substr(0, found.name.find('[')) == known.name;
+      // An end that is neutral is none.
+      const bool high = own && known.upper > known.neutral && found.value > known.upper - near;
+      const bool low = own && known.lower < known.neutral && found.value < known.lower + near;
+      all += own ? 1 : 0;
+      count += high || low ? 1 : 0;
+      end = high ? known.upper : low ? known.lower : end;
+    }
+    if (count > 0 && endTells(effect, cause.form, known))
+    {
+      ends += (ends.empty() ? "" : ", ") + known.name + textOf(4, ' ', end);
+      ends += all > 1 ? textOf(4, " (in ", count, " of ", all, " channels)") : "";
+    }
+  }
+  return ends;
+}
+}
+
 void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
 {
+  for (const GapCause& cause : report.causes)
+  {
+    if (const std::string ends = atTheirEnds(cause); !ends.empty())
+    {
+      notes.push_back(cause.effect + " is at the end of its range: " + ends +
+        ": it may stand for another effect.");
+    }
+  }
   if (report.unconfirmed)
   {
     notes.emplace_back(

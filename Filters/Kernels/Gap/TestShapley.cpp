@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -61,6 +63,31 @@ TEST(Shapley, NobodyAndOne)
 {
   EXPECT_TRUE(msi::shapleyValues({ 0.3 }, 0).empty());
   EXPECT_EQ(msi::shapleyValues({ 0.25, 1.0 }, 1), std::vector<double>{ 0.75 });
+}
+
+// The range of a filter's width ends at .3 and at 3; that of a gain's is not reached, and a sharp end of the response says nothing.
+TEST(NoteDoubts, SaysWhatIsAtTheEndOfItsRange)
+{
+  msi::GapReport report;
+  msi::GapCause width;
+  width.effect = "filter_bandwidth";
+  width.form = "per_channel";
+  width.parameters = { { "factor[C1]", 0.3, "1" }, { "factor[C2]", 1.2, "1" },
+    { "factor[C3]", 0.3, "1" } };
+  msi::GapCause gain;
+  gain.effect = "exposure_gain";
+  gain.form = "common";
+  gain.parameters = { { "gain", 1.1, "1" } };
+  msi::GapCause clipped; // as sharp as can be
+  clipped.effect = "saturation";
+  clipped.form = "soft";
+  clipped.parameters = { { "level", 0.9, "white" }, { "softness", 0.001, "white" } };
+  report.causes = { width, gain, clipped };
+  std::vector<std::string> notes;
+  msi::noteDoubts(notes, report);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("filter_bandwidth"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("factor 0.3 (in 2 of 3 channels)"), std::string::npos) << notes[0];
 }
 
 } // namespace

@@ -316,8 +316,8 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double inexac
 
 namespace
 {
-// Whether the end of a parameter's range says that another effect may be behind it: it does not make up a shape, and is no width of an edge
-// that may be as sharp as can be.
+// Whether the end of a parameter's range says that another effect may be behind it: it does not make up a shape, and is no width of
+// an edge that may be as sharp as can be.
 bool endTells(
   const EffectDefinition& effect, const std::string& form, const EffectParameter& parameter)
 {
@@ -373,8 +373,8 @@ void noteDoubts(std::vector<std::string>& notes, const GapReport& report)
   {
     if (const std::string ends = atTheirEnds(cause); !ends.empty())
     {
-      notes.push_back(cause.effect + " is at the end of its range: " + ends +
-        ": it may stand for another effect.");
+      notes.push_back(
+        cause.effect + " may stand for another effect. At the end of its range: " + ends + ".");
     }
   }
   if (report.unconfirmed)

@@ -101,8 +101,8 @@ void creditCauses(GapReport& report, std::vector<GapCause> causes, double inexac
 // Takes the probabilities into the report and to its causes. Nothing is explained by what is probably something else.
 void believe(GapReport& report, std::vector<std::pair<std::string, double>> probabilities);
 
-// What the causes found leave in doubt: parameters at the end of their range, causes that show in few samples, a camera that was fitted as linear, effects of the
-// corrected simulator that are not believed to be causes.
+// What the causes found leave in doubt: parameters at the end of their range, causes that show in few samples, a camera that was
+// fitted as linear, effects of the corrected simulator that are not believed to be causes.
 void noteDoubts(std::vector<std::string>& notes, const GapReport& report);
 
 // An effect in the place of another, and what that costs.

@@ -56,7 +56,7 @@ def _gradient(form, p):
         orders = {tuple(map(int, name.split("_")[1:])): value[0] for name, value in p.items()}
         # Mean squares of Legendre polynomials from -1 to 1.
         square = sum(value * value / ((2 * x + 1) * (2 * y + 1)) for (x, y), value in orders.items())
-        return f"light that differs by {_percent(math.sqrt(square))} over a square field (standard deviation), in no simple shape"
+        return f"light that differs by {_percent(math.sqrt(square))} from place to place (standard deviation over a square field), in no simple shape"
     # The samples' y and an image's y may run in different directions.
     right, down = (p.get(name, [0.0]) for name in ("along_x", "along_y"))
     both = f"; {_more(p['square'][0])} at both ends of a line at {_plain(p['turn'][0])} degrees" if form == "bent" else ""
